@@ -44,7 +44,7 @@ public:
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
         grid_ = visuals::gl::bare_grid(floor_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
-        planning::StepWriter(plan_).paint_ground();
+        planning::StepWriter(plan_).add_ground();
         renderer_->warm_up();
     }
 

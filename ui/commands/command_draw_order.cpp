@@ -10,10 +10,11 @@
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
 #include "visuals/draworder/eyes_beyond.h"
-#include "visuals/draworder/order_check.h"
-#include "visuals/draworder/order_table.h"
-#include "visuals/draworder/order_text.h"
+#include "visuals/draworder/octant_path.h"
 #include "visuals/ordercache/order_cache.h"
+#include "visuals/orderfile/order_check.h"
+#include "visuals/orderfile/order_table.h"
+#include "visuals/orderfile/order_text.h"
 #include "visuals/separation/separation.h"
 
 #include <cstdio>
@@ -30,6 +31,7 @@ namespace octant::ui::commands {
 namespace separation = visuals::separation;
 namespace draworder = visuals::draworder;
 namespace ordercache = visuals::ordercache;
+namespace orderfile = visuals::orderfile;
 
 namespace {
 
@@ -39,7 +41,7 @@ using base::Figures;
 struct Work {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
-    draworder::CellOrders orders;
+    orderfile::CellOrders orders;
     std::optional<draworder::DrawOrder>
         order; ///< as it is proved; nothing for cells that were read
 };
@@ -69,7 +71,7 @@ void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::
 }
 
 /// How many cells a file of orders has, or parts.
-void add_size(Figures& figures, const draworder::CellOrders& orders) {
+void add_size(Figures& figures, const orderfile::CellOrders& orders) {
     if (orders.parts) {
         figures["parts"] = orders.parts->cell_count();
     } else {
@@ -106,7 +108,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
     if (!options.check_file.empty()) {
         const std::size_t faces = input.model.polygons.size();
         Work work{std::move(input.model), input.axes, {}, {}};
-        work.orders = draworder::read_order_file(options.check_file, faces, work.axes);
+        work.orders = orderfile::read_order_file(options.check_file, faces, work.axes);
         if (work.orders.parts) {
             work.order = work.orders.parts;
             work.model.parents = work.orders.parents;
@@ -138,7 +140,7 @@ Work prepared(const DrawOrderOptions& options, Figures& figures) {
     if (options.json) {
         figures["notes"] = ordered.notes; // else they are said
     }
-    draworder::CellOrders orders = draworder::cell_orders(ordered);
+    orderfile::CellOrders orders = orderfile::cell_orders(ordered);
     draworder::DrawOrder proved = provable(ordered);
     return {std::move(ordered.model), input.axes, std::move(orders), std::move(proved)};
 }
@@ -151,17 +153,17 @@ void export_files(const Work& work, const DrawOrderOptions& options) {
     if (options.export_file.empty()) {
         return;
     }
-    draworder::CellOrders orders = work.orders;
-    for (draworder::ListedCell& cell : orders.cells) {
+    orderfile::CellOrders orders = work.orders;
+    for (orderfile::ListedCell& cell : orders.cells) {
         if (cell.directions.empty()) {
             cell.planes = separation::without_redundant(cell.planes);
         }
     }
-    write_file(options.export_file, draworder::order_text(orders, work.axes));
+    write_file(options.export_file, orderfile::order_text(orders, work.axes));
     base::say(options.quiet, "orders: " + options.export_file);
 }
 
-std::string doubt_in_words(const Work& work, const draworder::Doubt& doubt) {
+std::string doubt_in_words(const Work& work, const orderfile::Doubt& doubt) {
     const std::string cell = cell_name(work, doubt.cell);
     if (doubt.first == doubt.later) {
         return fmt::format("cell {}: P{} is not listed and may face an eye", cell, doubt.first + 1);
@@ -177,8 +179,8 @@ std::string doubt_in_words(const Work& work, const draworder::Doubt& doubt) {
 bool certified(const Work& work, const DrawOrderOptions& options, Figures& figures) {
     base::Progress progress(
         "checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
-    const draworder::OrderCheck check =
-        draworder::certify(work.model, work.orders, [&](std::size_t done, std::size_t) {
+    const orderfile::OrderCheck check =
+        orderfile::check_order(work.model, work.orders, [&](std::size_t done, std::size_t) {
             progress.show(static_cast<int>(done));
         });
     progress.finish();
@@ -189,7 +191,7 @@ bool certified(const Work& work, const DrawOrderOptions& options, Figures& figur
     figures["unlisted"] = check.unlisted;
     figures["unlisted_not_certified"] = check.unlisted_open;
     auto doubts = Figures::list({});
-    for (const draworder::Doubt& doubt : check.doubts) {
+    for (const orderfile::Doubt& doubt : check.doubts) {
         doubts.push_back(doubt_in_words(work, doubt));
     }
     figures["doubts"] = doubts;
@@ -198,7 +200,7 @@ bool certified(const Work& work, const DrawOrderOptions& options, Figures& figur
 
 /// Adds to the figures; false when a ray sees a wrong polygon or an eye has no cell.
 bool rays_are_right(const Work& work, int rays, Figures& figures) {
-    const draworder::RayCount count = world::cast_rays(work.model, work.orders, rays);
+    const orderfile::RayCount count = world::cast_rays(work.model, work.orders, rays);
     figures["eyes"] = count.eyes;
     figures["eyes_without_cell"] = count.eyes_in_gap;
     figures["rays_that_hit"] = count.hits;
@@ -207,8 +209,8 @@ bool rays_are_right(const Work& work, int rays, Figures& figures) {
     return count.wrong == 0 && count.eyes_in_gap == 0;
 }
 
-void print_table(const std::vector<draworder::OrderRow>& rows) {
-    for (const draworder::OrderRow& row : rows) {
+void print_table(const std::vector<orderfile::OrderRow>& rows) {
+    for (const orderfile::OrderRow& row : rows) {
         const std::string cell =
             row.region.empty() ? row.cell : fmt::format("{}  [{}]", row.cell, row.region);
         std::fputs(fmt::format("{}\t{}\n", cell, row.list).c_str(), stdout);
@@ -217,10 +219,10 @@ void print_table(const std::vector<draworder::OrderRow>& rows) {
 
 void print_results(
     const Work& work, const DrawOrderOptions& options, bool checked, Figures figures) {
-    const auto rows = options.table ? draworder::order_table(work.model, work.orders, work.axes)
-                                    : std::vector<draworder::OrderRow>{};
+    const auto rows = options.table ? orderfile::order_table(work.model, work.orders, work.axes)
+                                    : std::vector<orderfile::OrderRow>{};
     if (options.json) {
-        for (const draworder::OrderRow& row : rows) {
+        for (const orderfile::OrderRow& row : rows) {
             figures["table"].push_back(
                 {{"cell", row.cell}, {"region", row.region}, {"order", row.list}});
         }

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/flight/live_air.h"
 #include "ui/flight/packet_file.h"
 
 #include <algorithm>
@@ -49,11 +50,11 @@ std::unique_ptr<flight::LiveFlight> fly_packets(
             live->take(packet);
         }
         if (of_frame.has_words) {
-            session.set_words(of_frame.words);
+            session.pictures().set_words(of_frame.words);
         }
-        live->prepare(session);
+        flight::follow_visibility(*live, session);
         if (!of_frame.time_of_day.empty()) {
-            flight::LiveFlight::light_as(session, of_frame.time_of_day);
+            flight::bring_sun_to(of_frame.time_of_day, session);
         }
         report::FrameRecord record = session.draw_at(of_frame.time_s, std::nullopt);
         live->fill_in(record, of_frame.time_s);

@@ -1,5 +1,7 @@
 #include "ui/flight/listener.h"
 
+#include "ui/flight/live_air.h"
+
 #include <utility>
 
 namespace octant::ui::flight {
@@ -70,8 +72,8 @@ std::optional<double> Listener::take(Session& session) {
     if (options_.live.step && !moved) {
         return std::nullopt;
     }
-    live_->prepare(session);
-    const std::optional<std::string> time_of_day = live_->light(session);
+    follow_visibility(*live_, session);
+    const std::optional<std::string> time_of_day = follow_sun(*live_, session);
     if (writer_ && time_of_day) {
         writer_->add_time_of_day(*time_of_day);
     }
@@ -81,7 +83,7 @@ std::optional<double> Listener::take(Session& session) {
         constexpr double words_every_s = 0.5;
         const std::vector<std::string> words =
             options_.live.step ? std::vector<std::string>() : lines();
-        session.set_words(words);
+        session.pictures().set_words(words);
         if (writer_) {
             writer_->add_words(words);
         }

@@ -131,51 +131,10 @@ void LiveFlight::turn_parts(double time_s) {
     }
 }
 
-/// The session's air with what a host has told of it.
-scene::AirSettings LiveFlight::air_of(const Session& session) const {
+scene::AirSettings LiveFlight::air_of(const scene::AirSettings& own) const {
     const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
     const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
-    return air_of_host(session.settings().air, cigi.atmosphere(), cigi.celestial(), place);
-}
-
-void LiveFlight::prepare(Session& session) {
-    const glm::dvec2 size_px(session.settings().view.size_px);
-    aspect_ = size_px.x / size_px.y;
-    if (!traffic_.cigi().atmosphere()) {
-        return;
-    }
-    const double visibility_m = air_of(session).visibility_m;
-    if (visibility_m != session.settings().air.visibility_m) {
-        settings::RunSettings settings = session.settings();
-        settings.air.visibility_m = visibility_m;
-        session.apply(settings);
-    }
-}
-
-std::optional<std::string> LiveFlight::light(Session& session) const {
-    if (session.take_light()) {
-        return session.settings().air.time;
-    }
-    if (!traffic_.cigi().celestial() || session.is_relighting()) {
-        return std::nullopt;
-    }
-    settings::RunSettings settings = session.settings();
-    settings.air.time = air_of(session).time;
-    if (settings.air.time == session.settings().air.time) {
-        return std::nullopt;
-    }
-    if (!options_.step) {
-        session.relight_beside(settings);
-        return std::nullopt;
-    }
-    session.apply(settings);
-    return settings.air.time;
-}
-
-void LiveFlight::light_as(Session& session, const std::string& time_of_day) {
-    settings::RunSettings settings = session.settings();
-    settings.air.time = time_of_day;
-    session.apply(settings);
+    return air_of_host(own, cigi.atmosphere(), cigi.celestial(), place);
 }
 
 std::vector<std::string> LiveFlight::lines() const {

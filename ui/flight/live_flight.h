@@ -3,8 +3,10 @@
 #include "sim/links/live_traffic.h"
 #include "ui/flight/cigi_ground.h"
 #include "ui/flight/live_place.h"
-#include "ui/flight/session.h"
+#include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
+#include "ui/world/world.h"
+#include "visuals/scene/settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,13 +42,13 @@ struct LiveOptions {
     std::map<std::uint16_t, std::size_t> shapes;
 };
 
-/// Flies a session's aircraft by packets: the vehicle that came first is the first aircraft, and so
-/// on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many, or one of
-/// the shape that its type has; aircraft that nobody flies yet are not seen, the first one waits at
-/// its place. Reads no clock: the same packets and times give the same states.
+/// Flies the aircraft of a world by packets: the vehicle that came first is the first aircraft, and
+/// so on, but a CIGI host's entity N is aircraft N, counted from 0, where there are as many, or one
+/// of the shape that its type has; aircraft that nobody flies yet are not seen, the first one waits
+/// at its place. Reads no clock: the same packets and times give the same states.
 class LiveFlight final : public StateSource {
 public:
-    /// The world of the session that it flies, which must outlive it.
+    /// The world must outlive it.
     LiveFlight(const LiveOptions& options, const world::World& world);
 
     /// Takes the next packet in the order in which they came.
@@ -85,25 +87,20 @@ public:
 
     std::span<const visuals::planning::TurnedPart> turned_parts() const override { return turned_; }
 
-    /// To be called before each picture: gives the session the visibility that a CIGI host has
-    /// told.
-    void prepare(Session& session);
+    /// Tells it the width over height of the pictures to come.
+    void set_aspect(double aspect) { aspect_ = aspect; }
 
-    /// After prepare(): brings the sun to the time of day that a CIGI host has told; in steps at
-    /// once, else as soon as the ground's colours are made, beside other pictures. Returns the time
-    /// that pictures show from this one on, where it is another one.
-    std::optional<std::string> light(Session& session) const;
+    /// These settings of the air with what a CIGI host has told of it.
+    visuals::scene::AirSettings air_of(const visuals::scene::AirSettings& own) const;
 
-    /// For a flight that is repeated: brings the sun to the time of day that light() gave then.
-    static void light_as(Session& session, const std::string& time_of_day);
+    /// Whether each packet that moves something is one picture.
+    bool is_stepped() const { return options_.step; }
 
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
 
     const LivePlace& place() const { return place_; }
 
 private:
-    visuals::scene::AirSettings air_of(const Session& session) const;
-
     /// Which aircraft shows a vehicle.
     struct Place {
         std::size_t aircraft = 0;

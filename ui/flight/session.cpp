@@ -29,37 +29,22 @@ Session::Session(
     : settings_(settings)
     , renderer_(given_or_made(std::move(renderer), settings))
     , world_(world::load_world(settings, drawn_by()))
+    , pictures_(*renderer_, world_.scene, settings_)
     , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
     settings_ = world::with_sun_of_time(settings_, world_.ground_place);
-    load_models(shows);
+    pictures_.load_models(shows);
     if (shows == Shows::World && world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);
         drop_texels();
     }
     renderer_->warm_up();
-    if (settings_.view.inset) {
-        inset_ = std::make_unique<InsetView>(settings_, world_.scene);
-    }
     start_flight();
 }
 
 world::DrawnBy Session::drawn_by() const {
     return renderer_->info().on_processor ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
-}
-
-void Session::load_models(Shows shows) {
-    if (shows == Shows::PolygonNumbers) {
-        ids_.emplace(world_.scene);
-        renderer_->load_models(ids_->models());
-        return;
-    }
-    std::vector<scene::ModelBuffers> buffers;
-    for (const auto& model : world_.scene.models) {
-        buffers.push_back(model->buffers);
-    }
-    renderer_->load_models(buffers);
 }
 
 /// Frees the texels of the texture, which the renderer has.
@@ -72,10 +57,9 @@ void Session::drop_texels() {
 
 void Session::start_flight() {
     simulation_.emplace(world_);
-    planner_.emplace(world_.scene, settings_);
     decider_.begin(settings_, rate_hz());
     begin_at(times_.at_s.front());
-    planner_->settle(camera_of(settings_));
+    pictures_.begin(camera_of(settings_));
     if (source_ != nullptr) {
         simulation_->follow(*source_);
     }
@@ -111,16 +95,16 @@ scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
 }
 
 /// Chooses the cameras for the time that the simulation has reached.
-void Session::look(Moment& moment) const {
+void Session::aim(Moment& moment) const {
     moment.camera = camera_of(settings_);
     if (source_ != nullptr) {
         const glm::dvec2 size_px(settings_.view.size_px);
         moment.camera =
             source_->camera(simulation_->states(), moment.camera, size_px.x / size_px.y);
     }
-    if (inset_) {
-        const glm::dvec2 size_px(inset_->settings().view.size_px);
-        moment.inset_camera = camera_of(inset_->settings());
+    if (const settings::RunSettings* inset = pictures_.inset_settings()) {
+        const glm::dvec2 size_px(inset->view.size_px);
+        moment.inset_camera = camera_of(*inset);
         if (source_ != nullptr) {
             moment.inset_camera = source_->inset_camera(
                 simulation_->states(), moment.inset_camera, size_px.x / size_px.y);
@@ -137,19 +121,8 @@ void Session::reach(double time_s, int frame, Moment& moment) {
         moment.turned.assign(turned.begin(), turned.end());
     }
     moment.state_hash = simulation_->state_hash();
-    look(moment);
+    aim(moment);
     moment.triangle_target = decider_.triangle_target(frame);
-}
-
-/// Begins to mesh the ground for the next picture, beside the drawing of this one.
-void Session::mesh_ahead() {
-    const auto beside = [this](std::function<void()> work) {
-        return renderer_->begin_beside(std::move(work));
-    };
-    planner_->prepare(next_.camera, next_.triangle_target, beside);
-    if (inset_) {
-        inset_->prepare(next_.inset_camera, beside);
-    }
 }
 
 report::FrameRecord Session::draw(int frame) {
@@ -175,9 +148,9 @@ settings::FrameRange Session::begin_part(const settings::Part& part) {
     for (int before = 0; before < range.first; ++before) {
         reach(times_.at_s[static_cast<std::size_t>(before)], before, now_);
         if (ground_has_memory() || before + 1 == range.first) {
-            last_triangles_ = make_plans(nullptr).ground.triangles;
+            last_triangles_ = pictures_.plan(now_, smooth_target_, nullptr).ground.triangles;
         } else {
-            pass_over_plans();
+            pictures_.pass_over(now_, smooth_target_);
         }
     }
     since_first_frame_ = base::Stopwatch();
@@ -186,44 +159,6 @@ settings::FrameRange Session::begin_part(const settings::Part& part) {
 
 report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s) {
     return picture_of(drawn_++, time_s, next_s);
-}
-
-planning::PlanRequest Session::plan_request(std::function<void()> when_refined) const {
-    return {
-        .camera = now_.camera,
-        .states = now_.states,
-        .triangle_target = now_.triangle_target,
-        .smooth = {.polygons = smooth_target_, .share = std::nullopt},
-        .when_refined = std::move(when_refined),
-        .words = words_,
-        .turned = now_.turned};
-}
-
-/// Brings the planners to where they would be after the picture of now_.
-void Session::pass_over_plans() {
-    planner_->pass_over(plan_request(nullptr));
-    if (inset_) {
-        inset_->pass_over(now_.inset_camera, now_.states, now_.turned);
-    }
-}
-
-planning::PlanCounts Session::make_plans(std::function<void()> when_refined) {
-    const planning::PlannedFrame frame = planner_->plan(plan_request(std::move(when_refined)));
-    plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
-    std::optional<double> share; // of the picture's polygons, and so of the inset's
-    if (smooth_target_ && frame.counts.may_be_smooth > 0) {
-        share = std::min(static_cast<double>(*smooth_target_) / frame.counts.may_be_smooth, 1.0);
-    }
-    inset_plan_ =
-        inset_ ? &inset_->plan(now_.inset_camera, now_.states, now_.turned, share) : nullptr;
-    return frame.counts;
-}
-
-void Session::draw_plans() {
-    renderer_->draw(*plan_);
-    if (inset_plan_ != nullptr) {
-        renderer_->draw_inset(*inset_plan_, inset_->rectangle());
-    }
 }
 
 report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
@@ -248,27 +183,19 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     record.sim_ms = stage.lap_ms();
 
     smooth_target_ = decider_.smooth_target(frame);
-    const planning::PlanCounts counts = make_plans([&] { record.refine_ms = stage.lap_ms(); });
+    const planning::PlanCounts counts =
+        pictures_.plan(now_, smooth_target_, [&] { record.refine_ms = stage.lap_ms(); });
     record.plan_ms = record.refine_ms + stage.lap_ms();
 
     if (next_s && settings_.ground.mesh_ahead) {
         reach(*next_s, frame + 1, next_);
         next_is_reached_ = true;
         record.sim_ms += stage.lap_ms();
-        mesh_ahead();
+        pictures_.mesh_ahead(next_);
     }
-    draw_plans();
-    renderer_->finish();
+    pictures_.draw();
     record.draw_ms = stage.lap_ms();
-    picture_is_read_ = !presenter_ || reads_first_;
-    if (presenter_) {
-        if (reads_first_) {
-            renderer_->finish_and_copy(picture_);
-        }
-        presenter_(*renderer_);
-    } else {
-        renderer_->finish_and_read(picture_);
-    }
+    pictures_.show();
     record.read_ms = stage.lap_ms();
     record.frame_ms = whole.ms();
     record.counters = counters_.lap();
@@ -310,24 +237,9 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
                             ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
 }
 
-void Session::read_picture() {
-    if (picture_is_read_) {
-        return;
-    }
-    if (renderer_->is_in_window()) {
-        if (plan_ == nullptr) {
-            make_plans(nullptr);
-        }
-        renderer_->aim_at_window(glm::ivec2(0));
-        draw_plans();
-    }
-    renderer_->finish_and_read(picture_);
-    picture_is_read_ = true;
-}
-
 std::uint64_t Session::hash_picture() {
     Hash hash;
-    hash.add(std::as_bytes(std::span(picture_.rgba)));
+    hash.add(std::as_bytes(std::span(picture().rgba)));
     picture_hash_.add_word(hash.value());
     return hash.value();
 }

@@ -2,8 +2,10 @@
 
 #include "ui/base/stopwatch.h"
 #include "ui/flight/decider.h"
-#include "ui/flight/inset_view.h"
+#include "ui/flight/moment.h"
+#include "ui/flight/picture_maker.h"
 #include "ui/flight/simulation.h"
+#include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/kernel_counters.h"
 #include "ui/settings/part_text.h"
@@ -11,33 +13,24 @@
 #include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
-#include "visuals/planning/id_plan.h"
-#include "visuals/planning/planner.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
 #include "visuals/shading/shading_controller.h"
 
 #include <cstdint>
-#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::flight {
 
-/// What the pictures of a session show.
-enum class Shows {
-    World,
-    /// Which polygon or triangle of the ground each pixel belongs to (visuals::planning::IdPlan).
-    PolygonNumbers
-};
-
 /// The conductor of a run: takes each frame from simulation through plan and picture to its record.
-/// The only place that reads the clock during a flight.
+/// The only place that reads the clock during a flight. What flies is the simulation's matter, how
+/// fine a picture may be the decider's, and the picture itself the picture maker's; a source flies
+/// in place of the path where motion comes from outside.
 ///
 /// A flight without a window is frames() pictures by draw(frame). A window asks for pictures of its
 /// own times by draw_at(), and changes settings and simulation between them.
@@ -76,9 +69,6 @@ public:
     /// session.
     void follow(StateSource& source);
 
-    /// Lines that the next pictures show in their upper left corner.
-    void set_words(std::vector<std::string> words) { words_ = std::move(words); }
-
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
 
@@ -88,18 +78,8 @@ public:
     /// it.
     report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
 
-    /// Shows a finished picture; called with the renderer that holds it, in place of reading its
-    /// pixels.
-    using Presenter = std::function<void(visuals::scene::Renderer&)>;
-
-    void present_by(Presenter presenter) { presenter_ = std::move(presenter); }
-
-    /// The next pictures may be drawn straight into a window of that size.
-    void aim_at_window(const glm::ivec2& window_px) { renderer_->aim_at_window(window_px); }
-
-    /// Whether pictures are read before they are shown, as whoever records each of them wants. A
-    /// driver must not draw them straight into the window then.
-    void read_before_shown(bool wanted) { reads_first_ = wanted; }
+    /// How pictures are shown and what is written into them; to be changed between frames.
+    PictureMaker& pictures() { return pictures_; }
 
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
@@ -144,10 +124,10 @@ public:
 
     /// Reads the last picture where a presenter showed it; draws it once more if it went straight
     /// into a window.
-    void read_picture();
+    void read_picture() { pictures_.read(now_, smooth_target_); }
 
     /// Picture of the last frame that was read, top row first.
-    const visuals::scene::Picture& picture() const { return picture_; }
+    const visuals::scene::Picture& picture() const { return pictures_.picture(); }
 
     /// What `--adapt shading` has found out.
     const std::optional<visuals::shading::ShadingState>& shading() const {
@@ -165,74 +145,46 @@ public:
     std::uint64_t hash_picture();
 
 private:
-    /// A frame that is simulated, with its camera chosen.
-    struct Moment {
-        double time_s = 0.0;
-        std::vector<sim::AircraftState> states;
-        std::vector<visuals::planning::TurnedPart> turned;
-        visuals::scene::Camera camera;
-        visuals::scene::Camera inset_camera;
-        int triangle_target = 0;
-        std::uint64_t state_hash = 0;
-    };
-
     world::DrawnBy drawn_by() const;
-    void load_models(Shows shows);
     void drop_texels();
     void start_flight();
-    report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
-    void look(Moment& moment) const;
-    void reach(double time_s, int frame, Moment& moment);
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
-    void mesh_ahead();
+    void aim(Moment& moment) const;
+    void reach(double time_s, int frame, Moment& moment);
+    report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
     bool ground_has_memory() const;
-    visuals::planning::PlanRequest plan_request(std::function<void()> when_refined) const;
-    void pass_over_plans();
-    visuals::planning::PlanCounts make_plans(std::function<void()> when_refined);
-    void draw_plans();
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
     void change_world(const settings::RunSettings& settings);
     void change_picture(const settings::RunSettings& settings);
     void change_light(const settings::RunSettings& settings, world::SceneGround ground);
     world::SceneGround ground_for(const settings::RunSettings& settings) const;
     void put_ground(world::SceneGround ground);
-    void wait_for_meshes();
-    void make_renderer_ready(
-        const visuals::scene::ViewSettings& view, const visuals::scene::GroundTexture* texture);
-    void give_size_back();
-    void follow_ground(bool other_control);
-    void follow_inset();
 
     settings::RunSettings settings_;
     std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
-    std::optional<visuals::planning::Planner> planner_;
-    std::unique_ptr<InsetView> inset_; ///< over world_.scene, as planner_; null = no inset
-    std::optional<visuals::planning::IdPlan> ids_;
+    PictureMaker pictures_;
     std::optional<Simulation> simulation_;
     world::PictureTimes times_;
     visuals::scene::GroundHeight ground_height_;
     Moment now_;
     Moment next_;
     bool next_is_reached_ = false;
-    /// Plan of the last picture; null once its planner is gone.
-    const visuals::scene::FramePlan* plan_ = nullptr;
-    const visuals::scene::FramePlan* inset_plan_ = nullptr;
-    Presenter presenter_;
+    /// Null where the path flies the aircraft.
     StateSource* source_ = nullptr;
-    std::vector<std::string> words_;
-    visuals::scene::Picture picture_;
-    bool picture_is_read_ = false; ///< picture_ is the last one
-    bool reads_first_ = false;     ///< where there is a presenter
-    int last_triangles_ = 0;
     Decider decider_;
-    std::optional<int> smooth_target_; ///< of the last picture; nothing: by the settings' share
-    int drawn_ = 0;                    ///< pictures drawn by draw_at() so far
+    /// The smooth polygons of the last picture; nothing: by the settings' share.
+    std::optional<int> smooth_target_;
+    int last_triangles_ = 0;
+    /// The number of pictures drawn by draw_at() so far.
+    int drawn_ = 0;
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    visuals::scene::AirSettings next_air_;  ///< of relit_
-    std::future<world::SceneGround> relit_; ///< last: its work looks at the scene
+    /// The ground in the colours of another sun, which is made beside pictures, and the air that it
+    /// belongs to. Comes last, as its work looks at the scene.
+    visuals::scene::AirSettings next_air_;
+    std::future<world::SceneGround> relit_;
 };
 
 } // namespace octant::ui::flight

@@ -20,7 +20,6 @@
 
 namespace octant::ui::flight {
 
-namespace landscape = visuals::landscape;
 namespace scene = visuals::scene;
 
 void Session::apply(const settings::RunSettings& wanted) {
@@ -43,9 +42,7 @@ void Session::apply(const settings::RunSettings& wanted) {
             world_.points = world::fixed_points(settings, world_);
         }
         settings_ = settings;
-        if (inset_) {
-            inset_->look(settings);
-        }
+        pictures_.follow_look();
         break;
     case settings::SettingsChange::Light:
         change_light(settings, ground_for(settings));
@@ -60,62 +57,22 @@ void Session::apply(const settings::RunSettings& wanted) {
     }
 }
 
-/// Throws what the meshing threads threw.
-void Session::wait_for_meshes() {
-    planner_->wait();
-    if (inset_) {
-        inset_->wait();
-    }
-}
-
-/// Makes the renderer ready for pictures of that size over ground of that texture; null: of the one
-/// that it has, if any. Throws Error and leaves it as it was.
-void Session::make_renderer_ready(
-    const scene::ViewSettings& view, const scene::GroundTexture* texture) {
-    renderer_->resize(view.size_px, view.samples);
-    if (texture == nullptr) {
-        return;
-    }
-    try {
-        renderer_->load_ground_texture(*texture);
-    } catch (const Error&) {
-        give_size_back();
-        throw;
-    }
-}
-
-/// Gives the renderer its size back and draws the last picture once more. A driver that has no
-/// memory any more for what it held before ends it all.
-void Session::give_size_back() {
-    try {
-        renderer_->resize(settings_.view.size_px, settings_.view.samples);
-    } catch (const Error& fault) {
-        throw std::runtime_error(fault.what());
-    }
-    if (plan_ != nullptr) {
-        draw_plans();
-    }
-}
-
 void Session::change_world(const settings::RunSettings& settings) {
     world::World world = world::load_world(settings, drawn_by());
     world::PictureTimes times = world::picture_times_of(settings, world.flight);
-    wait_for_meshes();
-    make_renderer_ready(settings.view, world.scene.ground_texture.get());
+    pictures_.wait();
+    pictures_.make_ready(settings.view, world.scene.ground_texture.get());
 
     const double time_s = simulation_->time_s();
     const bool goes_on =
         settings::change_between(settings_, settings) != settings::SettingsChange::Flight &&
         !simulation_->by_hand();
-    plan_ = nullptr;
-    planner_.reset();
-    inset_.reset();
+    pictures_.end();
     settings_ = world::with_sun_of_time(settings, world.ground_place);
     world_ = std::move(world);
     times_ = std::move(times);
-    load_models(Shows::World);
+    pictures_.load_models(Shows::World);
     drop_texels();
-    follow_inset();
     start_flight();
     if (goes_on) {
         begin_at(std::min(time_s, world_.flight.trajectory.end_s()));
@@ -141,18 +98,16 @@ void Session::change_picture(const settings::RunSettings& settings) {
     const scene::FixedPoints points = world::fixed_points(settings, world_);
     world::SceneGround ground = ground_for(settings);
     world::check_clouds(settings.air, *ground.ground);
-    wait_for_meshes();
-    make_renderer_ready(settings.view, ground.texture.get());
+    pictures_.wait();
+    pictures_.make_ready(settings.view, ground.texture.get());
 
     const bool other_control = !scene::same_detail_control(settings.ground, settings_.ground);
-    plan_ = nullptr;
     settings_ = settings;
     world_.points = points;
     put_ground(std::move(ground));
-    follow_ground(other_control);
-    follow_inset();
+    pictures_.follow(other_control, now_.camera);
     if (next_is_reached_) {
-        look(next_);
+        aim(next_);
     }
     decider_.begin(settings_, rate_hz());
 }
@@ -167,19 +122,13 @@ void Session::put_ground(world::SceneGround ground) {
 }
 
 void Session::change_light(const settings::RunSettings& settings, world::SceneGround ground) {
-    wait_for_meshes();
+    pictures_.wait();
     if (ground.texture) {
         renderer_->load_ground_texture(*ground.texture);
     }
-    plan_ = nullptr;
     settings_ = settings;
     put_ground(std::move(ground));
-    if (!planner_->relight()) {
-        planner_->settle(now_.camera);
-    }
-    if (inset_) {
-        inset_->relight(settings_);
-    }
+    pictures_.relight(now_.camera);
 }
 
 void Session::relight_beside(const settings::RunSettings& wanted) {
@@ -206,33 +155,6 @@ bool Session::take_light() {
     settings.air.visibility_m = settings_.air.visibility_m;
     change_light(settings, relit_.get());
     return true;
-}
-
-/// Plans by the settings and over the ground that the session has now. The detail of the ground
-/// goes on where both it and its control are the same.
-void Session::follow_ground(bool other_control) {
-    std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
-    const landscape::GroundMesher* const before = mesher.get();
-    mesher = landscape::mesher_after(
-        std::move(mesher),
-        *world_.scene.ground,
-        landscape::mesh_settings(settings_, world_.scene.ground_texture != nullptr));
-    const bool settles = other_control || mesher.get() != before;
-    planner_.reset();
-    planner_.emplace(world_.scene, settings_, std::move(mesher));
-    if (settles) {
-        planner_->settle(now_.camera);
-    }
-}
-
-void Session::follow_inset() {
-    if (!settings_.view.inset) {
-        inset_.reset();
-    } else if (inset_) {
-        inset_->follow(settings_);
-    } else {
-        inset_ = std::make_unique<InsetView>(settings_, world_.scene);
-    }
 }
 
 } // namespace octant::ui::flight

@@ -19,15 +19,6 @@ namespace scene = visuals::scene;
 
 namespace {
 
-/// How far an aircraft reaches below its reference point when it stands upright, metres.
-double reach_below_m(const planning::AircraftModel& model) {
-    float most_m = 0.0F;
-    for (const scene::ModelVertex& vertex : model.buffers.vertices) {
-        most_m = std::max(most_m, vertex.position_m.z);
-    }
-    return static_cast<double>(most_m);
-}
-
 void add_state(Hash& hash, const sim::AircraftState& state) {
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.position_m), 3)));
     hash.add(std::as_bytes(std::span(glm::value_ptr(state.velocity_mps), 3)));
@@ -50,7 +41,7 @@ Simulation::Simulation(const world::World& world)
     , formation_(world::formation_of(world.scene, world.flight))
     , states_(world.scene.aircraft.size()) {
     for (std::size_t i = 0; i < world.scene.aircraft.size(); ++i) {
-        reach_down_m_.push_back(reach_below_m(world.scene.model_of(i)));
+        reach_down_m_.push_back(planning::reach_below_m(world.scene.model_of(i)));
     }
     begin_at(world.flight.trajectory.start_s());
 }

@@ -1,15 +1,13 @@
 #pragma once
 
-#include "models/heights/height_field.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/hash.h"
 #include "sim/hand_flight.h"
 #include "sim/levelling.h"
+#include "ui/flight/state_source.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
-#include "visuals/planning/turned_part.h"
-#include "visuals/scene/camera.h"
 #include "visuals/scene/camera_rig.h"
 
 #include <array>
@@ -20,40 +18,6 @@
 #include <vector>
 
 namespace octant::ui::flight {
-
-/// Who flies the aircraft in place of their path.
-class StateSource {
-public:
-    StateSource() = default;
-    virtual ~StateSource() = default;
-    StateSource(const StateSource&) = delete;
-    StateSource& operator=(const StateSource&) = delete;
-    StateSource(StateSource&&) = delete;
-    StateSource& operator=(StateSource&&) = delete;
-
-    /// The states at a time, not before that of the last call. `states` hold those of the last
-    /// call, or where the aircraft stand at the beginning.
-    virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
-
-    /// Where the next picture of this width over height is to be taken from, for aircraft in these
-    /// states; `usual` is what the settings say.
-    virtual visuals::scene::Camera camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& usual,
-        double aspect) const = 0;
-
-    /// The same for the second view, where there is one.
-    virtual visuals::scene::Camera inset_camera(
-        std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& usual,
-        double aspect) const = 0;
-
-    /// Parts that the source turns, as of the last states_at().
-    virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
-
-    /// Where the world's origin lies on the earth, once that is known.
-    virtual std::optional<models::heights::GeoPlace> origin() const = 0;
-};
 
 /// The aircraft of a run in fixed simulation steps, along its path or, from a takeover on, by a
 /// pilot's hands. What it gives depends on the steps alone, not on the times it is asked for.

@@ -54,7 +54,7 @@ void KeyPictures::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
     plan.background = {1.0F, 0.0F, 1.0F};
     const planning::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
     plan.ground = planning::facing_the_eye(ground, camera.vertical_fov_rad / size_px_.y, facing_);
-    planning::StepWriter(plan).paint_ground();
+    planning::StepWriter(plan).add_ground();
     renderer_->draw(plan);
     renderer_->finish_and_read(picture_);
 }

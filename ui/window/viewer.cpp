@@ -68,7 +68,7 @@ Viewer::Viewer(const ViewOptions& options)
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
         settings, flight::Shows::World, make_renderer(std::move(context), settings));
-    session_->present_by([this](scene::Renderer& renderer) { present(renderer); });
+    session_->pictures().present_by([this](scene::Renderer& renderer) { present(renderer); });
     read_layout();
     read_keys();
     gui_ = std::make_unique<Gui>(*context_);
@@ -314,7 +314,7 @@ void Viewer::draw() {
     const bool ahead = session_->settings().ground.mesh_ahead;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
-    session_->aim_at_window(input_->size_px());
+    session_->pictures().aim_at_window(input_->size_px());
     report::FrameRecord record =
         session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
     const double now_s = clock_.s();

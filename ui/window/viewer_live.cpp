@@ -36,8 +36,8 @@ void Viewer::draw_live() {
     }
     state_.wanted.air = session_->settings().air; // a host may have told another
     const bool records = live_recorder_.has_value();
-    session_->read_before_shown(records);
-    session_->aim_at_window(records && !painter_ ? glm::ivec2(0) : input_->size_px());
+    session_->pictures().read_before_shown(records);
+    session_->pictures().aim_at_window(records && !painter_ ? glm::ivec2(0) : input_->size_px());
     report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
     listener_->finish_picture(record);
     const double now_s = clock_.s();

@@ -179,7 +179,7 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
         }
         planning::add_turning(model, parts);
         if (!aircraft.clear.mesh.triangles.empty()) {
-            planning::add_clear(model, aircraft.clear.mesh, aircraft.clear.opacity);
+            planning::add_transparent(model, aircraft.clear.mesh, aircraft.clear.opacity);
         }
         return;
     }

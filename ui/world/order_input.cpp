@@ -20,6 +20,7 @@
 namespace octant::ui::world {
 
 namespace draworder = visuals::draworder;
+namespace orderfile = visuals::orderfile;
 
 namespace {
 
@@ -123,8 +124,8 @@ PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
     return tests;
 }
 
-draworder::RayCount cast_rays(
-    const models::polygons::PolygonModel& model, const draworder::CellOrders& orders, int rays) {
+orderfile::RayCount cast_rays(
+    const models::polygons::PolygonModel& model, const orderfile::CellOrders& orders, int rays) {
     std::vector<double> angles_rad = {0.0};
     if (!model.pivots.empty()) {
         angles_rad = {0.0, 0.7, 2.1, 4.4};
@@ -134,9 +135,9 @@ draworder::RayCount cast_rays(
         least_m = std::min(least_m, cell.min_m);
     }
     const double nearest_m = least_m / std::sqrt(3.0) - glm::length(orders.centre_m);
-    draworder::RayCount count;
+    orderfile::RayCount count;
     for (std::size_t i = 0; i < angles_rad.size(); ++i) {
-        draworder::EyeSamples samples;
+        orderfile::EyeSamples samples;
         samples.eyes = std::max(1, rays / rays_per_eye / static_cast<int>(angles_rad.size()));
         samples.rays_per_eye = rays_per_eye;
         samples.least_distance_radii =
@@ -144,7 +145,7 @@ draworder::RayCount cast_rays(
         samples.most_distance_radii = std::max(farthest_radii, 10.0 * samples.least_distance_radii);
         samples.seed = 1989 + i;
         samples.turn_rad = angles_rad[i];
-        count += draworder::count_wrong_rays(model, orders, samples);
+        count += orderfile::count_wrong_rays(model, orders, samples);
     }
     return count;
 }

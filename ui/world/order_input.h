@@ -2,9 +2,9 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
-#include "visuals/draworder/cell_orders.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/draworder/ray_check.h"
+#include "visuals/orderfile/cell_orders.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <string>
 
@@ -30,9 +30,9 @@ PlaneTests plane_tests(const visuals::draworder::OrderedModel& ordered);
 
 /// Tries orders with `rays` rays from random eyes within their range, 0.05 to 20 times the radius
 /// away, a quarter of them each at four angles of the turning parts where there are such.
-visuals::draworder::RayCount cast_rays(
+visuals::orderfile::RayCount cast_rays(
     const models::polygons::PolygonModel& model,
-    const visuals::draworder::CellOrders& orders,
+    const visuals::orderfile::CellOrders& orders,
     int rays);
 
 } // namespace octant::ui::world

@@ -3,6 +3,7 @@
 #include "visuals/draworder/octant_cells.h"
 
 #include "visuals/draworder/octant_order.h"
+#include "visuals/draworder/octant_path.h"
 #include "visuals/draworder/region_tree.h"
 
 #include <glm/geometric.hpp>
@@ -19,22 +20,10 @@ namespace {
 /// Octants are divided into quarters at most so often, then by planes.
 constexpr int most_levels = 1;
 
-/// The corners A, B, C of a cell's flat triangle.
-using Triangle = std::array<glm::dvec3, 3>;
-
 /// The plane through the origin and two points, oriented so that a third point is in front of it.
 Plane through_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& in_front) {
     const glm::dvec3 normal = glm::normalize(glm::cross(a, b));
     return {glm::dot(normal, in_front) >= 0.0 ? normal : -normal, 0.0};
-}
-
-/// The four children of a triangle.
-std::array<Triangle, 4> quarters(const Triangle& corners) {
-    const auto& [a, b, c] = corners;
-    const glm::dvec3 ab = (a + b) / 2.0;
-    const glm::dvec3 bc = (b + c) / 2.0;
-    const glm::dvec3 ca = (c + a) / 2.0;
-    return {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}}};
 }
 
 /// The region of an octant's eyes from the least distance on.
@@ -72,10 +61,10 @@ private:
     /// The subtree of the octants that differ from `first` in the signs of axes 0 to `axis`.
     int octants(int first, int axis);
     /// The subtree of a cell, which is divided as far as it needs.
-    int divide(EyeNode node, const Triangle& corners, const std::string& path, int level);
+    int divide(EyeNode node, const OctantTriangle& corners, const std::string& path, int level);
     int add_cell(Cell cell);
     /// The subtree of a quarter that is divided by planes.
-    int by_planes(const EyeNode& node, const Triangle& corners, const std::string& path);
+    int by_planes(const EyeNode& node, const OctantTriangle& corners, const std::string& path);
     int add_node(const Plane& plane);
 
     std::vector<DrawOrder::Node>& nodes() { return cells.nodes; }
@@ -93,7 +82,7 @@ int CellBuilder::add_node(const Plane& plane) {
 }
 
 /// The planes of the cone from the origin over a triangle.
-std::vector<Plane> cone_of(const Triangle& corners) {
+std::vector<Plane> cone_of(const OctantTriangle& corners) {
     const auto& [a, b, c] = corners;
     return {through_origin(b, c, a), through_origin(c, a, b), through_origin(a, b, c)};
 }
@@ -127,7 +116,8 @@ void collect_fronts(
     collect_fronts(tree, node.back, next, fronts);
 }
 
-int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const std::string& path) {
+int CellBuilder::by_planes(
+    const EyeNode& node, const OctantTriangle& corners, const std::string& path) {
     RegionTree tree = region_tree(work_, node, {.forks = {.by_axes = true}});
     const int first_node = static_cast<int>(nodes().size());
     const int first_cell = static_cast<int>(cells.lists.size());
@@ -146,7 +136,8 @@ int CellBuilder::by_planes(const EyeNode& node, const Triangle& corners, const s
     return moved(top);
 }
 
-int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string& path, int level) {
+int CellBuilder::divide(
+    EyeNode node, const OctantTriangle& corners, const std::string& path, int level) {
     work_.spend(search_units(node));
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);
@@ -163,7 +154,7 @@ int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string
     if (level == most_levels) {
         return by_planes(node, corners, path);
     }
-    const auto parts = quarters(corners);
+    const auto parts = quarters_of(corners);
     std::array<int, 3> at{};
     for (std::size_t i = 0; i < 3; ++i) {
         at.at(i) =
@@ -193,7 +184,8 @@ int CellBuilder::divide(EyeNode node, const Triangle& corners, const std::string
 int CellBuilder::octants(int first, int axis) {
     if (axis < 0) {
         const glm::dvec3 signs = octant_signs(first);
-        const Triangle corners{{{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
+        const OctantTriangle corners{
+            {{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
         const EyeRegion region = octant_region(signs, least_distance_);
         return divide(eye_node(graphs_, region), corners, octant_name(first), 0);
     }

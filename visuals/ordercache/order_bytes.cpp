@@ -4,7 +4,7 @@
 #include "visuals/ordercache/order_bytes.h"
 
 #include "sim/base/error.h"
-#include "visuals/draworder/cell_orders.h"
+#include "visuals/draworder/octant_path.h"
 #include "visuals/ordercache/bytes.h"
 
 #include <glm/vec3.hpp>

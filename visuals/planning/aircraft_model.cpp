@@ -274,15 +274,23 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
     }
 }
 
-void add_clear(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
+void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
     assert(model.progressive != nullptr && opacity > 0.0F && opacity < 1.0F);
     const std::size_t first = model.buffers.vertices.size();
-    model.clear = append_level(model.buffers, {&mesh, 0.0}).range;
+    model.transparent = append_level(model.buffers, {&mesh, 0.0}).range;
     model.opacity = opacity;
     for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
         vertex.polygon = 0;
         include(model, glm::dvec3(vertex.position_m));
     }
+}
+
+double reach_below_m(const AircraftModel& model) {
+    float most_m = 0.0F;
+    for (const scene::ModelVertex& vertex : model.buffers.vertices) {
+        most_m = std::max(most_m, vertex.position_m.z);
+    }
+    return static_cast<double>(most_m);
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {

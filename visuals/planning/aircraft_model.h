@@ -43,10 +43,10 @@ struct AircraftModel {
     /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons.
     /// Their polygons have the number 0 each: all smooth, or all flat.
     scene::IndexRange turning{};
-    /// With a progressive mesh: its clear surfaces, which are blended over all others. Their
+    /// With a progressive mesh: its transparent surfaces, which are blended over all others. Their
     /// polygons have the number 0 each.
-    scene::IndexRange clear{};
-    float opacity = 1.0F; ///< of the clear surfaces
+    scene::IndexRange transparent{};
+    float opacity = 1.0F; ///< of the transparent surfaces
 
     /// How many indices draw a polygon.
     std::uint32_t index_count_of(std::uint32_t polygon) const {
@@ -93,8 +93,12 @@ struct TurningMesh {
 /// Gives a model with a progressive mesh the parts that turn beside it. Loading work.
 void add_turning(AircraftModel& model, std::span<const TurningMesh> parts);
 
-/// Gives a model with a progressive mesh its clear surfaces; body axes. Loading work.
-void add_clear(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
+/// Gives a model with a progressive mesh its transparent surfaces; body axes. Loading work.
+void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
+
+/// How far a model reaches below its reference point when it stands upright, metres; parts that
+/// turn as at the time 0. Goes with the corners: to be asked once, at loading.
+double reach_below_m(const AircraftModel& model);
 
 /// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter
 /// of the length behind the nose at the height of the top.

@@ -16,6 +16,8 @@ namespace octant::visuals::planning {
 
 /// One aircraft of one frame, where it is.
 struct PlacedAircraft {
+    /// Index into Scene::aircraft; a cockpit comes behind them.
+    std::uint32_t number = 0;
     const AircraftModel* model = nullptr;
     std::uint32_t model_index = 0;
     /// What it may be drawn as: itself, and another one far away, where there is one.
@@ -48,13 +50,13 @@ inline bool is_far(const PlacedAircraft& aircraft) {
 
 /// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
 /// removed by depth.
-inline bool is_solid(const PlacedAircraft& aircraft) {
+inline bool is_mesh(const PlacedAircraft& aircraft) {
     return aircraft.representation < aircraft.model->as_polygons();
 }
 
 /// Whether that mesh is one that is refined in each frame.
 inline bool is_refined(const PlacedAircraft& aircraft) {
-    return is_solid(aircraft) && aircraft.model->progressive != nullptr;
+    return is_mesh(aircraft) && aircraft.model->progressive != nullptr;
 }
 
 /// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.

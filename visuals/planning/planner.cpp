@@ -1,56 +1,18 @@
 #include "visuals/planning/planner.h"
 
-#include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
-#include "visuals/planning/facing.h"
+#include "visuals/planning/ground_grain.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace octant::visuals::planning {
 
 namespace {
 
-/// The aircraft of a scene, with room for their parts.
-std::vector<PlacedAircraft>
-places_for(const Scene& scene, scene::View view, std::vector<glm::dmat4>& parts) {
-    std::vector<PlacedAircraft> placed;
-    const auto add = [&](std::uint32_t model) {
-        PlacedAircraft& aircraft = placed.emplace_back();
-        aircraft.model = scene.models[model].get();
-        aircraft.model_index = model;
-        aircraft.near_model = aircraft.model;
-        aircraft.near_index = model;
-        aircraft.first_part = static_cast<std::uint32_t>(parts.size());
-        std::size_t pivots = aircraft.model->polygons.pivots.size();
-        const auto far = std::ranges::find(scene.far_models, model, &FarModel::model);
-        if (far != scene.far_models.end()) {
-            aircraft.far_model = scene.models[far->far_model].get();
-            aircraft.far_index = far->far_model;
-            aircraft.far_error_m = far->error_m;
-            pivots = std::max(pivots, aircraft.far_model->polygons.pivots.size());
-        }
-        parts.resize(parts.size() + pivots + 1);
-    };
-    for (const std::uint32_t model : scene.aircraft) {
-        add(model);
-    }
-    if (scene.cockpit && view == scene::View::Cockpit) {
-        add(*scene.cockpit);
-    }
-    for (PlacedAircraft& aircraft : placed) {
-        aircraft.parts = std::span(parts).subspan(
-            aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
-    }
-    return placed;
-}
-
-refine::ViewRefinerOptions refiner_options(const scene::Settings& settings) {
-    refine::ViewRefinerOptions options;
-    options.error_px = settings.surface.aircraft_error_px;
-    options.geomorphs = settings.ground.geomorphs;
-    return options;
+/// Whether the ground of a scene has the fine pattern near the eye.
+bool has_grain(const Scene& scene, const scene::GroundSettings& settings) {
+    return settings.near_detail && !scene.ground_texture && scene.ground->spacing_m() > 0.0 &&
+           scene::ground_metric(settings) == scene::GroundMetric::ScreenError;
 }
 
 } // namespace
@@ -65,35 +27,29 @@ Planner::Planner(
           mesher ? std::move(mesher)
                  : scene.ground->mesher(
                        landscape::mesh_settings(settings, scene.ground_texture != nullptr)))
-    , aspect_(static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y)
-    , daylight_(landscape::daylight_of(settings.air))
-    , to_sun_(landscape::direction_to_sun(settings.air))
-    , sky_(sky_under(daylight_))
-    , shadows_(to_sun_)
-    , placed_(places_for(scene, settings.view.kind, parts_))
-    , smooth_(settings.shading, settings.adapt.shading, placed_)
-    , steps_(plan_) {
+    , air_(scene, settings.air)
+    , fleet_(scene, settings)
+    , smooth_(settings.shading, settings.adapt.shading, fleet_.placed())
+    , shadows_(air_.to_sun())
+    , veils_(scene, settings, air_.daylight())
+    , overlay_(scene, settings)
+    , painter_(plan_) {
     plan_.background = settings.air.background;
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
-    plan_light();
     plan_.lights_pixels = settings.shading.kind == scene::AircraftShading::Phong;
-    for (const PlacedAircraft& aircraft : placed_) {
-        refined_.push_back(
-            aircraft.model->progressive
-                ? std::make_unique<RefinedAircraft>(
-                      aircraft.model->progressive, refiner_options(settings), settings.shading)
-                : nullptr);
-    }
-    was_refined_.resize(placed_.size());
-    make_veils();
-    hulls_.resize(scene.aircraft.size());
-    near_to_far_.resize(scene.aircraft.size());
+}
+
+FrameView Planner::view_of(const scene::Camera& camera) const {
+    return frame_view(camera, settings_.view.size_px, mesher_->earth_radius_m());
 }
 
 landscape::GroundRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
-    return {camera, aspect_, triangle_target.value_or(scene::triangle_target(settings_))};
+    return {
+        camera,
+        view_of(camera).aspect,
+        triangle_target.value_or(scene::triangle_target(settings_))};
 }
 
 void Planner::settle(const scene::Camera& camera) {
@@ -107,125 +63,117 @@ void Planner::prepare(
     mesher_->prepare(ground_request(camera, triangle_target), beside);
 }
 
+bool Planner::relight() {
+    const landscape::GroundMesher* const before = mesher_.get();
+    mesher_ = landscape::mesher_after(
+        std::move(mesher_),
+        *scene_.ground,
+        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
+    air_.relight();
+    shadows_ = ShadowCaster(air_.to_sun());
+    veils_.light_by(air_.daylight());
+    return mesher_.get() == before;
+}
+
 PlannedFrame Planner::plan(const PlanRequest& request) {
-    const scene::Camera& camera = request.camera;
+    const FrameView view = view_of(request.camera);
     PlanCounts counts;
-    place_and_refine(request);
-    plan_.world_to_view = world_to_view(camera);
-    plan_.view_to_clip = view_to_clip(camera, aspect_);
-    if (scene_.ground_texture) {
-        plan_.ground_texture = landscape::texture_places(*scene_.ground_texture, camera.eye_m);
+    place_aircraft(request, view);
+    begin_plan(view);
+    GroundFrame ground{
+        mesher_->triangles(ground_request(request.camera, request.triangle_target), counts.ground),
+        {},
+        {}};
+    cast_shadows(view, ground);
+    air_.write(view, plan_);
+    veils_.make(view, {request.states, request.turned}, fleet_, plan_);
+    plan_.overlay = overlay_.draw(
+        veils_.draw(), request.camera, request.states, veils_.has_ribbon(), request.words);
+    count(choose_smooth(request.smooth), counts);
+    counts.shadow_triangles = static_cast<int>(ground.shadow_indices.size() / 3);
+    painter_.paint(
+        {view, fleet_, smooth_, veils_, ground, *mesher_},
+        settings_.surface.hidden_surface,
+        counts);
+    return {plan_, counts};
+}
+
+void Planner::pass_over(const PlanRequest& request) {
+    place_aircraft(request, view_of(request.camera));
+    choose_smooth(request.smooth);
+}
+
+void Planner::place_aircraft(const PlanRequest& request, const FrameView& view) {
+    fleet_.place(view, {request.states, request.turned}, veils_.effects());
+    fleet_.refine(view);
+    if (request.when_refined) {
+        request.when_refined();
     }
+}
+
+SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
+    const nature::Daylight& day = air_.daylight();
+    return smooth_.choose(
+        fleet_.placed(),
+        fleet_.refined(),
+        wish,
+        air_.to_sun(),
+        glm::vec2(day.ambient().x, day.sunlight().x),
+        plan_.smooth);
+}
+
+/// Empties the lists of the plan and writes what depends on the view and the aircraft alone.
+void Planner::begin_plan(const FrameView& view) {
     plan_.aircraft.clear();
     plan_.refined.clear();
     plan_.steps.clear();
     plan_.clips.clear();
     plan_.repaint_indices.clear();
     plan_.depth_boxes.clear();
-    ground_ = {
-        mesher_->triangles(ground_request(camera, request.triangle_target), counts.ground), {}, {}};
-    write_parts();
-    cast_shadows(camera);
-    plan_haze(camera);
-    plan_sky(camera);
-    plan_grain(camera);
-    plan_veils(request);
-    plan_overlay(request);
-    const SmoothChoice::Count shaded = choose_smooth(request.smooth);
-    counts.may_be_smooth = shaded.polygons;
-    counts.smooth_polygons = shaded.smooth;
-    count_aircraft(counts);
-    counts.veil_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
-    counts.shadow_triangles = static_cast<int>(ground_.shadow_indices.size() / 3);
-    if (settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
-        paint_by_depth();
-    } else {
-        paint_in_order(camera, counts);
+    plan_.world_to_view = world_to_view(view.camera);
+    plan_.view_to_clip = view_to_clip(view.camera, view.aspect);
+    plan_.parts.resize(fleet_.parts().size());
+    std::ranges::transform(fleet_.parts(), plan_.parts.begin(), [](const glm::dmat4& part) {
+        return glm::mat4(part);
+    });
+    if (scene_.ground_texture) {
+        plan_.ground_texture = landscape::texture_places(*scene_.ground_texture, view.camera.eye_m);
     }
-    steps_.paint_overlay(veils_.draw().indices.size());
-    return {plan_, counts};
+    plan_.grain.reset();
+    if (has_grain(scene_, settings_.ground)) {
+        plan_.grain = ground_grain(*scene_.ground, view);
+    }
 }
 
-void Planner::pass_over(const PlanRequest& request) {
-    place_and_refine(request);
-    choose_smooth(request.smooth);
-}
-
-SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
-    return smooth_.choose(
-        placed_,
-        refined_,
-        wish,
-        to_sun_,
-        glm::vec2(plan_.ambient.x, plan_.sunlight.x),
-        plan_.smooth);
-}
-
-void Planner::write_parts() {
-    plan_.parts.resize(parts_.size());
-    std::ranges::transform(
-        parts_, plan_.parts.begin(), [](const glm::dmat4& part) { return glm::mat4(part); });
-}
-
-void Planner::cast_shadows(const scene::Camera& camera) {
-    shadows_.begin(ground_.all, plan_.shadow_vertices);
+void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {
+    shadows_.begin(ground.all, plan_.shadow_vertices);
     if (settings_.surface.shadows) {
-        const ShadowView view{camera.eye_m, frustum_, pixel_rad_};
-        for (std::size_t i = 0; i < hulls_.size(); ++i) {
-            shadows_.cast(placed_[i], hulls_[i], *mesher_, view);
+        const ShadowView seen{view.camera.eye_m, view.frustum, view.pixel_rad};
+        const auto hulls = fleet_.hulls();
+        for (std::size_t i = 0; i < hulls.size(); ++i) {
+            shadows_.cast(fleet_.placed()[i], hulls[i], *mesher_, seen);
         }
         shadows_.sort_pieces();
     }
-    ground_.shadows = shadows_.pieces();
-    ground_.shadow_indices = shadows_.indices();
+    ground.shadows = shadows_.pieces();
+    ground.shadow_indices = shadows_.indices();
 }
 
-overlay::HeadUpInputs Planner::shown_inputs(const sim::AircraftState& state) const {
-    overlay::HeadUpInputs inputs{state, state.position_m.z, {}};
-    if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
-        inputs.height_above_ground_m = state.position_m.z - *ground_m;
-    }
-    return inputs;
-}
-
-/// The veils, and what lies over the picture: dials, head-up display, words.
-void Planner::plan_overlay(const PlanRequest& request) {
-    const glm::ivec2& size_px = settings_.view.size_px;
-    overlays_.clear();
-    overlays_.add(veils_.draw());
-    if (ribbon_) {
-        const glm::dvec3& eye_m = request.camera.eye_m;
-        marks_.begin(request.camera, size_px, request.states.front().position_m - eye_m);
-        for (const FlownPath::Leg& leg : scene_.path->legs) {
-            marks_.add({scene_.path->points[leg.first_point].position_m - eye_m, leg.name});
-        }
-        overlays_.add(marks_.finish());
-    }
-    if (settings_.view.kind == scene::View::Cockpit) {
-        const overlay::HeadUpInputs inputs = shown_inputs(request.states.front());
-        overlays_.add(instruments_.draw(scene_.dials, inputs, request.camera, size_px));
-        if (settings_.view.head_up_display) {
-            overlays_.add(head_up_display_.draw(inputs, request.camera, size_px));
-        }
-    }
-    if (!request.words.empty()) {
-        overlays_.add(text_.draw(request.words, size_px));
-    }
-    plan_.overlay = overlays_.all();
-}
-
-void Planner::count_aircraft(PlanCounts& counts) const {
-    for (const PlacedAircraft& aircraft : placed_) {
+void Planner::count(const SmoothChoice::Count& shaded, PlanCounts& counts) const {
+    for (const PlacedAircraft& aircraft : fleet_.placed()) {
         counts.aircraft_polygons += aircraft.polygon_count;
         counts.aircraft_polygons += is_refined(aircraft) ? aircraft.model->turning.polygons : 0;
     }
-    counts.refine_splits = refine_splits_;
-    counts.refine_collapses = refine_collapses_;
-    if (!placed_.empty()) {
-        counts.draw_cell = placed_.front().cell;
-        counts.aircraft_level =
-            static_cast<int>(placed_.front().representation) + (is_far(placed_.front()) ? 1 : 0);
+    if (!fleet_.placed().empty()) {
+        const PlacedAircraft& first = fleet_.placed().front();
+        counts.draw_cell = first.cell;
+        counts.aircraft_level = static_cast<int>(first.representation) + (is_far(first) ? 1 : 0);
     }
+    counts.refine_splits = fleet_.splits();
+    counts.refine_collapses = fleet_.collapses();
+    counts.may_be_smooth = shaded.polygons;
+    counts.smooth_polygons = shaded.smooth;
+    counts.veil_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
 }
 
 } // namespace octant::visuals::planning

@@ -85,7 +85,7 @@ int PolygonRepaint::paint_range(
         if (painted_.size() == hiding) {
             continue;
         }
-        steps.paint(draw_of(own, run_first, next - run_first));
+        steps.add(draw_of(own, run_first, next - run_first));
         run_first = next;
         for (std::size_t i = hiding; i < painted_.size(); ++i) {
             write(aircraft, painted_[i], steps);
@@ -93,7 +93,7 @@ int PolygonRepaint::paint_range(
         }
     }
     if (next > run_first) {
-        steps.paint(draw_of(own, run_first, next - run_first));
+        steps.add(draw_of(own, run_first, next - run_first));
     }
     return again;
 }
@@ -129,9 +129,9 @@ void PolygonRepaint::write(
     const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
     part_.assign(corners.begin(), corners.end());
     if (painted.owner == is_ground) {
-        steps.paint_within(*ground_, painted.item, part_);
+        steps.add_within(*ground_, painted.item, part_);
     } else {
-        steps.paint_within(
+        steps.add_within(
             draw_of(*aircraft[painted.owner], painted.item, painted.index_count), part_);
     }
 }

@@ -174,7 +174,7 @@ SmoothChoice::Count SmoothChoice::choose(
 shading::ShadingSelector&
 SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
     const std::size_t polygons = placed.near_model->levels.size();
-    const std::size_t as_it_is = is_solid(placed) ? placed.representation : polygons;
+    const std::size_t as_it_is = is_mesh(placed) ? placed.representation : polygons;
     return choosers_[aircraft][is_far(placed) ? polygons + 1 : as_it_is];
 }
 

@@ -30,7 +30,7 @@ void StepWriter::clear_depth(const scene::PixelBox& box) {
     plan_.steps.push_back({scene::PaintStep::What::ClearDepth, place, 1});
 }
 
-void StepWriter::paint_range(
+void StepWriter::add_range(
     scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth) {
     if (count > 0) {
         plan_.steps.push_back(
@@ -42,42 +42,41 @@ void StepWriter::paint_range(
     }
 }
 
-void StepWriter::paint_sky(scene::DepthUse depth) {
-    paint_range(scene::PaintStep::What::Sky, 0, plan_.sky.indices.size(), depth);
+void StepWriter::add_sky(scene::DepthUse depth) {
+    add_range(scene::PaintStep::What::Sky, 0, plan_.sky.indices.size(), depth);
 }
 
-void StepWriter::paint_ground() {
-    paint_range(
+void StepWriter::add_ground() {
+    add_range(
         scene::PaintStep::What::Ground, 0, plan_.ground.indices.size(), scene::DepthUse::None);
 }
 
-void StepWriter::paint_ground_by_depth(std::size_t edge_on_indices) {
+void StepWriter::add_ground_by_depth(std::size_t edge_on_indices) {
     const std::size_t facing = plan_.ground.indices.size() - edge_on_indices;
-    paint_range(scene::PaintStep::What::Ground, 0, facing, scene::DepthUse::Nearest);
-    paint_range(scene::PaintStep::What::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
+    add_range(scene::PaintStep::What::Ground, 0, facing, scene::DepthUse::Nearest);
+    add_range(scene::PaintStep::What::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
 }
 
-void StepWriter::paint_shadows_by_depth(const GroundFrame& ground) {
+void StepWriter::add_shadows_by_depth(const GroundFrame& ground) {
     const std::size_t first = plan_.repaint_indices.size();
     const auto pieces = ground.shadow_indices;
     plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
-    paint_range(
-        scene::PaintStep::What::GroundAgain, first, pieces.size(), scene::DepthUse::OnGround);
+    add_range(scene::PaintStep::What::GroundAgain, first, pieces.size(), scene::DepthUse::OnGround);
 }
 
-void StepWriter::paint_veil(std::size_t first, std::size_t count) {
-    paint_range(scene::PaintStep::What::Veil, first, count, scene::DepthUse::None);
+void StepWriter::add_veil(std::size_t first, std::size_t count) {
+    add_range(scene::PaintStep::What::Veil, first, count, scene::DepthUse::None);
 }
 
-void StepWriter::paint_overlay(std::size_t first) {
-    paint_range(
+void StepWriter::add_overlay(std::size_t first) {
+    add_range(
         scene::PaintStep::What::Overlay,
         first,
         plan_.overlay.indices.size() - first,
         scene::DepthUse::None);
 }
 
-void StepWriter::paint(const scene::AircraftDraw& draw, scene::DepthUse depth) {
+void StepWriter::add(const scene::AircraftDraw& draw, scene::DepthUse depth) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     if (!plan_.steps.empty()) {
@@ -92,7 +91,7 @@ void StepWriter::paint(const scene::AircraftDraw& draw, scene::DepthUse depth) {
         {scene::PaintStep::What::Aircraft, place, 1, scene::PaintStep::whole, depth});
 }
 
-void StepWriter::paint_clear(const scene::AircraftDraw& draw, float opacity) {
+void StepWriter::add_transparent(const scene::AircraftDraw& draw, float opacity) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     scene::PaintStep& step = plan_.steps.emplace_back();
@@ -103,7 +102,7 @@ void StepWriter::paint_clear(const scene::AircraftDraw& draw, float opacity) {
     step.opacity = opacity;
 }
 
-void StepWriter::paint(const scene::RefinedDraw& draw) {
+void StepWriter::add(const scene::RefinedDraw& draw) {
     const auto place = static_cast<std::uint32_t>(plan_.refined.size());
     plan_.refined.push_back(draw);
     plan_.steps.push_back(
@@ -155,7 +154,7 @@ void StepWriter::for_each_clip(const SightPolygon& region, const Paint& paint) {
     }
 }
 
-void StepWriter::paint_within(const scene::AircraftDraw& draw, const SightPolygon& region) {
+void StepWriter::add_within(const scene::AircraftDraw& draw, const SightPolygon& region) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     for_each_clip(region, [&](std::uint32_t clip) {
@@ -172,7 +171,7 @@ void StepWriter::add_indices(const GroundFrame& ground, std::uint32_t triangle) 
     }
 }
 
-void StepWriter::paint_before(
+void StepWriter::add_before(
     const GroundFrame& ground,
     std::span<const NearTriangle> triangles,
     const HullBox& box,
@@ -181,7 +180,7 @@ void StepWriter::paint_before(
     bool continues = false; // the last step, with the cone alone
     for (const NearTriangle& near : triangles) {
         if (near.meets) {
-            paint_outside(ground, near.triangle, box, cone);
+            add_outside(ground, near.triangle, box, cone);
             continues = false;
             continue;
         }
@@ -200,7 +199,7 @@ void StepWriter::paint_before(
 
 /// A sight line enters a box through the last of the sides that face the eye, so that a point in
 /// the cone lies before the box if it lies outside any of them.
-void StepWriter::paint_outside(
+void StepWriter::add_outside(
     const GroundFrame& ground, std::uint32_t triangle, const HullBox& box, const SightCone& cone) {
     const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
     std::uint32_t count = 0;
@@ -227,7 +226,7 @@ void StepWriter::paint_outside(
     }
 }
 
-void StepWriter::paint_within(
+void StepWriter::add_within(
     const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region) {
     const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
     add_indices(ground, triangle);

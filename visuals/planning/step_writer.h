@@ -22,61 +22,60 @@ public:
     void clear_depth(const scene::PixelBox& box);
 
     /// The plan's sky; nothing where it is empty.
-    void paint_sky(scene::DepthUse depth = scene::DepthUse::None);
+    void add_sky(scene::DepthUse depth = scene::DepthUse::None);
 
     /// The plan's ground in its order; nothing where it is empty.
-    void paint_ground();
+    void add_ground();
 
     /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles
     /// that face away but for rounding: they only close holes along edges, elsewhere their depths
     /// mean nothing.
-    void paint_ground_by_depth(std::size_t edge_on_indices);
+    void add_ground_by_depth(std::size_t edge_on_indices);
 
     /// All shadows, where ground has been drawn by depth.
-    void paint_shadows_by_depth(const GroundFrame& ground);
+    void add_shadows_by_depth(const GroundFrame& ground);
 
     /// A range of the plan's overlay, over what has been painted; nothing where it is empty.
-    void paint_veil(std::size_t first, std::size_t count);
+    void add_veil(std::size_t first, std::size_t count);
 
     /// The plan's overlay from an index on; nothing where it is empty.
-    void paint_overlay(std::size_t first);
+    void add_overlay(std::size_t first);
 
     /// A whole aircraft. Consecutive ones that are drawn alike become one step.
-    void paint(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None);
+    void add(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None);
 
-    /// Clear surfaces of an aircraft, blended by depth. Opacity: as PaintStep has it.
-    void paint_clear(const scene::AircraftDraw& draw, float opacity);
+    /// Transparent surfaces of an aircraft, blended by depth. Opacity: as PaintStep has it.
+    void add_transparent(const scene::AircraftDraw& draw, float opacity);
 
     /// A mesh that was refined for this frame, by depth.
-    void paint(const scene::RefinedDraw& draw);
+    void add(const scene::RefinedDraw& draw);
 
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
-    void paint_within(const scene::AircraftDraw& draw, const SightPolygon& region);
+    void add_within(const scene::AircraftDraw& draw, const SightPolygon& region);
 
     /// Paints triangles once more where they lie before a box, with their shadows, as far as they
     /// are seen in `cone`: of the box or of one inside it. They are in painting order; those that
     /// meet the box are cut to the outside of its sides. The eye is outside the box.
-    void paint_before(
+    void add_before(
         const GroundFrame& ground,
         std::span<const NearTriangle> triangles,
         const HullBox& box,
         const SightCone& cone);
 
     /// Paints one triangle once more where `region`, a part of it, is seen.
-    void
-    paint_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
+    void add_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
 
     /// Gives depth to ground that what comes next by depth may stick in: triangles that have been
     /// painted.
     void hide_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
 
 private:
-    void paint_range(
+    void add_range(
         scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth);
 
     /// Index of a new clip by planes through the eye, at most Clip::most_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
-    void paint_outside(
+    void add_outside(
         const GroundFrame& ground,
         std::uint32_t triangle,
         const HullBox& box,

@@ -1,22 +1,23 @@
 #include "sim/base/output_file.h"
 #include "tests/fuzz/formats/small_model.h"
 #include "tests/fuzz/formats/target.h"
-#include "visuals/draworder/order_text.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/orderfile/order_text.h"
 
 namespace octant::tests::formats::draw_order_format {
 
 namespace {
 
 namespace draworder = visuals::draworder;
+namespace orderfile = visuals::orderfile;
 
 constexpr std::size_t faces = 7;
 
 /// Tells the cells or the painted polygons of some eyes, and writes and reads the orders again.
 void use(const std::filesystem::path& file) {
-    const draworder::CellOrders orders = draworder::read_order_file(file, faces);
+    const orderfile::CellOrders orders = orderfile::read_order_file(file, faces);
     for (const glm::dvec3& eye_m : some_eyes()) {
-        const auto cell = draworder::cell_of(orders, eye_m);
+        const auto cell = orderfile::cell_of(orders, eye_m);
         expect(!cell || *cell < orders.cells.size(), "a cell that is there");
         if (orders.parts) {
             draworder::DrawOrder::Walk walk;
@@ -28,8 +29,8 @@ void use(const std::filesystem::path& file) {
         }
     }
     const std::filesystem::path written = file.parent_path() / "again.order";
-    write_file(written, draworder::order_text(orders));
-    const draworder::CellOrders again = draworder::read_order_file(written, faces);
+    write_file(written, orderfile::order_text(orders));
+    const orderfile::CellOrders again = orderfile::read_order_file(written, faces);
     expect(again.cells.size() == orders.cells.size(), "the same orders again");
 }
 
@@ -43,8 +44,8 @@ std::vector<std::string> seeds() {
         "cell half 2 1 0 0 0 0 1 0 -3 min 1 max 4 order\ncell half 0 order 0 1 2 3 4 5 6\n",
         "draworder 1\nfaces 7\nlist 0 1 2\nlist\nlist 3 4\nnode choice 0 0 1 0 node 1 node 2\n"
         "node parting 0 1 0 -1 list 0 nothing list 1 list 2\nnode sequence list 2 list 0 # c\n",
-        draworder::order_text(draworder::cell_orders(draworder::ordered(small_model(), tree))),
-        draworder::order_text(draworder::cell_orders(draworder::ordered(small_model(), bsp))),
+        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model(), tree))),
+        orderfile::order_text(orderfile::cell_orders(draworder::ordered(small_model(), bsp))),
     };
 }
 

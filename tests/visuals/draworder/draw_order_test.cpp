@@ -1,9 +1,8 @@
 #include "models/made/made_up.h"
+#include "tests/paper_example.h"
 #include "visuals/draworder/draw_order.h"
 
 #include <catch2/catch.hpp>
-
-#include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 

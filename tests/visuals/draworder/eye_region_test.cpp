@@ -1,9 +1,8 @@
+#include "sim/base/dice.h"
 #include "visuals/draworder/eye_region.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
-
-#include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using octant::Dice;

@@ -1,10 +1,9 @@
+#include "sim/base/dice.h"
 #include "visuals/draworder/hiding.h"
 #include "visuals/separation/convex_separation.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
-
-#include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using namespace octant::visuals::separation;

@@ -1,6 +1,10 @@
+#include "models/polygons/polygon_model.h"
 #include "sim/base/axes.h"
+#include "sim/base/dice.h"
+#include "tests/paper_example.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -11,12 +15,10 @@
 #include <limits>
 #include <utility>
 
-#include "wrong_rays.h"
-
 using namespace octant::visuals::draworder;
 using octant::Dice;
-using octant::tests::count_wrong_rays;
 using octant::tests::paper_example;
+using octant::visuals::orderfile::count_wrong_rays;
 
 namespace {
 

@@ -1,27 +1,28 @@
+#include "models/polygons/polygon_model.h"
 #include "sim/base/dice.h"
-#include "visuals/draworder/order_cells.h"
+#include "tests/order_shapes.h"
 #include "visuals/draworder/order_proof.h"
 #include "visuals/draworder/order_trial.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/draworder/parted_order.h"
+#include "visuals/orderfile/cells_of_parts.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 
-#include "shapes.h"
 #include "tried_models.h"
-#include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using octant::Dice;
 using octant::models::polygons::PolygonModel;
 using octant::tests::all_eyes;
 using octant::tests::by;
-using octant::tests::count_wrong_rays;
-using octant::tests::EyeSamples;
 using octant::tests::shipped;
+using octant::visuals::orderfile::count_wrong_rays;
+using octant::visuals::orderfile::EyeSamples;
 
 namespace {
 
@@ -148,13 +149,13 @@ TEST_CASE("parts and single polygons order crossing bars, rings and rotors for e
 
 TEST_CASE("an order by a few parts has cells, which hold the same orders") {
     const OrderedModel found = by(Method::Bsp, octant::tests::three_bars());
-    const auto cells = cells_of_parts(found.model, found.order);
+    const auto cells = octant::visuals::orderfile::cells_of_parts(found.model, found.order);
     REQUIRE(cells);
     Dice dice(4);
     DrawOrder::Walk walk;
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 eye_m = dice.direction() * dice.between(0.1, 9.0);
-        const auto in = std::ranges::find_if(*cells, [&](const CellOfParts& cell) {
+        const auto in = std::ranges::find_if(*cells, [&](const auto& cell) {
             return std::ranges::all_of(cell.planes, [&](const octant::Plane& plane) {
                 return octant::distance_m(plane, eye_m) >= 0.0;
             });

@@ -1,7 +1,11 @@
 #include "models/made/made_up.h"
+#include "models/polygons/polygon_model.h"
+#include "sim/base/dice.h"
 #include "sim/base/units.h"
-#include "visuals/draworder/order_cells.h"
+#include "tests/order_shapes.h"
+#include "tests/paper_example.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -11,19 +15,17 @@
 #include <array>
 #include <set>
 
-#include "shapes.h"
 #include "tried_models.h"
-#include "wrong_rays.h"
 
 using namespace octant::visuals::draworder;
 using octant::Dice;
 using octant::models::polygons::PolygonModel;
 using octant::tests::all_eyes;
 using octant::tests::by;
-using octant::tests::count_wrong_rays;
-using octant::tests::EyeSamples;
 using octant::tests::paper_example;
 using octant::tests::shipped;
+using octant::visuals::orderfile::count_wrong_rays;
+using octant::visuals::orderfile::EyeSamples;
 
 namespace {
 

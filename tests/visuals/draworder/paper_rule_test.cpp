@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include "wrong_rays.h"
-
 using namespace octant::visuals::draworder;
 
 namespace {

@@ -1,3 +1,4 @@
+#include "tests/order_shapes.h"
 #include "visuals/draworder/bit_count.h"
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
@@ -12,11 +13,7 @@
 #include <array>
 #include <cmath>
 
-#include "shapes.h"
-#include "wrong_rays.h"
-
 using namespace octant::visuals::draworder;
-using octant::Dice;
 using octant::Plane;
 using octant::tests::three_bars;
 

@@ -1,4 +1,5 @@
 #include "models/polygons/polygon_check.h"
+#include "tests/order_shapes.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/split.h"
 
@@ -8,8 +9,6 @@
 #include <algorithm>
 #include <utility>
 #include <vector>
-
-#include "shapes.h"
 
 using namespace octant::visuals::draworder;
 using namespace octant::tests;

@@ -15,7 +15,7 @@ by(visuals::draworder::Method method, models::polygons::PolygonModel model) {
     return visuals::draworder::ordered(std::move(model), {.method = method, .paper = {}});
 }
 
-EyeSamples all_eyes(int eyes) {
+visuals::orderfile::EyeSamples all_eyes(int eyes) {
     return {.eyes = eyes, .rays_per_eye = 30, .least_distance_radii = 0.05};
 }
 

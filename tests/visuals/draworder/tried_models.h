@@ -2,10 +2,9 @@
 
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <string>
-
-#include "wrong_rays.h"
 
 namespace octant::tests {
 
@@ -16,6 +15,6 @@ visuals::draworder::OrderedModel
 by(visuals::draworder::Method method, models::polygons::PolygonModel model);
 
 /// From inside the model outwards.
-EyeSamples all_eyes(int eyes);
+visuals::orderfile::EyeSamples all_eyes(int eyes);
 
 } // namespace octant::tests

@@ -249,7 +249,7 @@ TEST_CASE(
     models::TriangleMesh pane;
     pane.vertices_m = {{0, 0, -2}, {1, 0, -2}, {0, 1, -2}};
     pane.triangles = {{0, 2, 1}};
-    planning::add_clear(model, pane, 0.4F);
+    planning::add_transparent(model, pane, 0.4F);
     planning::Scene scene;
     scene.ground = triangle_ground({});
     scene.add_model(std::move(model));

@@ -4,11 +4,11 @@
 #include "ui/base/stopwatch.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_input.h"
-#include "visuals/draworder/bsp_tree.h"
-#include "visuals/draworder/order_check.h"
-#include "visuals/draworder/order_table.h"
-#include "visuals/draworder/order_text.h"
-#include "visuals/draworder/ray_check.h"
+#include "visuals/draworder/octant_path.h"
+#include "visuals/orderfile/bsp_tree.h"
+#include "visuals/orderfile/order_check.h"
+#include "visuals/orderfile/order_table.h"
+#include "visuals/orderfile/ray_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@
 namespace octant::ui::studies::draw_order {
 
 namespace draworder = visuals::draworder;
+namespace orderfile = visuals::orderfile;
 
 namespace {
 
@@ -63,7 +64,7 @@ std::string precedences_in_words(const PrintedRow& row) {
     return row.later.empty()
                ? "none"
                : fmt::format(
-                     "P{} before {}", row.first, draworder::list_in_words(from_zero(row.later)));
+                     "P{} before {}", row.first, orderfile::list_in_words(from_zero(row.later)));
 }
 
 bool keeps_precedences(const List& list, const PrintedRow& row) {
@@ -88,14 +89,14 @@ constexpr std::array distances = {
     Distances{"0.05 to 1 R", 0.05, 1.0}};
 
 /// Rays from these distances, shared out over angles of the turning parts.
-draworder::RayCount rays_of(
+orderfile::RayCount rays_of(
     const models::polygons::PolygonModel& model,
     const draworder::DrawOrder& order,
     const Distances& range) {
     constexpr std::array angles_rad = {0.0, 0.7, 2.1, 4.4};
-    draworder::RayCount count;
+    orderfile::RayCount count;
     for (const double angle_rad : angles_rad) {
-        count += draworder::count_wrong_rays(
+        count += orderfile::count_wrong_rays(
             model,
             order,
             {.eyes = 2000,
@@ -107,7 +108,7 @@ draworder::RayCount rays_of(
     return count;
 }
 
-std::string percent(const draworder::RayCount& count) {
+std::string percent(const orderfile::RayCount& count) {
     return fmt::format("{:.3f}", 100.0 * count.wrong_share());
 }
 
@@ -126,7 +127,7 @@ struct FrameCost {
 };
 
 /// Medians over batches of eyes, the two in turn, so that both see the same machine.
-FrameCost frame_cost(const draworder::BspTree& bsp, const draworder::OrderedModel& ordered) {
+FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedModel& ordered) {
     constexpr int batches = 401;
     constexpr int eyes = 500;
     Dice dice(1989);
@@ -146,7 +147,7 @@ FrameCost frame_cost(const draworder::BspTree& bsp, const draworder::OrderedMode
         base::Stopwatch watch;
         for (const glm::dvec3& eye_m : eyes_m) {
             painted.clear();
-            draworder::append_painted(bsp, eye_m, painted, to_do);
+            orderfile::append_painted(bsp, eye_m, painted, to_do);
             by_bsp += painted.size();
         }
         bsp_ns.push_back(watch.lap_ms() * 1e6 / eyes);
@@ -189,7 +190,7 @@ report::HtmlTable paper_order_table() {
     const world::OrderInput input = world::read_order_input("concave", "right,up,back");
     draworder::OrderOptions options;
     options.method = draworder::Method::Paper;
-    const auto orders = draworder::cell_orders(draworder::ordered(input.model, options));
+    const auto orders = orderfile::cell_orders(draworder::ordered(input.model, options));
     report::HtmlTable table;
     table.title = "Table 4: painting orders of the paper's example object";
     table.header = {
@@ -201,15 +202,15 @@ report::HtmlTable paper_order_table() {
         "ours keeps them",
         "paper keeps them"};
     for (const PrintedRow& row : printed_rows) {
-        for (const draworder::ListedCell& cell : orders.cells) {
+        for (const orderfile::ListedCell& cell : orders.cells) {
             if (draworder::path_in_file(cell.path, input.axes) != row.octant) {
                 continue;
             }
             const List printed = from_zero(row.list);
             table.rows.push_back(
                 {row.octant,
-                 draworder::list_in_words(printed),
-                 draworder::list_in_words(cell.list),
+                 orderfile::list_in_words(printed),
+                 orderfile::list_in_words(cell.list),
                  yes_or_no(same_polygons(cell.list, printed)),
                  precedences_in_words(row),
                  yes_or_no(keeps_precedences(cell.list, row)),
@@ -241,7 +242,8 @@ report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
-            const auto check = draworder::certify(ordered.model, draworder::cell_orders(ordered));
+            const auto check =
+                orderfile::check_order(ordered.model, orderfile::cell_orders(ordered));
             table.rows.push_back(
                 {model.name,
                  settings::text_of(methods[i]),
@@ -307,7 +309,7 @@ report::HtmlTable bsp_table(std::span<const OrderedInEveryWay> models) {
         "tree polygons listed"};
     for (const OrderedInEveryWay& model : models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
-        const draworder::BspTree bsp = draworder::bsp_tree(model.by_method[0].model);
+        const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);
         table.rows.push_back(
             {model.name,

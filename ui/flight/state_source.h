@@ -1,0 +1,48 @@
+#pragma once
+
+#include "models/heights/height_field.h"
+#include "sim/aircraft_state.h"
+#include "visuals/planning/turned_part.h"
+#include "visuals/scene/camera.h"
+
+#include <optional>
+#include <span>
+
+namespace octant::ui::flight {
+
+/// Who flies the aircraft in place of their path, and may say from where they are seen: what a
+/// simulation and a session know of a live flight.
+class StateSource {
+public:
+    StateSource() = default;
+    virtual ~StateSource() = default;
+    StateSource(const StateSource&) = delete;
+    StateSource& operator=(const StateSource&) = delete;
+    StateSource(StateSource&&) = delete;
+    StateSource& operator=(StateSource&&) = delete;
+
+    /// The states at a time, not before that of the last call. `states` hold those of the last
+    /// call, or where the aircraft stand at the beginning.
+    virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
+
+    /// Where the next picture of this width over height is to be taken from, for aircraft in these
+    /// states; `usual` is what the settings say.
+    virtual visuals::scene::Camera camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const = 0;
+
+    /// The same for the second view, where there is one.
+    virtual visuals::scene::Camera inset_camera(
+        std::span<const sim::AircraftState> states,
+        const visuals::scene::Camera& usual,
+        double aspect) const = 0;
+
+    /// Parts that the source turns, as of the last states_at().
+    virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
+
+    /// Where the world's origin lies on the earth, once that is known.
+    virtual std::optional<models::heights::GeoPlace> origin() const = 0;
+};
+
+} // namespace octant::ui::flight

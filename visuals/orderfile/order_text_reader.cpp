@@ -1,0 +1,305 @@
+// Reads painting orders in the text format that order_text.h describes. Every message names the
+// file, the line, what was expected and what was found.
+#include "sim/base/error.h"
+#include "sim/base/text_file.h"
+#include "visuals/draworder/octant_path.h"
+#include "visuals/orderfile/order_text.h"
+#include "visuals/orderfile/order_words.h"
+
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace octant::visuals::orderfile {
+
+namespace {
+
+using draworder::DrawOrder;
+
+constexpr long most_planes = 1000;
+constexpr long most_directions = 64;
+constexpr std::size_t most_cells = 1'000'000;
+
+/// The reading of one file, line by line and word by word.
+class OrderReading {
+public:
+    OrderReading(
+        const std::filesystem::path& path,
+        std::size_t faces,
+        const models::polygons::FileAxes& axes)
+        : path_(path)
+        , axes_(axes)
+        , words_(path, axes)
+        , used_(faces) {
+        orders_.faces = faces;
+    }
+
+    CellOrders read() {
+        const std::string text = read_text_file(path_);
+        for (const std::string_view line : split_lines(text)) {
+            words_.begin_line(line);
+            if (words_.has_more()) {
+                take();
+            }
+        }
+        if (seen_.empty()) {
+            error_in(path_, "expected 'draworder 1' first, got an empty file");
+        }
+        if (orders_.cells.empty() && lists_.empty()) {
+            error_in(path_, "expected at least one cell or list, got none");
+        }
+        if (!lists_.empty()) {
+            finish_parts();
+        }
+        return std::move(orders_);
+    }
+
+private:
+    std::uint32_t face() {
+        const long last = static_cast<long>(orders_.faces) - 1;
+        return static_cast<std::uint32_t>(words_.count("a polygon of the model", 0, last));
+    }
+
+    /// The polygons up to the end of the line, none of them twice.
+    std::vector<std::uint32_t> different_faces() {
+        std::vector<std::uint32_t> list;
+        while (words_.has_more()) {
+            const std::uint32_t polygon = face();
+            if (used_[polygon]) {
+                words_.back();
+                words_.refuse("each polygon once");
+            }
+            used_[polygon] = true;
+            list.push_back(polygon);
+        }
+        for (const std::uint32_t polygon : list) {
+            used_[polygon] = false;
+        }
+        return list;
+    }
+
+    void take() {
+        const std::string keyword(words_.here());
+        if (seen_.empty()) {
+            if (words_.line() != "draworder 1") {
+                words_.refuse("'draworder 1' first");
+            }
+            seen_.insert(keyword);
+            return;
+        }
+        if (keyword != "center" && keyword != "metric" && keyword != "faces" &&
+            keyword != "twosided" && keyword != "parents" && keyword != "cell" &&
+            keyword != "list" && keyword != "node") {
+            words_.refuse("center, metric, faces, twosided, parents, cell, list or node");
+        }
+        const bool is_part = keyword == "list" || keyword == "node";
+        if (is_part ? !orders_.cells.empty() : keyword == "cell" && !lists_.empty()) {
+            words_.refuse("either cells or parts");
+        }
+        if (!is_part && keyword != "cell" &&
+            (!seen_.insert(keyword).second || !orders_.cells.empty())) {
+            words_.refuse("each keyword once and before the cells");
+        }
+        words_.step();
+        take(keyword);
+        if (words_.has_more()) {
+            words_.refuse("the end of the line");
+        }
+    }
+
+    void take(const std::string& keyword) {
+        if (keyword == "center") {
+            orders_.centre_m = words_.vector("the centre");
+        } else if (keyword == "metric") {
+            take_metric();
+        } else if (keyword == "faces") {
+            const long faces = static_cast<long>(orders_.faces);
+            words_.count("as many faces as the model has", faces, faces);
+        } else if (keyword == "twosided") {
+            orders_.two_sided = different_faces();
+        } else if (keyword == "parents") {
+            take_parents();
+        } else if (keyword == "list") {
+            need_faces();
+            if (lists_.size() == most_cells) {
+                words_.refuse(fmt::format("at most {} lists", most_cells));
+            }
+            lists_.push_back(different_faces());
+        } else if (keyword == "node") {
+            need_faces();
+            take_node();
+        } else {
+            take_cell();
+        }
+    }
+
+    void need_faces() {
+        if (!seen_.contains("faces")) {
+            words_.to_start();
+            words_.refuse("faces before the first cell or list");
+        }
+    }
+
+    void take_node() {
+        if (nodes_.size() == most_cells) {
+            words_.refuse(fmt::format("at most {} nodes", most_cells));
+        }
+        DrawOrder::Node node;
+        node.kind = words_.skip("choice")     ? DrawOrder::Kind::Choice
+                    : words_.skip("parting")  ? DrawOrder::Kind::Parting
+                    : words_.skip("sequence") ? DrawOrder::Kind::Sequence
+                                              : throw_kind();
+        if (node.kind != DrawOrder::Kind::Sequence) {
+            node.plane = words_.plane();
+        }
+        node.front = child();
+        node.back = child();
+        if (node.kind == DrawOrder::Kind::Parting) {
+            node.along = child();
+            node.against = child();
+        }
+        nodes_.push_back(node);
+    }
+
+    [[noreturn]] DrawOrder::Kind throw_kind() const {
+        words_.refuse("choice, parting or sequence");
+    }
+
+    /// A child as DrawOrder::Node has it. Whether a list is there is known only at the end.
+    int child() {
+        if (words_.skip("nothing")) {
+            return DrawOrder::nothing;
+        }
+        const auto most = static_cast<long>(most_cells);
+        if (words_.skip("list")) {
+            return ~static_cast<int>(words_.count("the number of a list", 0, most));
+        }
+        if (words_.skip("node")) {
+            const auto later = static_cast<long>(nodes_.size()) + 1;
+            return static_cast<int>(words_.count("the number of a later node", later, most));
+        }
+        words_.refuse("a child: node K, list K or nothing");
+    }
+
+    /// Makes the order of the parts that were read.
+    void finish_parts() {
+        const auto check = [&](int child) {
+            const bool there = child == DrawOrder::nothing ||
+                               (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
+                                          : static_cast<std::size_t>(child) < nodes_.size());
+            if (!there) {
+                error_in(
+                    path_,
+                    fmt::format(
+                        "expected children among {} nodes and {} lists, got {} {}",
+                        nodes_.size(),
+                        lists_.size(),
+                        child < 0 ? "list" : "node",
+                        child < 0 ? ~child : child));
+            }
+        };
+        for (const DrawOrder::Node& node : nodes_) {
+            check(node.front);
+            check(node.back);
+            check(node.along);
+            check(node.against);
+        }
+        if (nodes_.empty() && lists_.size() > 1) {
+            error_in(path_, "expected nodes between several lists, got none");
+        }
+        orders_.parts = DrawOrder(std::move(nodes_), lists_);
+    }
+
+    void take_metric() {
+        if (!words_.next_is("l1") && !words_.next_is("l2")) {
+            words_.refuse("l1 or l2");
+        }
+        orders_.metric = words_.next_is("l1") ? Metric::L1 : Metric::L2;
+        words_.step();
+    }
+
+    void take_parents() {
+        for (std::size_t i = 0; i < orders_.faces; ++i) {
+            orders_.parents.push_back(static_cast<std::uint32_t>(
+                words_.count("a polygon of the whole model", 0, 999'999'999)));
+        }
+    }
+
+    void take_cell() {
+        need_faces();
+        if (orders_.cells.size() == most_cells) {
+            words_.refuse(fmt::format("at most {} cells", most_cells));
+        }
+        ListedCell cell;
+        take_region(cell);
+        if (words_.skip("min")) {
+            cell.min_m = words_.least_zero("the least distance");
+        }
+        if (words_.skip("max")) {
+            cell.max_m = words_.least_zero("the greatest distance");
+            if (cell.max_m <= cell.min_m) {
+                words_.back();
+                words_.refuse("a greatest distance above the least");
+            }
+        }
+        if (!words_.skip("order")) {
+            words_.refuse("min R, max R or order");
+        }
+        cell.list = different_faces();
+        orders_.cells.push_back(std::move(cell));
+    }
+
+    /// Reads a cell's region and makes its planes.
+    void take_region(ListedCell& cell) {
+        if (words_.skip("cone")) {
+            const long directions = words_.count("how many directions", 3, most_directions);
+            for (long i = 0; i < directions; ++i) {
+                cell.directions.push_back(words_.long_vector("a direction"));
+            }
+        } else if (words_.skip("half")) {
+            take_planes(cell);
+            return;
+        } else if (words_.has_more() && draworder::is_octant_path(words_.here())) {
+            cell.path = draworder::path_in_body(std::string(words_.here()), axes_);
+            const auto corners = draworder::corners_of_path(cell.path);
+            cell.directions.assign(corners.begin(), corners.end());
+            words_.step();
+        } else {
+            words_.refuse(fmt::format(
+                "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
+                draworder::most_path_levels));
+        }
+        const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
+        if (!planes) {
+            words_.back();
+            words_.refuse("directions that do not lie in one plane");
+        }
+        cell.planes = *planes;
+    }
+
+    void take_planes(ListedCell& cell) {
+        const long planes = words_.count("how many planes", 0, most_planes);
+        for (long i = 0; i < planes; ++i) {
+            cell.planes.push_back(words_.plane());
+        }
+    }
+
+    std::filesystem::path path_;
+    models::polygons::FileAxes axes_;
+    OrderWords words_;
+    CellOrders orders_;
+    std::vector<DrawOrder::Node> nodes_;
+    std::vector<std::vector<std::uint32_t>> lists_;
+    std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
+    std::set<std::string> seen_;
+};
+
+} // namespace
+
+CellOrders read_order_file(
+    const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes) {
+    return OrderReading(path, faces, axes).read();
+}
+
+} // namespace octant::visuals::orderfile

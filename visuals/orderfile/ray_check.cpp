@@ -1,0 +1,236 @@
+// An independent test of painting orders by sampling: along each ray the polygon that is painted
+// last must be the one nearest to the eye. It finds gaps between cells, which the certificate
+// (order_check.cpp) cannot see, and it measures how wrong an inexact order is: the share of wrong
+// pixels.
+#include "visuals/orderfile/ray_check.h"
+
+#include "models/polygons/inside_outline.h"
+#include "sim/base/dice.h"
+#include "sim/base/units.h"
+#include "visuals/draworder/octant_order.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace octant::visuals::orderfile {
+
+namespace {
+
+using draworder::DrawOrder;
+
+/// The distance of a polygon that a ray misses.
+constexpr double missed = std::numeric_limits<double>::infinity();
+
+/// A polygon with its plane, for ray tests.
+struct Facet {
+    glm::dvec3 normal{0.0};
+    glm::dvec3 point_m{0.0};
+    bool two_sided = false;
+    std::vector<glm::dvec3> corners_m;
+};
+
+/// The facet of a polygon when its part has turned by an angle.
+Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon, double turn_rad) {
+    Facet facet;
+    facet.normal = models::polygons::normal_of(model, polygon);
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        facet.corners_m.push_back(model.vertices_m[vertex]);
+    }
+    const auto pivot = models::polygons::pivot_of(model, polygon);
+    if (pivot && turn_rad != 0.0) {
+        models::polygons::Pivot turn = model.pivots[*pivot];
+        for (glm::dvec3& corner_m : facet.corners_m) {
+            corner_m = models::polygons::turned(turn, corner_m, turn_rad);
+        }
+        turn.point_m = glm::dvec3(0.0);
+        facet.normal = models::polygons::turned(turn, facet.normal, turn_rad);
+    }
+    facet.point_m = facet.corners_m[0];
+    return facet;
+}
+
+/// The distance along a ray to the front of a facet, or `missed`.
+double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& ray) {
+    const double slope = glm::dot(ray, facet.normal);
+    const double height_m = glm::dot(eye_m - facet.point_m, facet.normal);
+    if (slope * height_m >= 0.0 || (height_m <= 0.0 && !facet.two_sided)) {
+        return missed;
+    }
+    const double at = -height_m / slope;
+    const bool hits = models::polygons::is_inside(facet.corners_m, facet.normal, eye_m + ray * at);
+    return hits ? at : missed;
+}
+
+/// A random point on the disc of a radius around the origin that is perpendicular to the line of
+/// sight.
+glm::dvec3 target_on_disc(Dice& dice, const glm::dvec3& eye_m, double radius_m) {
+    const glm::dvec3 ahead = glm::normalize(eye_m);
+    const glm::dvec3 aside = std::abs(ahead.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(aside, ahead));
+    const glm::dvec3 up = glm::cross(ahead, right);
+    const double from_middle_m = radius_m * std::sqrt(dice.next());
+    const double angle_rad = dice.between(0.0, 2.0 * pi);
+    return right * (from_middle_m * std::cos(angle_rad)) +
+           up * (from_middle_m * std::sin(angle_rad));
+}
+
+/// A ball that holds a model: about the origin, or about the model's own middle where the origin
+/// lies outside of the model.
+struct Ball {
+    glm::dvec3 middle_m{0.0};
+    double radius_m = 0.0;
+};
+
+Ball ball_around(const models::polygons::PolygonModel& model) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& vertex_m : model.vertices_m) {
+        least = glm::min(least, vertex_m);
+        most = glm::max(most, vertex_m);
+    }
+    const Ball own{(least + most) / 2.0, glm::distance(least, most) / 2.0};
+    const bool is_off = glm::length(own.middle_m) > own.radius_m;
+    return is_off ? own : Ball{glm::dvec3(0.0), models::polygons::radius_m(model)};
+}
+
+/// Random eyes and rays, and what they see.
+class Sampling {
+public:
+    Sampling(
+        const models::polygons::PolygonModel& model,
+        const EyeSamples& samples,
+        std::span<const std::uint32_t> two_sided)
+        : samples_(samples)
+        , ball_(ball_around(model))
+        , dice_(samples.seed) {
+        for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+            facets_.push_back(facet_of(model, i, samples.turn_rad));
+        }
+        for (const std::uint32_t polygon : two_sided) {
+            facets_[polygon].two_sided = true;
+        }
+        hit_.resize(facets_.size());
+    }
+
+    /// The next random eye, body axes.
+    glm::dvec3 next_eye_m() {
+        glm::dvec3 direction = dice_.direction();
+        if (samples_.octant >= 0) {
+            direction = glm::abs(direction) * draworder::octant_signs(samples_.octant);
+        }
+        const double spread =
+            std::log(samples_.most_distance_radii / samples_.least_distance_radii);
+        const double away_m =
+            ball_.radius_m * samples_.least_distance_radii * std::exp(spread * dice_.next());
+        return ball_.middle_m + direction * away_m;
+    }
+
+    /// Sends rays from an eye and compares what is painted last with what is nearest.
+    void look(const glm::dvec3& eye_m, std::span<const std::uint32_t> painted, RayCount& count) {
+        const glm::dvec3 from_middle_m = eye_m - ball_.middle_m;
+        const double away_m = glm::length(from_middle_m);
+        for (int i = 0; i < samples_.rays_per_eye; ++i) {
+            const glm::dvec3 ray =
+                away_m < ball_.radius_m
+                    ? dice_.direction()
+                    : glm::normalize(
+                          target_on_disc(dice_, from_middle_m, ball_.radius_m) - from_middle_m);
+            std::ranges::transform(
+                facets_, hit_.begin(), [&](const Facet& f) { return front_hit(f, eye_m, ray); });
+            const double nearest = *std::ranges::min_element(hit_);
+            if (nearest == missed) {
+                continue;
+            }
+            double seen = missed;
+            for (const std::uint32_t polygon : painted) {
+                seen = hit_[polygon] == missed ? seen : hit_[polygon];
+            }
+            ++count.hits;
+            count.wrong += seen - nearest > 1e-9 * std::max(away_m, ball_.radius_m) ? 1 : 0;
+        }
+    }
+
+private:
+    EyeSamples samples_;
+    Ball ball_;
+    Dice dice_;
+    std::vector<Facet> facets_;
+    std::vector<double> hit_;
+};
+
+} // namespace
+
+RayCount& RayCount::operator+=(const RayCount& other) {
+    eyes += other.eyes;
+    eyes_in_gap += other.eyes_in_gap;
+    hits += other.hits;
+    wrong += other.wrong;
+    return *this;
+}
+
+RayCount count_wrong_rays(
+    const models::polygons::PolygonModel& model,
+    const DrawOrder& order,
+    const EyeSamples& samples) {
+    DrawOrder::Walk walk;
+    std::vector<std::uint32_t> painted;
+    const PaintedFrom painted_from = [&](const glm::dvec3& eye_m) {
+        painted.clear();
+        order.append_painted(eye_m, walk, painted);
+        return std::span<const std::uint32_t>(painted);
+    };
+    return count_wrong_rays(model, painted_from, samples);
+}
+
+RayCount count_wrong_rays(
+    const models::polygons::PolygonModel& model,
+    const PaintedFrom& painted_from,
+    const EyeSamples& samples) {
+    Sampling sampling(model, samples, {});
+    RayCount count;
+    for (int eye = 0; eye < samples.eyes; ++eye) {
+        const glm::dvec3 eye_m = sampling.next_eye_m();
+        ++count.eyes;
+        sampling.look(eye_m, painted_from(eye_m), count);
+    }
+    return count;
+}
+
+RayCount count_wrong_rays(
+    const models::polygons::PolygonModel& model,
+    const CellOrders& orders,
+    const EyeSamples& samples) {
+    Sampling sampling(model, samples, orders.two_sided);
+    RayCount count;
+    if (orders.parts) {
+        DrawOrder::Walk walk;
+        std::vector<std::uint32_t> painted;
+        for (int eye = 0; eye < samples.eyes; ++eye) {
+            const glm::dvec3 eye_m = sampling.next_eye_m();
+            painted.clear();
+            orders.parts->append_painted(eye_m, walk, painted);
+            ++count.eyes;
+            sampling.look(eye_m, painted, count);
+        }
+        return count;
+    }
+    for (int eye = 0; eye < samples.eyes; ++eye) {
+        const glm::dvec3 eye_m = sampling.next_eye_m();
+        if (!in_range(orders, eye_m)) {
+            continue;
+        }
+        if (const auto cell = cell_of(orders, eye_m)) {
+            ++count.eyes;
+            sampling.look(eye_m, orders.cells[*cell].list, count);
+        } else {
+            ++count.eyes_in_gap;
+        }
+    }
+    return count;
+}
+
+} // namespace octant::visuals::orderfile

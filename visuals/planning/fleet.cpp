@@ -1,0 +1,255 @@
+#include "visuals/planning/fleet.h"
+
+#include "sim/hidden_height.h"
+#include "visuals/draworder/octant_order.h"
+#include "visuals/planning/mesh_levels.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider
+/// ones only cost time.
+constexpr double hull_margin_px = 0.25;
+constexpr double hull_margin_m = 0.01;
+
+refine::ViewRefinerOptions refiner_options(const scene::Settings& settings) {
+    refine::ViewRefinerOptions options;
+    options.error_px = settings.surface.aircraft_error_px;
+    options.geomorphs = settings.ground.geomorphs;
+    return options;
+}
+
+glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& eye_m) {
+    glm::dmat4 matrix(glm::mat3_cast(state.body_to_world));
+    matrix[3] = glm::dvec4(state.position_m - eye_m, 1.0);
+    return matrix;
+}
+
+/// The state as it is seen over a round earth: sunk as far as the ground below it.
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
+    if (earth_radius_m > 0.0) {
+        const glm::dvec2 level_m(state.position_m - eye_m);
+        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+    }
+    return state;
+}
+
+scene::Tints tints_of(const PlacedAircraft& aircraft, scene::ModelLook look) {
+    const AircraftModel& model = *aircraft.model;
+    if (look == scene::ModelLook::None ||
+        (look == scene::ModelLook::Levels && is_refined(aircraft))) {
+        return {};
+    }
+    if (look == scene::ModelLook::Shading) {
+        return scene::shading_tints;
+    }
+    const double radius_m =
+        model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
+    const double error_m =
+        is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
+    const std::uint32_t colour = scene::level_colour(error_m, radius_m);
+    return {colour, colour};
+}
+
+} // namespace
+
+Fleet::Fleet(const Scene& scene, const scene::Settings& settings)
+    : scene_(scene)
+    , settings_(settings) {
+    for (const std::uint32_t model : scene.aircraft) {
+        add(model);
+    }
+    hulls_.resize(placed_.size());
+    if (scene.cockpit && settings.view.kind == scene::View::Cockpit) {
+        add(*scene.cockpit);
+    }
+    for (PlacedAircraft& aircraft : placed_) {
+        const AircraftModel& model = *aircraft.model;
+        aircraft.parts =
+            std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+        refined_.push_back(
+            model.progressive ? std::make_unique<RefinedAircraft>(
+                                    model.progressive, refiner_options(settings), settings.shading)
+                              : nullptr);
+    }
+    was_refined_.resize(placed_.size());
+}
+
+/// Adds an aircraft of a model, with room for its parts and for those of what stands in for it.
+void Fleet::add(std::uint32_t model) {
+    PlacedAircraft& aircraft = placed_.emplace_back();
+    aircraft.number = static_cast<std::uint32_t>(placed_.size() - 1);
+    aircraft.model = scene_.models[model].get();
+    aircraft.model_index = model;
+    aircraft.near_model = aircraft.model;
+    aircraft.near_index = model;
+    aircraft.first_part = static_cast<std::uint32_t>(parts_.size());
+    std::size_t pivots = aircraft.model->polygons.pivots.size();
+    const auto far = std::ranges::find(scene_.far_models, model, &FarModel::model);
+    if (far != scene_.far_models.end()) {
+        aircraft.far_model = scene_.models[far->far_model].get();
+        aircraft.far_index = far->far_model;
+        aircraft.far_error_m = far->error_m;
+        pivots = std::max(pivots, aircraft.far_model->polygons.pivots.size());
+    }
+    parts_.resize(parts_.size() + pivots + 1);
+}
+
+void Fleet::place(
+    const FrameView& view,
+    const AircraftStates& aircraft,
+    std::span<const AircraftEffects> effects) {
+    const glm::dvec3& eye_m = view.camera.eye_m;
+    for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
+        const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
+        placed_[i].is_hidden = sim::is_hidden_at(aircraft.states[i].position_m.z);
+        place(placed_[i], state, aircraft.turned, view);
+        hulls_[i] = hull_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
+    }
+    if (placed_.size() > aircraft.states.size()) {
+        sim::AircraftState around_eye = aircraft.states.front();
+        around_eye.position_m = eye_m;
+        place(placed_.back(), around_eye, aircraft.turned, view);
+    }
+}
+
+HullBox Fleet::hull_of(
+    const PlacedAircraft& aircraft,
+    const sim::AircraftState& state,
+    const AircraftEffects* effects,
+    const FrameView& view) const {
+    const glm::dvec3 position_m = state.position_m - view.camera.eye_m;
+    const double margin_m =
+        hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
+    HullExtent extent = aircraft.model->hull;
+    if (effects != nullptr && !effects->empty()) {
+        extent.least_m = glm::min(extent.least_m, effects->extent().least_m);
+        extent.most_m = glm::max(extent.most_m, effects->extent().most_m);
+    }
+    return placed_hull(extent, position_m, state.body_to_world, margin_m);
+}
+
+void Fleet::place(
+    PlacedAircraft& aircraft,
+    const sim::AircraftState& state,
+    std::span<const TurnedPart> turned,
+    const FrameView& view) {
+    const glm::dvec3& eye_m = view.camera.eye_m;
+    choose_model(aircraft, glm::length(state.position_m - eye_m), view);
+    const AircraftModel& model = *aircraft.model;
+    const auto parts =
+        std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+    place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
+    const models::polygons::PolygonModel& numbered =
+        aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
+    for (const TurnedPart& part : turned) {
+        if (part.aircraft == aircraft.number) {
+            place_turned_part(model.polygons, numbered, part, parts);
+        }
+    }
+    const glm::dvec3 eye_in_body_m =
+        draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
+    aircraft.cell = model.order.one_cell_an_eye() ? model.order.cell_of(eye_in_body_m) : 0;
+    represent(aircraft, view);
+    aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
+    choose_ranges(aircraft, eye_in_body_m);
+    aircraft.polygon_count = 0;
+    for (const scene::IndexRange& range : aircraft.ranges) {
+        aircraft.polygon_count += range.polygons;
+    }
+}
+
+/// Chooses between an aircraft's own model and the one that stands in for it, by the rule for
+/// levels of detail.
+void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view) {
+    if (aircraft.far_model == nullptr) {
+        return;
+    }
+    const double nearest_m = std::max(distance_m - aircraft.near_model->subject.radius_m, 0.0);
+    const std::array errors_m{0.0, aircraft.far_error_m};
+    const bool far = chosen_level(
+                         errors_m,
+                         settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
+                         is_far(aircraft) ? 1 : 0) == 1;
+    aircraft.model = far ? aircraft.far_model : aircraft.near_model;
+    aircraft.model_index = far ? aircraft.far_index : aircraft.near_index;
+    aircraft.parts =
+        std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
+}
+
+/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
+/// all.
+void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
+    const AircraftModel& model = *aircraft.model;
+    if (model.as_polygons() == 0) {
+        return;
+    }
+    const glm::dvec3 place_m(aircraft.parts[0][3]);
+    const double radius_m = model.subject.radius_m;
+    if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
+        aircraft.representation = model.as_polygons();
+        aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
+        return;
+    }
+    const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
+    aircraft.representation = static_cast<std::size_t>(chosen_level(
+        model.errors_m,
+        settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
+        aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
+    aircraft.is_represented = true;
+}
+
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not
+/// there nothing.
+void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
+    const AircraftModel& model = *aircraft.model;
+    aircraft.ranges.clear();
+    aircraft.list = {};
+    if (aircraft.is_hidden) {
+        return;
+    }
+    if (is_mesh(aircraft)) {
+        if (!is_refined(aircraft)) {
+            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
+        }
+        return;
+    }
+    if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant) {
+        aircraft.list = model.file_list;
+        aircraft.ranges.push_back(model.file_order);
+        return;
+    }
+    aircraft.list = model.order.polygons();
+    for (const auto& range : model.order.ranges_of(eye_in_body_m, walk_)) {
+        aircraft.ranges.push_back(index_range(model, range));
+    }
+}
+
+void Fleet::refine(const FrameView& view) {
+    const RefineLook look{view.frustum, ahead_of(view.camera), view.pixel_rad};
+    splits_ = 0;
+    collapses_ = 0;
+    for (PlacedAircraft& aircraft : placed_) {
+        const std::size_t i = aircraft.number;
+        const bool before = was_refined_[i] != 0;
+        was_refined_[i] = is_refined(aircraft) ? 1 : 0;
+        if (is_refined(aircraft)) {
+            const refine::RefinedFrame frame =
+                refined_[i]->update(aircraft.parts[0], look, !before);
+            splits_ += static_cast<int>(frame.splits);
+            collapses_ += static_cast<int>(frame.collapses);
+            aircraft.polygon_count = refined_[i]->triangles();
+        }
+    }
+}
+
+} // namespace octant::visuals::planning

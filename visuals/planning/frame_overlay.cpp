@@ -1,0 +1,48 @@
+#include "visuals/planning/frame_overlay.h"
+
+namespace octant::visuals::planning {
+
+scene::OverlayDraw FrameOverlay::draw(
+    const scene::OverlayDraw& veils,
+    const scene::Camera& camera,
+    std::span<const sim::AircraftState> states,
+    bool marks_path,
+    std::span<const std::string> words) {
+    const glm::ivec2& size_px = settings_.view.size_px;
+    layers_.clear();
+    layers_.add(veils);
+    if (marks_path) {
+        layers_.add(path_marks(camera, states.front().position_m));
+    }
+    if (settings_.view.kind == scene::View::Cockpit) {
+        const overlay::HeadUpInputs inputs = shown_inputs(states.front());
+        layers_.add(instruments_.draw(scene_.dials, inputs, camera, size_px));
+        if (settings_.view.head_up_display) {
+            layers_.add(head_up_display_.draw(inputs, camera, size_px));
+        }
+    }
+    if (!words.empty()) {
+        layers_.add(text_.draw(words, size_px));
+    }
+    return layers_.all();
+}
+
+/// The names of the legs of the first aircraft's path, where the legs begin.
+scene::OverlayDraw
+FrameOverlay::path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m) {
+    marks_.begin(camera, settings_.view.size_px, aircraft_m - camera.eye_m);
+    for (const FlownPath::Leg& leg : scene_.path->legs) {
+        marks_.add({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
+    }
+    return marks_.finish();
+}
+
+overlay::HeadUpInputs FrameOverlay::shown_inputs(const sim::AircraftState& state) const {
+    overlay::HeadUpInputs inputs{state, state.position_m.z, {}};
+    if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
+        inputs.height_above_ground_m = state.position_m.z - *ground_m;
+    }
+    return inputs;
+}
+
+} // namespace octant::visuals::planning

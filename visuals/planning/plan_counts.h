@@ -1,0 +1,33 @@
+#pragma once
+
+#include "visuals/landscape/ground_mesher.h"
+
+namespace octant::visuals::planning {
+
+/// What one frame draws.
+struct PlanCounts {
+    landscape::GroundCounts ground;
+    int aircraft_polygons = 0;
+    /// The cell of the first aircraft's draw order in which the eye is; 0 where it has parts.
+    int draw_cell = 0;
+    /// Ground triangles and aircraft polygons painted again, cut by planes.
+    int cuts = 0;
+    /// Groups of aircraft that meet or stand in a ring, painted by polygons.
+    int knots = 0;
+    /// Polygons that should have been painted again and were too many.
+    int unordered = 0;
+    int shadow_triangles = 0;
+    /// Triangles in view of clouds and all else that is seen through.
+    int veil_triangles = 0;
+    /// Polygons of whole models and triangles of refined meshes, and those of them that are lit
+    /// smoothly.
+    int may_be_smooth = 0;
+    int smooth_polygons = 0;
+    /// The representation of the first aircraft, 0 = the finest.
+    int aircraft_level = 0;
+    /// Vertex splits and edge collapses in all meshes that are refined.
+    int refine_splits = 0;
+    int refine_collapses = 0;
+};
+
+} // namespace octant::visuals::planning
