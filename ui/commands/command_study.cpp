@@ -188,7 +188,7 @@ std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& optio
         flag("--shimmer", "draw, and measure shimmer too", options.shimmer),
         flag(
             "--near-detail",
-            "shimmer: with made-up detail of the ground near the eye",
+            "also with made-up detail of the ground near the eye",
             settings.ground.near_detail),
         flag(
             "--scenery",

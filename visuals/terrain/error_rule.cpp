@@ -6,11 +6,11 @@
 // wanted error)^2, where D2 is the squared distance.
 //
 // Deviations:
-// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h about a node's
-//   centre and 2h about the middle of an edge, where h is half the node's edge; they contain all
-//   triangles that v may split and those that samples needing v may split. Vertically they have the
-//   bounds of all blocks (nodes with height bounds, of v's level where that has them) that the
-//   square overlaps.
+// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h - 1 about a node's
+//   centre and 2h - 1 about the middle of an edge, where h is half the node's edge in samples; they
+//   contain all triangles that v may split and those that samples needing v may split. Vertically
+//   they have the bounds of all blocks (nodes with height bounds, of v's level where that has them)
+//   that the square overlaps.
 // - D2 is at least 1 m^2.
 // - In a flat picture an error counts for more beside its middle than D tells. At a place p, whose
 //   depth is z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z +
@@ -23,11 +23,11 @@
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //
 // There are no cracks, because critical values never decrease from a sample to one that needs it,
-// to the last bit. An edge's middle lies h from the centre it needs, and 2h + h = 3h. A child's
-// centre, with a box of 3h/2, lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2 = 2h. So
-// the ends of boxes, which are whole numbers, are nested; subtracting the eye with rounding keeps
-// their order, and so do all steps from there to the critical value: maximum, minimum, sum and
-// product of non-negative numbers, and quotient. The bounds of a block contain those of finer
+// to the last bit. An edge's middle lies h from the centre it needs, and 2h - 1 + h = 3h - 1. A
+// child's centre, with a box of 3h/2 - 1, lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2
+// - 1 = 2h - 1. So the ends of boxes, which are whole numbers, are nested; subtracting the eye with
+// rounding keeps their order, and so do all steps from there to the critical value: maximum,
+// minimum, sum and product of non-negative numbers, and quotient. The bounds of a block contain those of finer
 // blocks, and a box overlaps (a common line does not count) no block that is not within one that
 // the larger box overlaps. Errors are nested as stored; those of curvature halve from each step to
 // the next.
@@ -55,8 +55,9 @@ constexpr double farthest_eye = 4194304.0;
 /// More than the rounding of heights in double precision can amount to.
 constexpr double height_margin_m = 1e-3;
 
-// The ends of the boxes of influence, in half edges from a node's south-west corner: of the middles
-// of its south, east, north and west edges, and of the centres of its four children.
+// The ends of the boxes of influence, a sample farther out on each side, in half edges from a node's
+// south-west corner: of the middles of its south, east, north and west edges, and of the centres of
+// its four children.
 constexpr FourFloats west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
 constexpr FourFloats east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
 constexpr FourFloats south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};
@@ -136,28 +137,31 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     const int edge = at.memory.edge();
     const auto x = static_cast<float>(place.column * edge - origin_column_);
     const auto y = static_cast<float>(place.row * edge - origin_row_);
-    const auto end = [&at](float start, FourFloats halves, float eye) {
-        return four(start) + halves * four(at.half_edge) - four(eye);
+    const auto first = [&at](float start, FourFloats halves, float eye) {
+        return four(start + 1.0F) + halves * four(at.half_edge) - four(eye);
+    };
+    const auto last = [&at](float start, FourFloats halves, float eye) {
+        return four(start - 1.0F) + halves * four(at.half_edge) - four(eye);
     };
     BoxReach::FourBoxes middles{
-        end(x, west_of_middles, eye_east_),
-        end(x, east_of_middles, eye_east_),
-        end(y, south_of_middles, eye_north_),
-        end(y, north_of_middles, eye_north_),
+        first(x, west_of_middles, eye_east_),
+        last(x, east_of_middles, eye_east_),
+        first(y, south_of_middles, eye_north_),
+        last(y, north_of_middles, eye_north_),
         {},
         {}};
     BoxReach::FourBoxes centres{
-        end(x, west_of_centres, eye_east_),
-        end(x, east_of_centres, eye_east_),
-        end(y, south_of_centres, eye_north_),
-        end(y, north_of_centres, eye_north_),
+        first(x, west_of_centres, eye_east_),
+        last(x, east_of_centres, eye_east_),
+        first(y, south_of_centres, eye_north_),
+        last(y, north_of_centres, eye_north_),
         {},
         {}};
     // On which sides the boxes of influence reach beyond the block: at its first and last node.
-    const int last = (1 << std::max(place.level - range_level_, 0)) - 1;
+    const int last_node = (1 << std::max(place.level - range_level_, 0)) - 1;
     const auto reach = [&](int along) {
-        const int within = along & last;
-        return (within == 0 ? 1U : 0U) | (within == last ? 2U : 0U);
+        const int within = along & last_node;
+        return (within == 0 ? 1U : 0U) | (within == last_node ? 2U : 0U);
     };
     const unsigned across = reach(place.column);
     const unsigned up = reach(place.row) << 2U;

@@ -33,13 +33,13 @@ namespace {
 constexpr int levels_unseen = 5; ///< Nodes so far below have an edge of one lattice step.
 
 /// S on rugged ground, for vertices that move beside the eye and for those far off.
-constexpr float near_move = 2.0F;
+constexpr float near_move = 1.2F;
 constexpr float far_move = 4.7F;
 /// The least relief of rugged ground, and how many times larger S is on flat ground at most.
 constexpr float rugged_m = 1200.0F;
 constexpr float most_ease = 1.8F;
 /// The largest error that moves beside the eye, as a share of the ground's relief.
-constexpr float near_error = 1.0F / 512.0F;
+constexpr float near_error = 0.6F / 512.0F;
 
 std::size_t index_of(int column, int row, int columns) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

@@ -122,15 +122,15 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     const HeightGaps gaps = rule.gaps_around(0, 0, 0);
     CHECK(gaps.squared_m2[0] == 9.0F);
     FanCriticals criticals = rule.criticals_of({0, 0, 0, &gaps});
-    // 4 m to each side of the middle of the south side, 1 m east of the eye. Beside the bump the
-    // ground lies 4 m below the slope from there up to it.
+    // 3 m to each side of the middle of the south side, 2 m east and 1 m south of the eye. Beside
+    // the bump the ground lies 4 m below the slope from there up to it.
     const float middle_m =
         GroundTiles::error_m_of(ground.tiles.error_code(0, NodePart::South, 0, 0));
     CHECK((middle_m >= 4.0F && middle_m < 5.2F));
-    CHECK(criticals.middle[0] == Approx(10.0F / (middle_m * middle_m)));
-    // 3 m to each side of the centre of the south-west quarter, 1 m east.
+    CHECK(criticals.middle[0] == Approx(14.0F / (middle_m * middle_m)));
+    // 2 m to each side of the centre of the south-west quarter, as far from the eye.
     const float error_m = criticals.quadrant_error_m[0];
-    CHECK(criticals.quadrant[0] == Approx(10.0F / (error_m * error_m)));
+    CHECK(criticals.quadrant[0] == Approx(14.0F / (error_m * error_m)));
     ErrorGround level(level_field(5, 5));
     ErrorRule of_level(level.tiles);
     of_level.look_from(view);

@@ -139,7 +139,7 @@ private:
         const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
         const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
         const double least_m = below_m + move_m / (4.7 * ease);
-        const double fastest = ease * std::clamp(2.0 * 512.0 * least_m / relief_m, 2.0, 4.7);
+        const double fastest = ease * std::clamp(2.0 * 512.0 * least_m / relief_m, 1.2, 4.7);
         return below == 0 || move_m == 0.0 ? below
                                            : std::max(below, coded(below_m + move_m / fastest));
     }

@@ -12,6 +12,8 @@
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/terrain_file.h"
+#include "ui/world/world.h"
+#include "visuals/landscape/ground.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_jump.h"
 
@@ -20,8 +22,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,12 +41,22 @@ struct Meshing {
     const char* name;
     scene::GroundMetric mesh;
     bool geomorphs;
+    bool near_detail;
 };
 
+/// The last one is measured where near detail is asked for.
 constexpr std::array meshings = {
-    Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false},
-    Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false},
-    Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true}};
+    Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false, false},
+    Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false, false},
+    Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true, false},
+    Meshing{"screen-error, geomorphs, near detail", scene::GroundMetric::ScreenError, true, true}};
+
+std::span<const Meshing> meshings_of(const settings::RunSettings& settings) {
+    return std::span(meshings).first(meshings.size() - (settings.ground.near_detail ? 0 : 1));
+}
+
+/// The mesh of a frame, valid until the next call but one.
+using MeshOfFrame = std::function<terrain::GroundMesh(const scene::Camera&)>;
 
 /// Jumps of a flight, one a frame after the first.
 struct Jumps {
@@ -62,21 +76,52 @@ mesh_options(const settings::RunSettings& settings, const Meshing& way) {
     return options;
 }
 
-Jumps jumps_along(
-    ui::terrain::MeshMaker& maker,
+/// Meshes of the ground alone, within the budget.
+MeshOfFrame given_ground(
+    const ui::terrain::LoadedGround& ground,
     const settings::RunSettings& settings,
-    const std::vector<flight::FlightCamera>& cameras) {
+    const Meshing& way) {
     ui::terrain::GroundViewOptions seen;
     seen.size_px = settings.view.size_px;
     seen.earth_radius_m = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+    const std::shared_ptr<ui::terrain::MeshMaker> maker =
+        ui::terrain::make_mesh_maker(ground, mesh_options(settings, way));
+    return
+        [maker, seen, triangles = scene::triangle_target(settings)](const scene::Camera& camera) {
+            return maker->mesh_within(ui::terrain::mesh_view(camera, seen), triangles);
+        };
+}
+
+/// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing
+/// that stands on it.
+MeshOfFrame ground_with_detail(settings::RunSettings settings) {
+    settings.ground.mesh = scene::GroundMetric::ScreenError;
+    settings.ground.scenery = false;
+    const std::shared_ptr<visuals::landscape::GroundMesher> mesher =
+        world::load_world(settings).scene.ground->mesher(
+            visuals::landscape::mesh_settings(settings, false));
+    const glm::dvec2 size_px(settings.view.size_px);
+    return [mesher, aspect = size_px.x / size_px.y, triangles = scene::triangle_target(settings)](
+               const scene::Camera& camera) {
+        visuals::landscape::GroundCounts counts;
+        const scene::TriangleDraw drawn = mesher->triangles({camera, aspect, triangles}, counts);
+        terrain::GroundMesh mesh;
+        mesh.vertices = drawn.vertices;
+        mesh.indices = drawn.indices;
+        return mesh;
+    };
+}
+
+Jumps jumps_along(
+    const MeshOfFrame& mesh_of,
+    const settings::RunSettings& settings,
+    const std::vector<flight::FlightCamera>& cameras) {
     terrain::JumpMeter meter;
     Jumps found;
     for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
         const scene::Camera& camera = cameras[frame].camera;
-        const terrain::GroundMesh mesh = maker.mesh_within(
-            ui::terrain::mesh_view(camera, seen), scene::triangle_target(settings));
         const auto jump =
-            meter.next(mesh, ui::terrain::picture_view(camera, settings.view.size_px));
+            meter.next(mesh_of(camera), ui::terrain::picture_view(camera, settings.view.size_px));
         if (!jump) {
             continue;
         }
@@ -112,27 +157,29 @@ using OfWays = std::array<Jumps, meshings.size()>;
 std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
         options.settings.path.terrain, world::import_options(options.settings.path));
+    std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
-    for (const std::string_view name : base::built_in_paths) {
-        settings::RunSettings settings = options.settings;
-        settings.path.name = std::string(name);
-        cameras.push_back(flight::flight_cameras(settings));
+    for (std::size_t path = 0; path < flown.size(); ++path) {
+        flown[path].path.name = std::string(base::built_in_paths[path]);
+        cameras.push_back(flight::flight_cameras(flown[path]));
     }
+    const std::size_t ways = meshings_of(options.settings).size();
     std::vector<OfWays> found(cameras.size());
     base::Progress progress(
-        "popping", static_cast<int>(found.size() * meshings.size()), options.quiet, "flights");
+        "popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
     int done = 0;
     std::mutex telling;
-    share_out(
-        found.size() * meshings.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-            const std::size_t path = i / meshings.size();
-            const std::size_t way = i % meshings.size();
-            const auto maker = ui::terrain::make_mesh_maker(
-                ground, mesh_options(options.settings, meshings[way]));
-            found[path][way] = jumps_along(*maker, options.settings, cameras[path]);
-            const std::scoped_lock lock(telling);
-            progress.show(++done, std::string(base::built_in_paths[path]));
-        });
+    share_out(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+        const std::size_t path = i / ways;
+        const Meshing& way = meshings[i % ways];
+        found[path][i % ways] = jumps_along(
+            way.near_detail ? ground_with_detail(flown[path])
+                            : given_ground(ground, options.settings, way),
+            options.settings,
+            cameras[path]);
+        const std::scoped_lock lock(telling);
+        progress.show(++done, std::string(base::built_in_paths[path]));
+    });
     progress.finish();
     return found;
 }
@@ -142,9 +189,10 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     table.title = "Largest jump of a vertex from frame to frame";
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
     const std::vector<OfWays> found = jumps_of_paths(options);
+    const std::size_t ways = meshings_of(options.settings).size();
     OfWays all;
     for (std::size_t path = 0; path < found.size(); ++path) {
-        for (std::size_t k = 0; k < meshings.size(); ++k) {
+        for (std::size_t k = 0; k < ways; ++k) {
             const Jumps& jumps = found[path][k];
             add_popping(table, std::string(base::built_in_paths[path]), meshings[k], jumps);
             all[k].jumps_px.insert(
@@ -155,7 +203,7 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
             }
         }
     }
-    for (std::size_t k = 0; k < meshings.size(); ++k) {
+    for (std::size_t k = 0; k < ways; ++k) {
         add_popping(table, "all", meshings[k], all[k]);
     }
     table.note = fmt::format(
@@ -177,7 +225,8 @@ void study_popping(const PoppingStudyOptions& options) {
     std::vector<report::HtmlTable> tables = {popping_table(options)};
     std::vector<std::string> files = {"popping"};
     if (options.shimmer) {
-        tables.push_back(shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
+        tables.push_back(
+            shimmer_table({options.settings, options.every, options.jobs, options.quiet}));
         files.emplace_back("shimmer");
     }
     std::string markdown;
