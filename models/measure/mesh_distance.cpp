@@ -87,6 +87,9 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     Steps steps(options);
     MeshDistance found;
     found.there = one_way(a, TargetSurface(b), wanted, steps);
+    if (options.larger_alone) {
+        wanted.negligible_m = std::max(wanted.negligible_m, found.there.least_hausdorff_m);
+    }
     found.back = one_way(b, TargetSurface(a), wanted, steps);
     return found;
 }

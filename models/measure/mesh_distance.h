@@ -43,6 +43,8 @@ struct DistanceOptions {
     /// some 0.1 % by default.
     std::size_t samples = 400'000;
     int threads = 1; ///< The number of threads; it does not change the result.
+    /// Only the larger one of the Hausdorff distances of the two ways need be tight.
+    bool larger_alone = false;
     /// Called between the steps of the work with how many of them are done; may be empty.
     std::function<void(int done, int steps)> progress{};
 };

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 
 namespace octant::models::measure {
 
@@ -42,6 +43,23 @@ template <typename F>
 OCTANT_INLINE void clamp_share(F& value) {
     value = value > 0.0F ? value : F{};
     value = value < 1.0F ? value : F{} + 1.0F;
+}
+
+/// Computes the normals of frames and 1 / length^2 of their edges from the rest.
+template <typename F>
+OCTANT_INLINE void finish_frame(PlaneFrame<F>& t) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t next = (axis + 1) % 3;
+        const std::size_t last = (axis + 2) % 3;
+        t.normal[axis] = t.x_axis[next] * t.y_axis[last] - t.x_axis[last] * t.y_axis[next];
+    }
+    const auto inverse = [](F& value, const F& length2) {
+        value = length2 > 1e-30F ? 1.0F / length2 : F{};
+    };
+    const F ex = t.cx - t.bx;
+    inverse(t.per_ab2, t.bx * t.bx);
+    inverse(t.per_bc2, ex * ex + t.cy * t.cy);
+    inverse(t.per_ca2, t.cx * t.cx + t.cy * t.cy);
 }
 
 /// The vectors from the nearest point of the triangle's edges to a point, both in the plane of the

@@ -25,6 +25,26 @@ double most_to(const TargetSurface& target, std::uint32_t triangle, const Corner
     return std::sqrt(most2);
 }
 
+/// A bound of the largest distance from a piece to the target. The piece is seen as four parts: one
+/// at each corner, cut off at a third of both sides, and the hexagon between them. Each part lies
+/// near one triangle of the target, the one nearest to its corner or to the centre, and no farther
+/// from it than its own corners are.
+double most_by_parts(const TargetSurface& target, std::uint32_t middle, const Corners& corners) {
+    double most2 = 0.0;
+    for (std::size_t from = 0; from < 3; ++from) {
+        const Sample& corner = *corners[from];
+        most2 = std::max(most2, corner.distance_m * corner.distance_m);
+        for (const std::size_t to : {(from + 1) % 3, (from + 2) % 3}) {
+            const glm::dvec3 third = glm::mix(corner.point, corners[to]->point, 1.0 / 3.0);
+            most2 = std::max(
+                {most2,
+                 target.distance2_to(corner.nearest, third),
+                 target.distance2_to(middle, third)});
+        }
+    }
+    return std::sqrt(most2);
+}
+
 double length_m(const Corners& corners, std::size_t edge) {
     return glm::distance(corners[edge]->point, corners[(edge + 1) % 3]->point);
 }
@@ -214,6 +234,9 @@ PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, doubl
     bounds.least_m = std::max(bounds.least_m, middle.distance_m);
     bounds.most_m = std::min(
         {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
+    if (bounds.most_m > enough_m) {
+        bounds.most_m = std::min(bounds.most_m, most_by_parts(target, middle.nearest, corners));
+    }
     return bounds;
 }
 

@@ -31,22 +31,6 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-template <typename Floats>
-void set_lane(PlaneFrame<Floats>& frames, std::size_t lane, const PlaneFrame<float>& frame) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        frames.origin[axis][lane] = frame.origin[axis];
-        frames.x_axis[axis][lane] = frame.x_axis[axis];
-        frames.y_axis[axis][lane] = frame.y_axis[axis];
-        frames.normal[axis][lane] = frame.normal[axis];
-    }
-    frames.bx[lane] = frame.bx;
-    frames.cx[lane] = frame.cx;
-    frames.cy[lane] = frame.cy;
-    frames.per_ab2[lane] = frame.per_ab2;
-    frames.per_bc2[lane] = frame.per_bc2;
-    frames.per_ca2[lane] = frame.per_ca2;
-}
-
 } // namespace
 
 struct TriangleBvh::Builder {
@@ -68,24 +52,29 @@ struct TriangleBvh::Builder {
         }
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);
-            node.least[i][lane] = static_cast<float>(extent.least[axis]);
-            node.most[i][lane] = static_cast<float>(extent.most[axis]);
+            node.least[i][lane] = extent.least[axis];
+            node.most[i][lane] = extent.most[axis];
         }
     }
 
     /// Makes a leaf of up to four items and returns its number with leaf_bit.
     std::uint32_t leaf(std::size_t first, std::size_t count) const {
         Leaf made;
-        made.first = static_cast<std::uint32_t>(first);
-        made.count = static_cast<std::uint32_t>(count);
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const Item& item = items[first + std::min(lane, count - 1)];
             const auto& [a, b, c] = triangles[item.triangle];
-            set_lane(
-                made.frames,
-                lane,
-                plane_frame({scaled(vertices_m[a]), scaled(vertices_m[b]), scaled(vertices_m[c])}));
+            const PlaneFrame<float> frame =
+                plane_frame({scaled(vertices_m[a]), scaled(vertices_m[b]), scaled(vertices_m[c])});
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                made.origin[axis][lane] = frame.origin[axis];
+                made.x_axis[axis][lane] = frame.x_axis[axis];
+                made.y_axis[axis][lane] = frame.y_axis[axis];
+            }
+            made.bx[lane] = frame.bx;
+            made.cx[lane] = frame.cx;
+            made.cy[lane] = frame.cy;
         }
+        tree.firsts_.push_back(static_cast<std::uint32_t>(first));
         tree.leaves_.push_back(made);
         return static_cast<std::uint32_t>(tree.leaves_.size() - 1) | leaf_bit;
     }
@@ -141,36 +130,54 @@ TriangleBvh::TriangleBvh(
     if (triangles.empty()) {
         return;
     }
-    Extent whole;
+    glm::dvec3 least_m(std::numeric_limits<double>::infinity());
+    glm::dvec3 most_m(-std::numeric_limits<double>::infinity());
     for (const Triangle& triangle : triangles) {
         for (const std::uint32_t vertex : triangle) {
             assert(vertex < vertices_m.size());
-            whole.take(vertices_m[vertex]);
+            least_m = glm::min(least_m, vertices_m[vertex]);
+            most_m = glm::max(most_m, vertices_m[vertex]);
         }
     }
-    centre_m_ = 0.5 * (whole.least + whole.most);
-    const double size_m = 0.5 * largest(whole.most - whole.least);
+    centre_m_ = 0.5 * (least_m + most_m);
+    const double size_m = 0.5 * largest(most_m - least_m);
     per_size_ = size_m > least_size_m ? 1.0 / size_m : 1.0 / least_size_m;
-    const glm::dvec3 farthest = glm::max(glm::abs(whole.least), glm::abs(whole.most));
+    const glm::dvec3 farthest = glm::max(glm::abs(least_m), glm::abs(most_m));
     rounding_m_ = 64.0 * std::numeric_limits<double>::epsilon() * largest(farthest);
     Builder builder{*this, vertices_m, triangles, std::vector<Item>(triangles.size())};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         Item& item = builder.items[i];
         for (const std::uint32_t vertex : triangles[i]) {
-            item.extent.take(builder.scaled(vertices_m[vertex]));
+            item.extent.take(glm::vec3(builder.scaled(vertices_m[vertex])));
         }
-        item.middle = 0.5 * (item.extent.least + item.extent.most);
         item.triangle = static_cast<std::uint32_t>(i);
     }
-    nodes_.reserve(triangles.size() / lanes + 1);
-    leaves_.reserve(triangles.size() / 2 + 1);
+    nodes_.reserve(triangles.size() / (2 * lanes) + 1);
+    leaves_.reserve(triangles.size() / (lanes - 1) + 1);
     builder.build(0, triangles.size(), 0);
-    corners_m_.reserve(triangles.size());
+    firsts_.push_back(static_cast<std::uint32_t>(triangles.size()));
     triangles_.reserve(triangles.size());
     for (const Item& item : builder.items) {
-        const auto& [a, b, c] = triangles[item.triangle];
-        corners_m_.push_back({vertices_m[a], vertices_m[b], vertices_m[c]});
         triangles_.push_back(item.triangle);
+    }
+    take_corners(vertices_m, triangles);
+}
+
+/// Copies the corners of the triangles in the order of the leaves, so that what lies near in space
+/// lies near in memory.
+void TriangleBvh::take_corners(
+    std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
+    std::vector<std::uint32_t> places(vertices_m.size(), NearestOnMesh::none);
+    corners_.reserve(triangles.size());
+    for (const std::uint32_t number : triangles_) {
+        Triangle& corners = corners_.emplace_back(triangles[number]);
+        for (std::uint32_t& corner : corners) {
+            if (places[corner] == NearestOnMesh::none) {
+                places[corner] = static_cast<std::uint32_t>(vertices_m_.size());
+                vertices_m_.push_back(vertices_m[corner]);
+            }
+            corner = places[corner];
+        }
     }
 }
 
@@ -204,22 +211,25 @@ struct TriangleBvh::Search {
     Probe probe;
 };
 
-void TriangleBvh::search_leaf(const Leaf& leaf, const glm::dvec3& point_m, Search& search) const {
+void TriangleBvh::search_leaf(
+    std::uint32_t leaf, const glm::dvec3& point_m, Search& search) const {
+    const std::uint32_t first = firsts_[leaf];
+    const std::size_t count = firsts_[leaf + 1] - first;
     Floats distances2;
-    triangle_distances2(distances2, leaf, search.probe);
-    for (std::size_t looked = 0; looked < leaf.count; ++looked) {
+    triangle_distances2(distances2, leaves_[leaf], search.probe);
+    for (std::size_t looked = 0; looked < count; ++looked) {
         std::size_t i = 0;
-        for (std::size_t lane = 1; lane < leaf.count; ++lane) {
+        for (std::size_t lane = 1; lane < count; ++lane) {
             i = distances2[lane] < distances2[i] ? lane : i;
         }
         if (!(distances2[i] <= search.probe.reach2)) {
             return;
         }
         distances2[i] = std::numeric_limits<float>::infinity();
-        const auto& [a, b, c] = corners_m_[leaf.first + i];
-        const std::uint32_t triangle = triangles_[leaf.first + i];
-        const NearestOnTriangle here =
-            detail::nearest_to_origin({a - point_m, b - point_m, c - point_m});
+        const auto& [a, b, c] = corners_[first + i];
+        const std::uint32_t triangle = triangles_[first + i];
+        const NearestOnTriangle here = detail::nearest_to_origin(
+            {vertices_m_[a] - point_m, vertices_m_[b] - point_m, vertices_m_[c] - point_m});
         const bool tie = here.distance2 == search.reach2_m2 && triangle < search.found.triangle;
         if (here.distance2 < search.reach2_m2 || tie) {
             search.found = {triangle, here.point, here.weights, here.distance2};
@@ -251,7 +261,7 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
         }
         const std::uint32_t next = waiting[count];
         if ((next & leaf_bit) != 0) {
-            search_leaf(leaves_[next & ~leaf_bit], point, search);
+            search_leaf(next & ~leaf_bit, point, search);
             continue;
         }
         const Node& node = nodes_[next];

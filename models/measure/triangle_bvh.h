@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/measure/plane_frame.h"
+#include "models/measure/triangle_split.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec3.hpp>
@@ -31,7 +32,7 @@ struct NearestOnMesh {
 ///
 /// Boxes and triangles are first compared in single precision, four at a time, by lower bounds of
 /// their distances: what the rounding can be at most is subtracted. Only what passes is measured in
-/// double precision. It takes some 220 bytes a triangle.
+/// double precision. It takes some 100 bytes a triangle.
 class TriangleBvh {
 public:
     explicit TriangleBvh(const TriangleMesh& mesh);
@@ -52,7 +53,7 @@ public:
     double rounding_m() const { return rounding_m_; }
 
 private:
-    static constexpr std::size_t lanes = 4;
+    static constexpr std::size_t lanes = leaf_lanes;
     using Floats = float __attribute__((vector_size(4 * lanes)));
 
     /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its
@@ -64,11 +65,13 @@ private:
         std::array<std::uint32_t, lanes> below;
     };
 
-    /// Up to four triangles; where there are fewer, the last one is repeated.
+    /// Up to four triangles, as PlaneFrame has them but for what follows from the rest; where there
+    /// are fewer, the last one is repeated.
     struct Leaf {
-        PlaneFrame<Floats> frames;
-        std::uint32_t first = 0; ///< The index of the first triangle in corners_m_ and triangles_.
-        std::uint32_t count = 0;
+        std::array<Floats, 3> origin;
+        std::array<Floats, 3> x_axis;
+        std::array<Floats, 3> y_axis;
+        Floats bx, cx, cy;
     };
 
     /// A point to search from, and how far to look, in the tree's units.
@@ -83,6 +86,7 @@ private:
     struct Builder;
     struct Search;
 
+    void take_corners(std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles);
     Probe probe(const glm::dvec3& point_m) const;
     /// The squared distances of four boxes from the probe, in the tree's units.
     static void box_distances2(Floats& distances2, const Node& node, const Probe& probe);
@@ -90,7 +94,7 @@ private:
     static void triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe);
     /// Measures those triangles of a leaf in double precision that may be nearer than what was
     /// found.
-    void search_leaf(const Leaf& leaf, const glm::dvec3& point_m, Search& search) const;
+    void search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Search& search) const;
 
     static constexpr std::uint32_t leaf_bit = 1U << 31U;
     /// No tree that Builder makes needs a deeper stack of waiting nodes.
@@ -98,9 +102,11 @@ private:
 
     std::vector<Node> nodes_; ///< The first one is the root; there are none without triangles.
     std::vector<Leaf> leaves_;
-    std::vector<std::array<glm::dvec3, 3>> corners_m_;
-    /// For each entry of corners_m_ the triangle's index in the mesh.
-    std::vector<std::uint32_t> triangles_;
+    /// For each leaf the index of its first triangle in triangles_, and at the end their number.
+    std::vector<std::uint32_t> firsts_;
+    std::vector<std::uint32_t> triangles_; ///< The triangles' indices in the mesh, by leaves.
+    std::vector<Triangle> corners_;        ///< The same triangles' corners in vertices_m_.
+    std::vector<glm::dvec3> vertices_m_;
     glm::dvec3 centre_m_{0.0};
     double per_size_ = 1.0; ///< 1 / half of the longest side of the mesh's bounding box.
     double rounding_m_ = 0.0;
@@ -130,11 +136,11 @@ void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const 
             }
             continue;
         }
-        const Leaf& leaf = leaves_[next & ~leaf_bit];
-        triangle_distances2(distances2, leaf, here);
-        for (std::size_t i = 0; i < leaf.count; ++i) {
-            if (distances2[i] <= here.reach2) {
-                take(triangles_[leaf.first + i]);
+        const std::uint32_t leaf = next & ~leaf_bit;
+        triangle_distances2(distances2, leaves_[leaf], here);
+        for (std::uint32_t i = firsts_[leaf]; i < firsts_[leaf + 1]; ++i) {
+            if (distances2[i - firsts_[leaf]] <= here.reach2) {
+                take(triangles_[i]);
             }
         }
     }
@@ -154,8 +160,16 @@ TriangleBvh::box_distances2(Floats& distances2, const Node& node, const Probe& p
 
 OCTANT_INLINE void
 TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Probe& probe) {
+    PlaneFrame<Floats> frames;
+    frames.origin = leaf.origin;
+    frames.x_axis = leaf.x_axis;
+    frames.y_axis = leaf.y_axis;
+    frames.bx = leaf.bx;
+    frames.cx = leaf.cx;
+    frames.cy = leaf.cy;
+    finish_frame(frames);
     FramePoints<Floats> found;
-    find_in_frame<false>(found, probe.place, leaf.frames);
+    find_in_frame<false>(found, probe.place, frames);
     distances2 = found.distance2;
 }
 

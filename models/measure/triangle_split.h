@@ -10,12 +10,12 @@
 
 namespace octant::models::measure {
 
-/// An axis-aligned bounding box; at first it holds nothing.
+/// An axis-aligned bounding box in single precision; at first it holds nothing.
 struct Extent {
-    glm::dvec3 least{std::numeric_limits<double>::infinity()};
-    glm::dvec3 most{-std::numeric_limits<double>::infinity()};
+    glm::vec3 least{std::numeric_limits<float>::infinity()};
+    glm::vec3 most{-std::numeric_limits<float>::infinity()};
 
-    void take(const glm::dvec3& point) {
+    void take(const glm::vec3& point) {
         least = glm::min(least, point);
         most = glm::max(most, point);
     }
@@ -27,17 +27,21 @@ struct Extent {
 
     /// Half the surface area; 0 for an empty box.
     double half_area() const {
-        const glm::dvec3 size = most - least;
+        const glm::dvec3 size = glm::dvec3(most) - glm::dvec3(least);
         return size.x >= 0.0 ? size.x * size.y + size.y * size.z + size.z * size.x : 0.0;
     }
 };
 
-/// A triangle while the tree is being built, with its bounding box and the centre of that.
+/// A triangle while the tree is being built, with its bounding box.
 struct Item {
     Extent extent;
-    glm::dvec3 middle{0.0};
     std::uint32_t triangle = 0;
+
+    glm::vec3 middle() const { return 0.5F * (extent.least + extent.most); }
 };
+
+/// How many triangles a leaf of the tree holds at the most.
+inline constexpr std::size_t leaf_lanes = 4;
 
 /// Reorders the items into two parts, neither of them empty, and returns the size of the first. The
 /// split is between bins on the longest axis of the centres, by the surface area heuristic; from

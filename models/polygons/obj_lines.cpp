@@ -36,21 +36,33 @@ std::string_view without_byte_order_mark(std::string_view text) {
 }
 
 ObjLines::ObjLines(std::string_view text)
-    : lines_(split_lines(without_byte_order_mark(text))) {}
+    : rest_(without_byte_order_mark(text)) {}
+
+/// Takes the next line off the rest, which must not be empty.
+std::string_view ObjLines::next_line() {
+    ++lines_;
+    const std::size_t end = rest_.find('\n');
+    std::string_view line = rest_.substr(0, end);
+    if (line.ends_with('\r')) {
+        line.remove_suffix(1);
+    }
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    return line;
+}
 
 bool ObjLines::next() {
-    if (at_ == lines_.size()) {
+    if (rest_.empty()) {
         return false;
     }
-    text_ = lines_[at_++];
-    number_ = static_cast<int>(at_);
+    text_ = next_line();
+    number_ = lines_;
     if (is_comment(text_) || !goes_on(text_)) {
         return true;
     }
     joined_ = text_;
     bool more = true;
-    while (more && at_ < lines_.size()) {
-        std::string_view part = lines_[at_++];
+    while (more && !rest_.empty()) {
+        std::string_view part = next_line();
         more = goes_on(part);
         joined_ += ' ';
         joined_ += part;

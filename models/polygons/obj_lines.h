@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace octant::models::polygons {
 
@@ -29,11 +27,13 @@ public:
     int number() const { return number_; }
 
 private:
-    std::vector<std::string_view> lines_;
-    std::size_t at_ = 0;
+    std::string_view next_line();
+
+    std::string_view rest_; ///< what lies behind the lines so far
     std::string joined_;
     std::string_view text_;
     int number_ = 0;
+    int lines_ = 0; ///< so far
 };
 
 /// What follows the first word of a line, without blanks at either end: names in OBJ and MTL files

@@ -1,24 +1,40 @@
 #include "models/repair/shell_pieces.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 #include <tuple>
 
 namespace octant::models::repair {
 
 std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
-    std::vector<Side> sides;
-    sides.reserve(triangles.size() * 3);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (std::uint8_t k = 0; k < 3; ++k) {
-            const std::uint32_t from = triangles[t][k];
-            const std::uint32_t to = triangles[t][(k + 1U) % 3U];
-            sides.push_back({std::min(from, to), std::max(from, to), t, k, from < to});
+    // By the smaller vertex sides are dealt out into the places that belong to it, and only the few
+    // of each vertex are compared.
+    std::vector<std::uint32_t> ends; // of each smaller vertex's places, once all are dealt out
+    const auto for_each_side = [&](const auto& take) {
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            for (std::uint8_t k = 0; k < 3; ++k) {
+                const std::uint32_t from = triangles[t][k];
+                const std::uint32_t to = triangles[t][(k + 1U) % 3U];
+                take(Side{std::min(from, to), std::max(from, to), t, k, from < to});
+            }
         }
-    }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
-        return std::tie(a.least, a.most, a.triangle, a.corner) <
-               std::tie(b.least, b.most, b.triangle, b.corner);
+    };
+    for_each_side([&](const Side& side) {
+        ends.resize(std::max<std::size_t>(ends.size(), std::size_t{side.least} + 2), 0);
+        ++ends[side.least + 1];
     });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Side> sides(triangles.size() * 3);
+    for_each_side([&](const Side& side) { sides[ends[side.least]++] = side; });
+    auto first = sides.begin();
+    for (const std::uint32_t end : ends) {
+        const auto last = sides.begin() + static_cast<std::ptrdiff_t>(end);
+        std::sort(first, last, [](const Side& a, const Side& b) {
+            return std::tie(a.most, a.triangle, a.corner) < std::tie(b.most, b.triangle, b.corner);
+        });
+        first = last;
+    }
     return sides;
 }
 

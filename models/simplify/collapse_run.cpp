@@ -22,15 +22,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 namespace octant::models::simplify {
 
 namespace {
-
-/// The edge weights when costs are quadrics. They are lighter than the default ones, which only
-/// guide the place while distances decide the cost.
-constexpr EdgeWeights fast_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
 
 /// Triangles lower than this are never looked at again, and others each time that the error has
 /// doubled: by then more of them are negligible. Working units.
@@ -39,8 +34,8 @@ constexpr double least_error = 1e-5;
 /// For Chooser::Peaks: a distance beyond so many root mean squares is a peak.
 constexpr double peak_height = 2.0;
 
-/// The guard at the beginning. The plain ways to choose an edge have none against slivers, which
-/// lie best along cylinders and rims, but where states between are shown.
+} // namespace
+
 Strictness first_strictness(const WorkingSurface& surface, Chooser chooser, bool low_may_turn) {
     if (chooser == Chooser::Peaks) {
         return surface.coloured() ? Strictness::Normal : Strictness::Strips;
@@ -49,31 +44,29 @@ Strictness first_strictness(const WorkingSurface& surface, Chooser chooser, bool
                                                           : Strictness::Loose;
 }
 
-} // namespace
-
 CollapseRun::CollapseRun(
-    WorkingSurface& surface,
-    const WorkingUnits& units,
+    CollapsingSurface& collapsing,
     Chooser chooser,
     TrackedPoints* points,
     const SimplifyOptions& options)
-    : surface_(surface)
-    , units_(units)
+    : collapsing_(collapsing)
+    , surface_(collapsing.surface())
     , chooser_(chooser)
     , points_(points)
     , length_share_(options.length_share)
     , low_may_turn_(options.low_may_turn)
-    , quadrics_(surface, points != nullptr ? EdgeWeights{} : fast_weights)
-    , heap_(surface.mesh.face_slots() * 3)
-    , has_parked_(surface.mesh.vertex_slots(), false)
-    , checked_(surface.mesh.face_slots() * 3, false)
-    , numbers_(surface.mesh.vertex_slots())
-    , strictness_(first_strictness(surface, chooser, options.low_may_turn))
+    , heap_(surface_.mesh.face_slots() * 3)
+    , has_parked_(surface_.mesh.vertex_slots(), false)
+    , checked_(surface_.mesh.face_slots() * 3, false)
+    , strictness_(first_strictness(surface_, chooser, options.low_may_turn))
     , filled_at_(least_error) {
     assert(measures_distances(chooser) == (points != nullptr));
-    std::iota(numbers_.begin(), numbers_.end(), 0U);
-    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
-        area_ += 0.5 * glm::length(area_vector(surface.corner_places(face)));
+    for (std::uint32_t face = 0; face < surface_.mesh.face_slots(); ++face) {
+        area_ += 0.5 * glm::length(area_vector(surface_.corner_places(face)));
+    }
+    if (!collapsing.collapses().empty()) {
+        error_ = collapsing.collapses().back().error_m / collapsing.units().diagonal_m;
+        filled_at_ = std::max(filled_at_, error_);
     }
 }
 
@@ -82,7 +75,7 @@ bool CollapseRun::is_met(const Goal& goal) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     return (goal.vertices && mesh.vertex_count() <= *goal.vertices) ||
            (goal.faces && mesh.face_count() <= *goal.faces) ||
-           (goal.error_m && error_ * units_.diagonal_m > *goal.error_m);
+           (goal.error_m && error_ * collapsing_.units().diagonal_m > *goal.error_m);
 }
 
 /// Puts all edges into the heap.
@@ -110,8 +103,8 @@ void CollapseRun::fill_again() {
 }
 
 void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
-    const std::size_t start = surface_.mesh.face_count();
-    const std::size_t wanted = goal.faces.value_or(2 * goal.vertices.value_or(0));
+    const std::size_t start = collapsing_.first_faces();
+    const std::size_t wanted = wanted_faces(goal);
     while (!is_met(goal)) {
         HalfEdge h = none;
         if (!next_edge(h)) {
@@ -120,7 +113,7 @@ void CollapseRun::run(const Goal& goal, const ShowProgress& show_progress) {
         collapse(h, placed(h));
         fill_again();
         const std::size_t done = start - surface_.mesh.face_count();
-        if (show_progress && collapses_.size() % 256 == 0 && start > wanted) {
+        if (show_progress && collapsing_.collapses().size() % 256 == 0 && start > wanted) {
             show_progress(
                 std::min(1.0, static_cast<double>(done) / static_cast<double>(start - wanted)));
         }
@@ -135,7 +128,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             if (strictness_ == Strictness::None) {
                 return false;
             }
-            if (!collapses_.empty() || filled_) {
+            if (filled_) {
                 strictness_ =
                     strictness_ == Strictness::Loose ? Strictness::None : Strictness::Loose;
             }
@@ -165,7 +158,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
 /// Where the vertex goes that an edge collapses into.
 Placement CollapseRun::placed(HalfEdge h) {
     if (chooser_ != Chooser::Volumes) {
-        return quadrics_.placement(surface_, h);
+        return collapsing_.quadrics().placement(surface_, h);
     }
     surface_.mesh.ring_of(h, ring_);
     return volume_placement(surface_, h, ring_);
@@ -238,13 +231,11 @@ double CollapseRun::surface_increase(HalfEdge h, const Placement& placement) {
     return cost_.increase();
 }
 
-/// Collapses an edge, moves the tracked points to their new nearest triangles, records the collapse
-/// and updates the costs around it.
+/// Collapses an edge, moves the tracked points to their new nearest triangles and updates the costs
+/// around it.
 void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
-    CollapsibleMesh& mesh = surface_.mesh;
+    const CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
-    const std::uint32_t gone = mesh.target(h);
-    const HalfEdge twin = mesh.twin(h);
     mesh.ring_of(h, ring_);
     if (points_ != nullptr) {
         squares_ += surface_increase(h, placement);
@@ -257,29 +248,14 @@ void CollapseRun::collapse(HalfEdge h, const Placement& placement) {
     } else if (placement.weight > 0.0) {
         error_ = std::max(error_, std::sqrt(placement.cost / placement.weight));
     }
-    Collapse made;
-    made.first = numbers_[kept];
-    made.second = numbers_[gone];
-    made.position_m = units_.to_file(placement.place);
-    made.left = face_of(h);
-    made.right = twin == none ? none : face_of(twin);
-    made.error_m = error_ * units_.diagonal_m;
-    for (const HalfEdge side : {h, twin}) {
+    for (const HalfEdge side : {h, mesh.twin(h)}) {
         if (side != none) {
             heap_.remove(mesh.edge_of(side));
             heap_.remove(mesh.edge_of(next_of(side)));
             heap_.remove(mesh.edge_of(previous_of(side)));
         }
     }
-    mesh.collapse(h);
-    quadrics_.merge(kept, gone);
-    surface_.places[kept] = placement.place;
-    if (surface_.coloured()) {
-        surface_.colours[kept] = placement.colour;
-        made.colour = units_.colour_to_file(placement.colour);
-    }
-    numbers_[kept] = static_cast<std::uint32_t>(numbers_.size() + collapses_.size());
-    collapses_.push_back(made);
+    collapsing_.collapse(h, placement, error_);
     update_around(kept);
 }
 

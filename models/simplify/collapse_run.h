@@ -1,19 +1,21 @@
 #pragma once
 
-#include "models/collapse_sequence.h"
 #include "models/simplify/collapse_guard.h"
+#include "models/simplify/collapsing_surface.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/simplify_options.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/tracked_points.h"
-#include "models/simplify/vertex_quadrics.h"
-#include "models/simplify/working_surface.h"
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace octant::models::simplify {
+
+/// The guard at the beginning. The plain ways to choose an edge have none against slivers, which
+/// lie best along cylinders and rims, but where states between are shown.
+Strictness first_strictness(const WorkingSurface& surface, Chooser chooser, bool low_may_turn);
 
 /// The greedy loop of edge collapses: always the cheapest edge next.
 class CollapseRun {
@@ -22,8 +24,7 @@ public:
     /// null for others (asserted). Of the options length_share and low_may_turn count. The surface
     /// and the points are changed by run().
     CollapseRun(
-        WorkingSurface& surface,
-        const WorkingUnits& units,
+        CollapsingSurface& collapsing,
         Chooser chooser,
         TrackedPoints* points,
         const SimplifyOptions& options);
@@ -31,9 +32,6 @@ public:
     /// Collapses edges until the goal is met or no edge may be collapsed any more. A goal of an
     /// error is compared with the run's own estimate, not with a certified distance.
     void run(const Goal& goal, const ShowProgress& show_progress);
-
-    /// The collapses so far, in file units: the progressive mesh in reverse.
-    std::vector<Collapse>& collapses() { return collapses_; }
 
 private:
     bool is_met(const Goal& goal) const;
@@ -50,21 +48,17 @@ private:
     void collapse(HalfEdge h, const Placement& placement);
     void update_around(std::uint32_t vertex);
 
+    CollapsingSurface& collapsing_;
     WorkingSurface& surface_;
-    const WorkingUnits& units_;
     Chooser chooser_;
     TrackedPoints* points_; ///< Null unless distances are measured.
     double length_share_;
     bool low_may_turn_;
-    VertexQuadrics quadrics_;
     EdgeHeap heap_;
     /// For each vertex slot whether edges at it may have been taken out of the heap; kept for
     /// Chooser::Quadrics, which has nothing else to do one ring further.
     std::vector<bool> has_parked_;
     std::vector<bool> checked_; ///< For each edge whether its cost and permission are up to date.
-    /// For each vertex slot its number in the collapse sequence.
-    std::vector<std::uint32_t> numbers_;
-    std::vector<Collapse> collapses_;
     Strictness strictness_;
     bool filled_ = false;
     double error_ = 0.0;   ///< The estimated error so far, in working units.

@@ -200,6 +200,44 @@ void CollapsibleMesh::collapse(HalfEdge h) {
     }
 }
 
+KeptSlots CollapsibleMesh::compact() {
+    KeptSlots kept;
+    std::vector<std::uint32_t> new_vertices(vertex_slots(), none);
+    for (std::uint32_t vertex = 0; vertex < vertex_slots(); ++vertex) {
+        if (vertex_is_there(vertex)) {
+            new_vertices[vertex] = static_cast<std::uint32_t>(kept.vertices.size());
+            kept.vertices.push_back(vertex);
+        }
+    }
+    std::vector<std::uint32_t> new_faces(face_slots(), none);
+    for (std::uint32_t face = 0; face < face_slots(); ++face) {
+        if (face_is_there(face)) {
+            new_faces[face] = static_cast<std::uint32_t>(kept.faces.size());
+            kept.faces.push_back(face);
+        }
+    }
+    const auto moved = [&](HalfEdge h) {
+        return h == none ? none : 3 * new_faces[face_of(h)] + h % 3;
+    };
+    for (HalfEdge to = 0; to < 3 * kept.faces.size(); ++to) {
+        const HalfEdge from = 3 * kept.faces[face_of(to)] + to % 3;
+        origins_[to] = new_vertices[origins_[from]];
+        twins_[to] = moved(twins_[from]);
+    }
+    for (std::vector<std::uint32_t>* list : {&origins_, &twins_}) {
+        list->resize(3 * kept.faces.size());
+        list->shrink_to_fit();
+    }
+    keep_slots(outs_, kept.vertices);
+    for (HalfEdge& out : outs_) {
+        out = moved(out);
+    }
+    marks_.assign(vertex_slots(), 0);
+    marks_.shrink_to_fit();
+    mark_ = 0;
+    return kept;
+}
+
 bool CollapsibleMesh::may_flip(HalfEdge h) const {
     const HalfEdge other = twins_[h];
     if (other == none) {

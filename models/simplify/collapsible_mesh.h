@@ -36,6 +36,23 @@ struct RingFace {
     HalfEdge half_edge = none;
 };
 
+/// The slots that stay when a mesh is compacted, by their numbers before, in order.
+struct KeptSlots {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> faces;
+};
+
+/// Leaves of a list with one entry a slot those of the kept slots, and gives the memory of the
+/// others back.
+template <typename T>
+void keep_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        list[i] = list[kept[i]];
+    }
+    list.resize(kept.size());
+    list.shrink_to_fit();
+}
+
 /// The connectivity of a triangle mesh as half-edges: an oriented manifold, perhaps with boundary,
 /// which stays one. Triangles keep their numbers ("slots"); a collapse empties two of them and
 /// allocates nothing.
@@ -121,6 +138,9 @@ public:
     /// Collapses an edge: all that met target(h) then meets origin(h), and the edge's triangles go.
     /// may_collapse(h) must be true.
     void collapse(HalfEdge h);
+
+    /// Gives the slots of vertices and triangles that are gone back. All others get new numbers.
+    KeptSlots compact();
 
     /// Whether the edge may be replaced by the other diagonal of its two triangles.
     bool may_flip(HalfEdge h) const;

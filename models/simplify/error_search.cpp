@@ -66,7 +66,8 @@ private:
             {.tightness = 1.03,
              .negligible_m = 0.9 * error_m_,
              .samples = 100,
-             .threads = options_.threads});
+             .threads = options_.threads,
+             .larger_alone = true});
         const double about_m = 0.5 * (distance.least_hausdorff_m() + distance.most_hausdorff_m());
         likely_faces_ = faces_after(collapses) *
                         std::clamp(std::pow(about_m / (aim * error_m_), steepness), 0.4, 2.5);

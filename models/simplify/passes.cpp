@@ -49,6 +49,7 @@ double fault_of(const Simplified& result, const SimplifyOptions& options) {
     how.samples = samples;
     how.negligible_m = 1e-6 * diagonal_m(result.sequence.original);
     how.threads = options.threads;
+    how.larger_alone = true;
     const measure::MeshDistance distance =
         measure::distance(result.sequence.original, result.mesh, how);
     const double off_m = distance.most_hausdorff_m();
@@ -76,10 +77,6 @@ Candidate judged(Simplified result, const SimplifyOptions& options) {
     const bool misses = !is_reached(result, options.goal);
     const double fault = fault_of(result, options);
     return {std::move(result), misses, fault};
-}
-
-std::size_t wanted_faces(const Goal& goal) {
-    return goal.faces.value_or(2 * goal.vertices.value_or(0));
 }
 
 /// What chooses the collapses of each pass that is tried; the usual one first.

@@ -66,7 +66,7 @@ public:
         }
         most_looks_ =
             around_.looks() +
-            std::max(options.least_looks, options.looks_a_face * target.surface.mesh.face_count());
+            std::max(options.least_looks, options.looks_a_face * target.mesh.face_count());
         const auto allowance = [&](double growth) { return (2.0 + growth) * growth * squares; };
         allowance_ = allowance(options.most_growth);
         tall_allowance_ = allowance(tall_growth) - allowance_;

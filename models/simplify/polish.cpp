@@ -11,6 +11,7 @@
 #include "models/simplify/aims.h"
 #include "models/simplify/collapse_guard.h"
 #include "models/simplify/peaks.h"
+#include "models/simplify/point_lists.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/turned_faces.h"
 #include "models/simplify/vertex_fit.h"
@@ -48,7 +49,7 @@ public:
     }
 
     std::size_t flip_edges();
-    void list_again();
+    void list_again() { list_nearer(surface_, points_, threads_); }
 
 private:
     void fit(std::uint32_t vertex);
@@ -66,42 +67,6 @@ private:
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
 };
-
-/// Moves tracked points to the lists of nearer triangles, among those that share a vertex with
-/// their present one.
-void Polishing::list_again() {
-    const CollapsibleMesh& mesh = surface_.mesh;
-    std::vector<std::uint32_t> chosen(points_.size(), none);
-    for_face_ranges(mesh, threads_, [&](std::uint32_t first, std::uint32_t end) {
-        PointBlock block;
-        std::vector<FlatTriangle> triangles;
-        std::vector<std::uint32_t> near;
-        for (std::uint32_t face = first; face < end; ++face) {
-            if (!mesh.face_is_there(face)) {
-                continue;
-            }
-            block.clear();
-            points_.gather(face, block);
-            near.assign(1, face);
-            for (const std::uint32_t vertex : mesh.corners(face)) {
-                mesh.around(vertex, [&](HalfEdge h) {
-                    if (std::ranges::find(near, face_of(h)) == near.end()) {
-                        near.push_back(face_of(h));
-                    }
-                });
-            }
-            triangles.clear();
-            for (const std::uint32_t other : near) {
-                triangles.push_back(flat(surface_.corner_places(other)));
-            }
-            find_nearest(block, 0, block.size(), triangles, false);
-            for (std::size_t i = 0; i < block.size(); ++i) {
-                chosen[block.numbers[i]] = near[static_cast<std::size_t>(block.nearest[i])];
-            }
-        }
-    });
-    points_.assign_all(chosen, mesh.face_slots());
-}
 
 /// Loads the triangles at a vertex and their tracked points.
 void Polishing::take_ring(std::uint32_t vertex) {

@@ -15,13 +15,13 @@ namespace {
 
 /// Positive where a triangle faces as `normal` does, negative where it faces against it.
 double facing(const PolishTarget& target, std::uint32_t face, const glm::dvec3& normal) {
-    return glm::dot(area_vector(target.surface.corner_places(face)), normal);
+    return glm::dot(area_vector(target.mesh.corner_places(face)), normal);
 }
 
 /// The nearest point of one triangle of the target.
 measure::NearestOnTriangle
 nearest_on(const PolishTarget& target, std::uint32_t face, const glm::dvec3& place) {
-    const std::array<glm::dvec3, 3> corners = target.surface.corner_places(face);
+    const std::array<glm::dvec3, 3> corners = target.mesh.corner_places(face);
     return measure::nearest_on_triangle(place, corners[0], corners[1], corners[2]);
 }
 

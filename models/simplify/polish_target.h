@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/working_surface.h"
+#include "models/simplify/target_mesh.h"
 
 #include <glm/vec3.hpp>
 
@@ -12,7 +12,7 @@ namespace octant::models::simplify {
 
 /// The surface that is approximated, in working units, with a tree over its triangles.
 struct PolishTarget {
-    const WorkingSurface& surface;
+    const TargetMesh& mesh;
     const measure::TriangleBvh& bvh;
 };
 

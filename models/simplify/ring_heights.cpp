@@ -47,7 +47,7 @@ RingHeights::RingHeights(
         }
     } else {
         samples_on_ =
-            sample_grid(grid_fields(target.surface.mesh.face_count(), surface.mesh.face_count()));
+            sample_grid(grid_fields(target.mesh.face_count(), surface.mesh.face_count()));
     }
 }
 
@@ -98,10 +98,7 @@ void RingHeights::set_faces() {
     corners_.clear();
     for (const std::uint32_t face : faces_) {
         corners_.push_back(surface_.corner_places(face));
-        const Triangle v = surface_.mesh.corners(face);
-        const auto& c = surface_.colours;
-        cost_.triangles.push_back(
-            c.empty() ? flat(corners_.back()) : flat(corners_.back(), {c[v[0]], c[v[1]], c[v[2]]}));
+        cost_.triangles.push_back(flat(surface_, face));
     }
 }
 

@@ -11,13 +11,15 @@
 
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/attributes.h"
+#include "models/simplify/collapse_rounds.h"
 #include "models/simplify/collapse_run.h"
+#include "models/simplify/collapsing_surface.h"
 #include "models/simplify/error_search.h"
 #include "models/simplify/passes.h"
+#include "models/simplify/point_lists.h"
 #include "models/simplify/polish.h"
 
 #include <cassert>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -31,18 +33,26 @@ constexpr std::size_t least_points = 24'000;
 /// error back.
 constexpr double beyond_goal = 2.0;
 
+/// Whether each triangle that is left of a large mesh stands for so many that a quick polish has
+/// points enough and goes on for another round.
+bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
+    constexpr std::size_t large = 100'000;
+    constexpr std::size_t many = 30;
+    return target.face_count() > std::max(large, many * faces_left);
+}
+
 /// How thoroughly to polish.
 PolishOptions polish_options(
-    const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
+    const WorkingSurface& surface, const TargetMesh& target, const SimplifyOptions& options) {
     constexpr std::size_t many = 9;    // Triangles of the target for each one of the surface.
     constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
     PolishOptions polish;
     polish.threads = options.threads;
     if (options.quality == Quality::Fast) {
-        polish.rounds = 1;
+        polish.rounds = stands_for_many(target, surface.mesh.face_count()) ? 2 : 1;
         polish.fields = 2;
         polish.extremes = false;
-    } else if (target.mesh.face_count() > many * surface.mesh.face_count()) {
+    } else if (target.face_count() > many * surface.mesh.face_count()) {
         polish.fields = 4;
     }
     if (options.quality == Quality::Surface && surface.mesh.face_count() <= few) {
@@ -51,24 +61,15 @@ PolishOptions polish_options(
     return polish;
 }
 
-/// A tree over a surface none of whose triangles has gone, numbered as they are.
-measure::TriangleBvh tree_of(const WorkingSurface& surface) {
-    std::vector<Triangle> triangles;
-    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
-        triangles.push_back(surface.mesh.corners(face));
-    }
-    return {surface.places, triangles};
-}
-
 /// Polishes the surface and converts it to file units, with names and materials of `names`.
 TriangleMesh polished_in(
     WorkingSurface& surface,
     TrackedPoints& points,
     const TriangleMesh& names,
-    const WorkingSurface& target,
+    const TargetMesh& target,
     const WorkingUnits& units,
     const SimplifyOptions& options) {
-    const measure::TriangleBvh bvh = tree_of(target);
+    const measure::TriangleBvh bvh(target.places, target.triangles);
     polish(surface, points, {target, bvh}, polish_options(surface, target, options));
     return surface.to_mesh(names, units);
 }
@@ -89,67 +90,14 @@ finished(const CollapseSequence& sequence, std::size_t collapses, const Simplify
                          : with_normals(std::move(mesh), sequence.original);
 }
 
-/// How many points track the original. Where there are colours there must be enough to show their
-/// borders.
-std::size_t wanted_points(const WorkingSurface& target, Quality quality) {
-    return quality == Quality::Surface || target.coloured() ? least_points : 0;
-}
-
-/// Points of the target in the lists of their nearest triangles of a surface none of whose
-/// triangles has gone.
-TrackedPoints points_on(
-    const WorkingSurface& surface, const WorkingSurface& target, const SimplifyOptions& options) {
-    TrackedPoints points(target, wanted_points(target, options.quality));
-    const measure::TriangleBvh bvh = tree_of(surface);
-    std::vector<std::uint32_t> nearest(points.size());
-    for (std::uint32_t point = 0; point < points.size(); ++point) {
-        const auto& place = points.place(point);
-        nearest[point] = bvh.nearest({place[0], place[1], place[2]}).triangle;
+/// How many points track the original in the polish. Where there are colours there must be enough
+/// to show their borders; where a triangle stands for many, vertices are enough for a quick one.
+std::size_t wanted_points(
+    const TargetMesh& target, std::size_t faces_left, const SimplifyOptions& options) {
+    if (options.quality == Quality::Surface || target.coloured()) {
+        return least_points;
     }
-    points.assign_all(nearest, surface.mesh.face_slots());
-    return points;
-}
-
-/// Points of the target in the lists of triangles near them, found by following the collapses of
-/// the vertices: near enough for the polish to start from.
-TrackedPoints points_carried(
-    const WorkingSurface& surface,
-    const WorkingSurface& target,
-    const std::vector<Collapse>& collapses,
-    Quality quality) {
-    const std::size_t vertices = target.mesh.vertex_slots();
-    // for each number of the sequence its vertex slot
-    std::vector<std::uint32_t> slots(vertices + collapses.size());
-    std::iota(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(vertices), 0U);
-    for (std::size_t i = 0; i < collapses.size(); ++i) {
-        slots[vertices + i] = slots[collapses[i].first];
-    }
-    // Backwards: each merged vertex gets the slot of what it became.
-    for (std::size_t i = collapses.size(); i-- > 0;) {
-        slots[collapses[i].first] = slots[vertices + i];
-        slots[collapses[i].second] = slots[vertices + i];
-    }
-    TrackedPoints points(target, wanted_points(target, quality));
-    std::vector<std::uint32_t> nearest(points.size());
-    for (std::uint32_t point = 0; point < points.size(); ++point) {
-        const std::uint32_t corner = target.mesh.origin(3 * points.face(point));
-        nearest[point] = surface.mesh.face_at(slots[corner]);
-    }
-    points.assign_all(nearest, surface.mesh.face_slots());
-    return points;
-}
-
-/// Collapses edges of the surface until the goal is met.
-std::vector<Collapse> contracted(
-    WorkingSurface& surface,
-    std::optional<TrackedPoints>& points,
-    const WorkingUnits& units,
-    const Goal& goal,
-    Chooser chooser,
-    const SimplifyOptions& options) {
-    CollapseRun run(surface, units, chooser, points ? &*points : nullptr, options);
-    run.run(goal, options.show_progress);
-    return std::move(run.collapses());
+    return stands_for_many(target, faces_left) ? 0 : target.places.size() + 1;
 }
 
 CollapseSequence
@@ -158,13 +106,13 @@ sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& opti
     WorkingSurface surface(original, units);
     std::optional<TrackedPoints> points;
     if (options.quality == Quality::Surface) {
-        points.emplace(surface, least_points);
+        points.emplace(TargetMesh(original, units), least_points);
     }
+    CollapsingSurface collapsing(surface, units, points ? EdgeWeights{} : cost_weights);
     const Chooser chooser = points ? Chooser::Distances : Chooser::Quadrics;
-    CollapseSequence sequence;
-    sequence.collapses = contracted(surface, points, units, goal, chooser, options);
-    sequence.original = std::move(original);
-    return sequence;
+    CollapseRun run(collapsing, chooser, points ? &*points : nullptr, options);
+    run.run(goal, options.show_progress);
+    return {std::move(original), std::move(collapsing.collapses())};
 }
 
 /// Simplifies to a wanted error: one sequence of collapses beyond it, and then a search along the
@@ -184,31 +132,70 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
     return result;
 }
 
+/// Collapses in rounds for as long as their errors are far below those at the goal; not at all on
+/// meshes of moderate size.
+void begin_in_rounds(
+    CollapsingSurface& collapsing, Chooser chooser, const SimplifyOptions& options) {
+    constexpr std::size_t far = 8; // times the triangles of the goal
+    constexpr std::size_t moderate = 50'000;
+    RoundOptions rounds;
+    rounds.faces = std::max(moderate, far * wanted_faces(options.goal));
+    if (collapsing.first_faces() < 2 * rounds.faces) {
+        return;
+    }
+    rounds.strictness =
+        first_strictness(collapsing.surface(), chooser, options.low_may_turn);
+    rounds.low_may_turn = options.low_may_turn;
+    rounds.threads = options.threads;
+    collapsing.collapses().reserve((collapsing.first_faces() - wanted_faces(options.goal)) / 2 + 1);
+    collapse_in_rounds(collapsing, rounds);
+}
+
+/// The tracked points of a surface that is about to collapse on.
+TrackedPoints points_of(
+    const CollapsingSurface& collapsing, const TriangleMesh& original, int threads) {
+    const TargetMesh target(original, collapsing.units());
+    if (collapsing.collapses().empty()) {
+        return {target, least_points};
+    }
+    TrackedPoints points = points_carried(collapsing, target, least_points);
+    for (int time = 0; time < 2; ++time) {
+        list_nearer(collapsing.surface(), points, threads);
+    }
+    measure_lists(collapsing.surface(), points);
+    return points;
+}
+
 /// Simplifies to a goal of vertices or faces in one pass (OnePass).
 Simplified
 simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    const WorkingSurface target(original, units);
-    WorkingSurface surface = target;
+    WorkingSurface surface(original, units);
+    const bool measures = measures_distances(chosen_by);
+    CollapsingSurface collapsing(surface, units, measures ? EdgeWeights{} : cost_weights);
+    begin_in_rounds(collapsing, chosen_by, options);
     std::optional<TrackedPoints> points;
-    if (measures_distances(chosen_by)) {
-        points.emplace(target, least_points);
+    if (measures) {
+        points.emplace(points_of(collapsing, original, options.threads));
     }
+    CollapseRun(collapsing, chosen_by, points ? &*points : nullptr, options)
+        .run(options.goal, options.show_progress);
     Simplified result;
     result.chosen_by = chosen_by;
-    CollapseSequence& sequence = result.sequence;
-    sequence.collapses = contracted(surface, points, units, options.goal, chosen_by, options);
-    sequence.original = std::move(original);
-    if (sequence.collapses.empty()) {
-        result.mesh = finished(sequence, 0, options);
+    result.sequence.original = std::move(original);
+    const TargetMesh target(result.sequence.original, units);
+    if (!points) {
+        points.emplace(points_carried(
+            collapsing, target, wanted_points(target, surface.mesh.face_count(), options)));
+    }
+    result.sequence.collapses = std::move(collapsing.collapses());
+    if (result.sequence.collapses.empty()) {
+        result.mesh = finished(result.sequence, 0, options);
         return result;
     }
-    if (!points) {
-        points.emplace(points_carried(surface, target, sequence.collapses, options.quality));
-    }
     result.mesh = with_normals(
-        polished_in(surface, *points, sequence.original, target, units, options),
-        sequence.original);
+        polished_in(surface, *points, result.sequence.original, target, units, options),
+        result.sequence.original);
     return result;
 }
 
@@ -234,9 +221,10 @@ polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions&
         return mesh;
     }
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    const WorkingSurface target(original, units);
+    const TargetMesh target(original, units);
     WorkingSurface surface(mesh, units);
-    TrackedPoints points = points_on(surface, target, options);
+    TrackedPoints points =
+        points_on(surface, target, wanted_points(target, surface.mesh.face_count(), options));
     return with_normals(polished_in(surface, points, mesh, target, units, options), original);
 }
 

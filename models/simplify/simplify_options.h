@@ -13,6 +13,11 @@ struct Goal {
     std::optional<double> error_m; ///< The two-sided distance to the original stays below this.
 };
 
+/// About how many triangles a goal without an error leaves.
+inline std::size_t wanted_faces(const Goal& goal) {
+    return goal.faces.value_or(2 * goal.vertices.value_or(0));
+}
+
 /// Called now and then with the share of the work that is done, 0 to 1.
 using ShowProgress = std::function<void(double share)>;
 

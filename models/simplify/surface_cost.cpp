@@ -12,6 +12,15 @@
 
 namespace octant::models::simplify {
 
+FlatTriangle flat(const WorkingSurface& surface, std::uint32_t face) {
+    const std::array<glm::dvec3, 3> corners = surface.corner_places(face);
+    if (!surface.coloured()) {
+        return flat(corners);
+    }
+    const auto [a, b, c] = surface.mesh.corners(face);
+    return flat(corners, {surface.colours[a], surface.colours[b], surface.colours[c]});
+}
+
 void SurfaceCost::gather(const TrackedPoints& points, std::span<const std::uint32_t> faces) {
     block_.clear();
     cost_now_ = 0.0;

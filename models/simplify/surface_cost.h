@@ -12,6 +12,9 @@
 
 namespace octant::models::simplify {
 
+/// A triangle of the surface as it is now, with its colours where there are any.
+FlatTriangle flat(const WorkingSurface& surface, std::uint32_t face);
+
 /// What a change around an edge or a vertex costs: the squared distances of the tracked points
 /// whose triangles change, to the triangles as they would be.
 class SurfaceCost {

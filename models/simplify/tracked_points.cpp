@@ -21,48 +21,62 @@ constexpr double corner_share = 0.25;
 
 } // namespace
 
-TrackedPoints::TrackedPoints(const WorkingSurface& original, std::size_t wanted) {
-    const CollapsibleMesh& mesh = original.mesh;
-    std::vector<double> areas(mesh.face_slots(), 0.0);
-    std::vector<double> vertex_areas(mesh.vertex_slots(), 0.0);
+TrackedPoints::TrackedPoints(const TargetMesh& original, std::size_t wanted) {
+    std::vector<double> areas(original.face_count(), 0.0);
+    std::vector<double> vertex_areas(original.places.size(), 0.0);
+    std::vector<std::uint32_t> faces_at(original.places.size(), none);
     double total = 0.0;
-    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+    for (std::uint32_t face = 0; face < original.face_count(); ++face) {
         areas[face] = 0.5 * glm::length(area_vector(original.corner_places(face)));
         total += areas[face];
-        for (const std::uint32_t vertex : mesh.corners(face)) {
+        for (const std::uint32_t vertex : original.triangles[face]) {
             vertex_areas[vertex] += areas[face] / 3.0;
+            faces_at[vertex] = std::min(face, faces_at[vertex]);
         }
     }
-    const std::size_t least = mesh.vertex_slots() + mesh.face_slots();
-    const double more = wanted > least ? static_cast<double>(wanted - least) : 0.0;
-    make_face_room(mesh.face_slots());
-    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
-        assert(mesh.vertex_is_there(vertex));
-        std::uint32_t face = none;
-        mesh.around(vertex, [&](HalfEdge h) { face = std::min(face, face_of(h)); });
+    const bool vertices_alone = wanted <= original.places.size();
+    const std::size_t least = original.places.size() + original.face_count();
+    make_room(vertices_alone ? original.places.size() : std::max(wanted, least));
+    make_face_room(original.face_count());
+    for (std::uint32_t vertex = 0; vertex < original.places.size(); ++vertex) {
+        assert(faces_at[vertex] != none);
         add(original.places[vertex],
             original.coloured() ? &original.colours[vertex] : nullptr,
-            corner_share * vertex_areas[vertex],
+            (vertices_alone ? 1.0 : corner_share) * vertex_areas[vertex],
+            faces_at[vertex]);
+    }
+    const double more = wanted > least ? static_cast<double>(wanted - least) : 0.0;
+    for (std::uint32_t face = 0; !vertices_alone && face < original.face_count(); ++face) {
+        const double share = total > 0.0 ? areas[face] / total : 0.0;
+        add_on(original, face, 1 + static_cast<std::size_t>(share * more), areas[face]);
+    }
+}
+
+/// Adds points on a triangle.
+void TrackedPoints::add_on(
+    const TargetMesh& original, std::uint32_t face, std::size_t count, double area) {
+    const std::array<glm::dvec3, 3> corners = original.corner_places(face);
+    const Triangle& vertices = original.triangles[face];
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 w = count == 1 ? glm::dvec3(1.0 / 3.0) : spread_weights(i);
+        glm::dvec3 colour(0.0);
+        if (original.coloured()) {
+            colour = w.x * original.colours[vertices[0]] + w.y * original.colours[vertices[1]] +
+                     w.z * original.colours[vertices[2]];
+        }
+        add(w.x * corners[0] + w.y * corners[1] + w.z * corners[2],
+            original.coloured() ? &colour : nullptr,
+            (1.0 - corner_share) * area / static_cast<double>(count),
             face);
     }
-    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        const double share = total > 0.0 ? areas[face] / total : 0.0;
-        const std::size_t count = 1 + static_cast<std::size_t>(share * more);
-        const std::array<glm::dvec3, 3> corners = original.corner_places(face);
-        const Triangle vertices = mesh.corners(face);
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3 w = count == 1 ? glm::dvec3(1.0 / 3.0) : spread_weights(i);
-            glm::dvec3 colour(0.0);
-            if (original.coloured()) {
-                colour = w.x * original.colours[vertices[0]] + w.y * original.colours[vertices[1]] +
-                         w.z * original.colours[vertices[2]];
-            }
-            add(w.x * corners[0] + w.y * corners[1] + w.z * corners[2],
-                original.coloured() ? &colour : nullptr,
-                (1.0 - corner_share) * areas[face] / static_cast<double>(count),
-                face);
-        }
-    }
+}
+
+void TrackedPoints::make_room(std::size_t points) {
+    places_.reserve(points);
+    weights_.reserve(points);
+    distances2_.reserve(points);
+    faces_.reserve(points);
+    next_.reserve(points);
 }
 
 void TrackedPoints::add(

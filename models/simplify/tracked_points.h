@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/simplify/point_block.h"
-#include "models/simplify/working_surface.h"
+#include "models/simplify/target_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -23,9 +23,9 @@ inline constexpr double peak_rounding2 = 100.0 * point_rounding * point_rounding
 class TrackedPoints {
 public:
     /// Makes a point of every vertex and one or more points on each triangle: about `wanted` in
-    /// all, or more if vertices and triangles alone are more. Every vertex must lie in a triangle
-    /// (asserted).
-    TrackedPoints(const WorkingSurface& original, std::size_t wanted);
+    /// all, or more if vertices and triangles alone are more; none on triangles where `wanted` is
+    /// at most the number of vertices. Every vertex must lie in a triangle (asserted).
+    TrackedPoints(const TargetMesh& original, std::size_t wanted);
 
     std::size_t size() const { return places_.size(); }
 
@@ -63,6 +63,9 @@ public:
 
 private:
     void add(const glm::dvec3& place, const glm::dvec3* colour, double weight, std::uint32_t face);
+    void
+    add_on(const TargetMesh& original, std::uint32_t face, std::size_t count, double area);
+    void make_room(std::size_t points);
 
     std::vector<std::array<float, 3>> places_;
     std::vector<std::array<float, 3>> colours_; ///< Empty = no colours.

@@ -109,4 +109,11 @@ void VertexQuadrics::merge(std::uint32_t kept, std::uint32_t gone) {
     }
 }
 
+void VertexQuadrics::keep(std::span<const std::uint32_t> vertices) {
+    keep_slots(quadrics_, vertices);
+    if (!colours_.empty()) {
+        keep_slots(colours_, vertices);
+    }
+}
+
 } // namespace octant::models::simplify

@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace octant::models::simplify {
@@ -27,6 +29,10 @@ struct EdgeWeights {
     double crease_cosine = 0.7;
 };
 
+/// The edge weights where quadrics are the costs, too: lighter, as the default ones only guide the
+/// place while distances decide the cost.
+inline constexpr EdgeWeights cost_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
+
 /// The quadrics of all vertices of a surface: planes of triangles, weighted by area; constraint
 /// planes along boundaries, borders of materials and creases; and colours where there are any.
 class VertexQuadrics {
@@ -38,6 +44,9 @@ public:
 
     /// Gives the sum of both vertices' quadrics to `kept`.
     void merge(std::uint32_t kept, std::uint32_t gone);
+
+    /// Leaves those of the kept slots, as CollapsibleMesh::compact numbers them.
+    void keep(std::span<const std::uint32_t> vertices);
 
 private:
     void add_face(const WorkingSurface& surface, std::uint32_t face);

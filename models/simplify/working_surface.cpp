@@ -24,17 +24,40 @@ glm::vec3 WorkingUnits::colour_to_file(const glm::dvec3& colour) const {
     return glm::clamp(glm::vec3(colour / colour_scale), glm::vec3(0.0F), glm::vec3(1.0F));
 }
 
+std::vector<glm::dvec3> WorkingUnits::places_of(const TriangleMesh& mesh) const {
+    std::vector<glm::dvec3> places;
+    places.reserve(mesh.vertices_m.size());
+    for (const glm::dvec3& vertex_m : mesh.vertices_m) {
+        places.push_back(from_file(vertex_m));
+    }
+    return places;
+}
+
+std::vector<glm::dvec3> WorkingUnits::colours_of(const TriangleMesh& mesh) const {
+    std::vector<glm::dvec3> colours;
+    colours.reserve(mesh.colours.size());
+    for (const glm::vec3& colour : mesh.colours) {
+        colours.push_back(glm::dvec3(colour) * colour_scale);
+    }
+    return colours;
+}
+
 WorkingSurface::WorkingSurface(const TriangleMesh& from, const WorkingUnits& units)
     : mesh(from.vertices_m.size(), from.triangles)
-    , materials(from.triangle_materials) {
-    places.reserve(from.vertices_m.size());
-    for (const glm::dvec3& vertex_m : from.vertices_m) {
-        places.push_back(units.from_file(vertex_m));
+    , places(units.places_of(from))
+    , colours(units.colours_of(from))
+    , materials(from.triangle_materials) {}
+
+KeptSlots WorkingSurface::compact() {
+    KeptSlots kept = mesh.compact();
+    keep_slots(places, kept.vertices);
+    if (coloured()) {
+        keep_slots(colours, kept.vertices);
     }
-    colours.reserve(from.colours.size());
-    for (const glm::vec3& colour : from.colours) {
-        colours.push_back(units.colour_from_file(colour));
+    if (!materials.empty()) {
+        keep_slots(materials, kept.faces);
     }
+    return kept;
 }
 
 TriangleMesh

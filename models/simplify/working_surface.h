@@ -27,9 +27,11 @@ struct WorkingUnits {
 
     glm::dvec3 to_file(const glm::dvec3& place) const { return middle_m + place * diagonal_m; }
 
-    glm::dvec3 colour_from_file(const glm::vec3& colour) const {
-        return glm::dvec3(colour) * colour_scale;
-    }
+    /// Of all vertices of a mesh.
+    std::vector<glm::dvec3> places_of(const TriangleMesh& mesh) const;
+
+    /// Of all vertices of a mesh; empty where it has no colours.
+    std::vector<glm::dvec3> colours_of(const TriangleMesh& mesh) const;
 
     glm::vec3 colour_to_file(const glm::dvec3& colour) const;
 };
@@ -55,6 +57,9 @@ struct WorkingSurface {
         return !materials.empty() && mesh.twin(h) != none &&
                materials[face_of(h)] != materials[face_of(mesh.twin(h))];
     }
+
+    /// Gives the slots of what is gone back.
+    KeptSlots compact();
 
     /// The present mesh in file units, vertices and triangles in the order of their slots. Name and
     /// materials are those of `original`.

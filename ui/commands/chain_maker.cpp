@@ -21,7 +21,8 @@ double certified_m(const TriangleMesh& original, const TriangleMesh& mesh, int t
                mesh,
                {.negligible_m = 1e-6 * models::diagonal_m(original),
                 .samples = 0,
-                .threads = threads})
+                .threads = threads,
+                .larger_alone = true})
         .most_hausdorff_m();
 }
 

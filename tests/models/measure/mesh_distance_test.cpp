@@ -135,6 +135,28 @@ TEST_CASE("flats cut unlike each other take cuts by their triangles, not by thei
     }
 }
 
+TEST_CASE("a large piece over many small triangles takes few cuts") {
+    const TriangleMesh fine = tests::shaken(tests::plate(60), 3, 0.002);
+    const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
+        tests::plate(1), models::measure::TargetSurface(fine), {.negligible_m = 0.02});
+    // A third of a piece of edge 0.1 is about 0.03 long: some 100 of them cover the plate.
+    CHECK(bounds.most_m <= 0.02);
+    CHECK(bounds.most_m >= bounds.least_m);
+    CHECK(bounds.cuts < 1'500);
+}
+
+TEST_CASE("where the larger way alone counts, the two-sided distance is as tight") {
+    const TriangleMesh fine = tests::shaken(tests::ball(24), 4, 0.01);
+    const TriangleMesh coarse = tests::ball(9);
+    models::measure::DistanceOptions options = few_samples();
+    const MeshDistance both = distance(fine, coarse, options);
+    options.larger_alone = true;
+    const MeshDistance larger = distance(fine, coarse, options);
+    CHECK(larger.least_hausdorff_m() <= both.most_hausdorff_m());
+    CHECK(larger.most_hausdorff_m() >= both.least_hausdorff_m());
+    CHECK(larger.most_hausdorff_m() <= 1.0101 * larger.least_hausdorff_m());
+}
+
 TEST_CASE("a thin piece is cut on, however its edges lie") {
     TriangleMesh needle; // its middle corner lies on the edge between the others
     needle.vertices_m = {{0.05, 0.07, 0.01}, {0.45, 0.42, 0.03}, {0.85, 0.77, 0.05}};

@@ -113,3 +113,29 @@ TEST_CASE("a flip leaves a closed manifold") {
     CHECK(boundary_edges(after) == 0);
     CHECK(euler_number(after) == 2);
 }
+
+TEST_CASE("a compacted mesh is the same with fewer slots") {
+    const TriangleMesh original = ball(12);
+    CollapsibleMesh mesh = collapsible(original);
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; h += 7) {
+        if (mesh.face_is_there(face_of(h)) && mesh.may_collapse(h)) {
+            mesh.collapse(h);
+        }
+    }
+    const CollapsibleMesh before = mesh;
+    const KeptSlots kept = mesh.compact();
+    REQUIRE(mesh.face_count() == mesh.face_slots());
+    REQUIRE(mesh.vertex_count() == mesh.vertex_slots());
+    REQUIRE(mesh.face_slots() < before.face_slots());
+    CHECK(mesh.face_count() == before.face_count());
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        const HalfEdge old = 3 * kept.faces[face_of(h)] + h % 3;
+        CHECK(kept.vertices[mesh.origin(h)] == before.origin(old));
+        const HalfEdge twin = mesh.twin(h);
+        CHECK((twin == none ? none : 3 * kept.faces[face_of(twin)] + twin % 3) == before.twin(old));
+        CHECK(mesh.may_collapse(h) == before.may_collapse(old));
+    }
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        CHECK(neighbours(mesh, vertex).size() == neighbours(before, kept.vertices[vertex]).size());
+    }
+}

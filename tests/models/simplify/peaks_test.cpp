@@ -39,7 +39,7 @@ TEST_CASE("heights keep the largest squared distance and weighted sums") {
 TEST_CASE("a vertex that stands out is drawn back to the surface") {
     const TriangleMesh flat = strip(4, 4);
     const WorkingUnits units = WorkingUnits::of(flat, 0.1);
-    const WorkingSurface target(flat, units);
+    const TargetMesh target(flat, units);
     WorkingSurface surface(flat, units);
     TrackedPoints points(target, 1000);
     const measure::TriangleBvh bvh(target.places, flat.triangles);

@@ -61,7 +61,7 @@ TEST_CASE("samples aim at the side of a sheet that faces as they do, not at the 
     TriangleMesh inside;
     add_square(inside, 0.025, true);
     WorkingUnits units; // as it is
-    const WorkingSurface target(sheet, units);
+    const TargetMesh target(sheet, units);
     WorkingSurface surface(inside, units);
     const measure::TriangleBvh bvh(target.places, sheet.triangles);
     SampleAims aims(2);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "models/collapse_sequence.h"
+#include "models/simplify/vertex_quadrics.h"
+#include "models/simplify/working_surface.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace octant::models::simplify {
+
+/// A surface whose edges collapse one after the other: with it go the quadrics of its vertices and
+/// the record of what collapsed, in the numbers of the mesh that it was at first.
+class CollapsingSurface {
+public:
+    /// The surface is changed by collapse() and compact() and must outlive this, and so must the
+    /// units.
+    CollapsingSurface(
+        WorkingSurface& surface, const WorkingUnits& units, const EdgeWeights& weights);
+
+    WorkingSurface& surface() { return surface_; }
+
+    const WorkingSurface& surface() const { return surface_; }
+
+    const WorkingUnits& units() const { return units_; }
+
+    const VertexQuadrics& quadrics() const { return quadrics_; }
+
+    /// Collapses an edge that may collapse, merges the quadrics of its ends and records it. `error`
+    /// is the estimated error so far, in working units.
+    void collapse(HalfEdge h, const Placement& placement, double error);
+
+    /// Gives the slots of what is gone back and keeps the order of the rest.
+    KeptSlots compact();
+
+    /// The triangles of the mesh at first.
+    std::size_t first_faces() const { return first_faces_; }
+
+    /// The collapses so far, in file units: the progressive mesh in reverse.
+    std::vector<Collapse>& collapses() { return collapses_; }
+
+    const std::vector<Collapse>& collapses() const { return collapses_; }
+
+    /// For each vertex slot its number in the collapse sequence.
+    const std::vector<std::uint32_t>& vertex_numbers() const { return vertex_numbers_; }
+
+private:
+    WorkingSurface& surface_;
+    const WorkingUnits& units_;
+    VertexQuadrics quadrics_;
+    std::vector<std::uint32_t> vertex_numbers_;
+    std::vector<std::uint32_t> face_numbers_; ///< For each triangle slot its number at first.
+    std::size_t first_faces_;
+    std::size_t first_vertices_;
+    std::vector<Collapse> collapses_;
+};
+
+} // namespace octant::models::simplify
