@@ -10,6 +10,12 @@
 
 namespace octant::ui::base {
 
+std::string rate_text(double per_s) {
+    constexpr double tells_by_whole_numbers = 10.0;
+    return per_s >= tells_by_whole_numbers ? fmt::format("{:.0f}", per_s)
+                                           : fmt::format("{:.2g}", per_s);
+}
+
 Progress::Progress(std::string what, int total, bool quiet, std::string steps)
     : what_(std::move(what))
     , steps_(std::move(steps))
@@ -31,11 +37,11 @@ void Progress::show(int done, const std::string& note) {
     const double per_s = done / elapsed_s;
     const double left_s = done > 0 ? (total_ - done) / per_s : 0.0;
     const std::string line = fmt::format(
-        "{}: {} of {}, {:.0f} {}/s, {:.0f} s left{}{}",
+        "{}: {} of {}, {} {}/s, {:.0f} s left{}{}",
         one_line(what_),
         done,
         total_,
-        per_s,
+        rate_text(per_s),
         steps_,
         left_s,
         note.empty() ? "" : ", ",

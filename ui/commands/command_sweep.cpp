@@ -45,10 +45,32 @@ void print_list(const sweep::Sweep& sweep, bool json) {
     }
 }
 
+/// What the report says before its flights: those that are not done, and runs that differ though
+/// they must not.
+std::vector<report::HtmlTable> troubles(
+    const std::vector<sweep::RunResult>& results, const std::vector<std::string>& differences) {
+    std::vector<report::HtmlTable> tables;
+    if (const auto missing = not_done(results); !missing.empty()) {
+        tables.push_back(
+            {"Flights that are not done", {"flight", "why"}, {}, "The same command flies them."});
+        for (const std::size_t i : missing) {
+            tables.back().rows.push_back({results[i].name, results[i].fault});
+        }
+    }
+    if (!differences.empty()) {
+        tables.push_back({"Runs that differ in nothing did not show the same", {"what"}, {}, ""});
+        for (const std::string& line : differences) {
+            tables.back().rows.push_back({line});
+        }
+    }
+    return tables;
+}
+
 void write_results(
     const sweep::Sweep& sweep,
     const sweep::SweepFolder& folder,
-    const std::vector<sweep::RunResult>& results) {
+    const std::vector<sweep::RunResult>& results,
+    const std::vector<std::string>& differences) {
     write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
     std::vector<report::LoadedRecording> recordings;
     for (const sweep::RunResult& result : results) {
@@ -56,10 +78,9 @@ void write_results(
             recordings.push_back(report::load_recording(folder.recording(result.name)));
         }
     }
-    if (!recordings.empty()) {
-        write_file(
-            folder.path() / "report.html", report::html_report(recordings, {}, folder.path()));
-    }
+    write_file(
+        folder.path() / "report.html",
+        report::html_report(recordings, troubles(results, differences), folder.path()));
 }
 
 void print_end(
@@ -146,8 +167,8 @@ void fly_sweep(const SweepOptions& options) {
     }
     const base::StopSignals stop_signals;
     const FlownSweep flown = fly_what_is_not_done(options, sweep, folder);
-    write_results(sweep, folder, flown.results);
     const std::vector<std::string> differences = sweep::differences(sweep, flown.results);
+    write_results(sweep, folder, flown.results, differences);
     print_end(sweep, flown.results, differences, flown.manner, options.json);
     base::say(
         quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));

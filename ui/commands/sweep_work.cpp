@@ -54,7 +54,7 @@ std::vector<sweep::RunResult> fly_all(
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - not_done(results).size();
     if (done_before > 0) {
-        base::say(quiet, fmt::format("{} flights are done already", done_before));
+        base::say(quiet, fmt::format("flights that are done already: {}", done_before));
     }
     for (int attempt = 0; attempt <= options.retries && !base::StopSignals::came(); ++attempt) {
         const std::vector<std::size_t> left = not_done(results);
@@ -63,7 +63,8 @@ std::vector<sweep::RunResult> fly_all(
         }
         if (attempt > 0) {
             base::say(
-                quiet, fmt::format("note: {} flights failed and are tried again", left.size()));
+                quiet,
+                fmt::format("note: flights that failed and are tried again: {}", left.size()));
         }
         engine.fly(left);
         results = results_of(sweep, folder, options.engine.videos);

@@ -145,8 +145,11 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     const base::Stopwatch writing;
     flown_until_s_ = record.sim_time_s;
     record.picture_hash = session.hash_picture();
-    if (recording_ && picture_every_ > 0 && record.frame % picture_every_ == 0) {
-        recording_->add_picture(record.frame, view_of(session.picture()));
+    if (recording_ && picture_every_ > 0) {
+        slow_pictures_.add(record, view_of(session.picture()));
+        if (record.frame % picture_every_ == 0) {
+            recording_->add_picture(record.frame, view_of(session.picture()));
+        }
     }
     if (video_) {
         video_->add(view_of(session.picture()));
@@ -198,6 +201,7 @@ FlightEnd FlightRecorder::finish(const Session& session, const std::string& stop
              report::read_cpu_times(),
              visuals::groundfile::damage_lines(),
              stopped});
+        slow_pictures_.write(*options_.folder);
         tracks_.reset();
         write_flown(session);
         end.notes.push_back(write_report(*options_.folder));

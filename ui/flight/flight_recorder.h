@@ -4,6 +4,7 @@
 #include "ui/flight/track_files.h"
 #include "ui/report/frame_times.h"
 #include "ui/report/recording.h"
+#include "ui/report/slow_pictures.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings.h"
 
@@ -71,6 +72,7 @@ private:
     RecordOptions options_;
     int picture_every_ = 0;
     std::optional<report::Recording> recording_;
+    report::SlowPictures slow_pictures_;
     std::optional<GrowingTracks> tracks_;
     std::optional<report::VideoPipe> video_;
     report::FrameTimes times_; ///< without a folder

@@ -6,6 +6,7 @@
 #include "ui/report/html_text.h"
 #include "ui/report/page_plot.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 #include <vector>
@@ -40,18 +41,29 @@ values_of(Recordings recordings, const Indices& runs, double (*value)(const Stat
     return values;
 }
 
+/// Whether other programs had a part in the runs' frame times, or other flights on shared cores.
+bool is_noisy(Recordings recordings, const Indices& runs) {
+    return std::ranges::any_of(
+        runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
+}
+
+/// How a variant is set against the first one: where both were quiet, a sure change is better or
+/// worse; where one was noisy, it may be the machine's.
+enum class Against { Itself, Quiet, Noisy };
+
 /// Median of a variant's runs, and how it compares with the first variant's.
 std::string
-compared_cells(const std::vector<double>& before, const std::vector<double>& now, bool is_first) {
+compared_cells(const std::vector<double>& before, const std::vector<double>& now, Against against) {
     if (now.empty() || before.empty()) {
         return "<td class=\"number\">none</td><td></td>";
     }
     std::string html = number_cell(median_of(now), 3);
-    if (is_first) {
+    if (against == Against::Itself) {
         return html + "<td class=\"soft\">compared with this one</td>";
     }
     const Change change = change_between(before, now);
-    const char* const mark = !change.is_sure() ? "" : (change.share < 0.0 ? "better" : "worse");
+    const bool judged = change.is_sure() && against == Against::Quiet;
+    const char* const mark = !judged ? "" : (change.share < 0.0 ? "better" : "worse");
     std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
     if (change.has_interval) {
         text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.least, 100.0 * change.most);
@@ -69,7 +81,14 @@ std::string comparison_table(Recordings recordings, const std::vector<Indices>& 
         "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
         "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
         "<th>change</th></tr></thead>\n<tbody>\n";
+    bool noisy = false;
     for (const Indices& variant : variants) {
+        const bool is_first = &variant == &variants.front();
+        const bool is_loud =
+            is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
+        const Against against =
+            is_first ? Against::Itself : (is_loud ? Against::Noisy : Against::Quiet);
+        noisy = noisy || against == Against::Noisy;
         html += fmt::format(
             "<tr><td>{}</td><td class=\"number\">{}</td>",
             escaped(variant_label(recordings[variant.front()], names)),
@@ -79,38 +98,50 @@ std::string comparison_table(Recordings recordings, const std::vector<Indices>& 
             html += compared_cells(
                 values_of(recordings, variants.front(), value),
                 values_of(recordings, variant, value),
-                &variant == &variants.front());
+                against);
         }
         html += "</tr>\n";
     }
     html += "</tbody></table></div>\n<p class=\"note\">Medians over the runs of a variant. In "
             "brackets the 95 % interval of the change by the bootstrap over runs, where both "
-            "variants have three runs or more; green or red only where it leaves zero out.</p>\n";
-    return html;
+            "variants have three runs or more; green or red only where it leaves zero out.";
+    if (noisy) {
+        html += " Beside noisy runs nothing is called better or worse: other programs, or flights "
+                "on the same cores, had a part in their times.";
+    }
+    return html + "</p>\n";
 }
 
 std::string title_of_group(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-/// The frame times of a flight's runs over its simulated time, in one plot.
+/// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant
+/// as there is room for.
 std::string
 overlaid(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
     constexpr std::size_t most_curves = 12;
     Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
+    const std::size_t most_of_each = std::max<std::size_t>(1, most_curves / variants.size());
+    std::size_t runs = 0;
     for (std::size_t v = 0; v < variants.size(); ++v) {
-        for (const std::size_t i : variants[v]) {
-            if (plot.series.size() < most_curves) {
-                PlotSeries curve = recordings[i].flight.frame_ms.series(400);
-                curve.name = label_of(recordings, recordings[i]);
-                curve.colour = run_colours[v % run_colours.size()];
-                plot.series.push_back(std::move(curve));
-            }
+        runs += variants[v].size();
+        const std::size_t most_here = std::min(most_of_each, most_curves - plot.series.size());
+        for (std::size_t k = 0; k < std::min(variants[v].size(), most_here); ++k) {
+            const LoadedRecording& recording = recordings[variants[v][k]];
+            PlotSeries curve = recording.flight.frame_ms.series(400);
+            curve.name = label_of(recordings, recording);
+            curve.colour = run_colours[v % run_colours.size()];
+            plot.series.push_back(std::move(curve));
         }
     }
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     plot.marks = recordings[variants.front().front()].run.legs;
-    return page_plot(plot, PlotPlace::Wide);
+    const std::string html = page_plot(plot, PlotPlace::Wide);
+    if (plot.series.size() == runs) {
+        return html;
+    }
+    return html + fmt::format("<p class=\"note\">{} of {} runs.</p>\n", plot.series.size(), runs);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "ui/report/html_report.h"
 
+#include "sim/base/file_status.h"
 #include "ui/report/contact_sheet.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
@@ -7,6 +8,7 @@
 #include "ui/report/page_plot.h"
 #include "ui/report/page_script.h"
 #include "ui/report/several_page.h"
+#include "ui/report/slow_pictures.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -239,29 +241,33 @@ nearest_picture(std::span<const std::filesystem::path> pictures, int frame) {
     });
 }
 
-std::string slowest_html(const LoadedRecording& recording) {
-    constexpr std::size_t most_pictures = 4;
+/// The picture of a slow frame: its own, else the kept one nearest to it; empty where there is
+/// none.
+std::string slow_picture_html(const LoadedRecording& recording, const FrameRecord& frame) {
     constexpr int widest_px = 320;
+    const std::string caption = fmt::format("frame {}, {:.2f} ms", frame.frame, frame.frame_ms);
+    const auto own = recording.folder / slow_picture_name(frame.frame);
+    if (is_file(own)) {
+        return picture_html(own, widest_px, caption);
+    }
+    if (recording.pictures.empty()) {
+        return {};
+    }
+    const std::filesystem::path& picture = nearest_picture(recording.pictures, frame.frame);
+    const std::string name = picture.filename().string();
+    return picture_html(picture, widest_px, caption + ": nearest picture, " + name);
+}
+
+std::string slowest_html(const LoadedRecording& recording) {
     const std::vector<Overrun>& slowest = recording.slowest;
-    std::string html = "<p>" + overrun_summary(recording) + "</p>\n" +
-                       html_of(slowest_table(slowest, recording.has_counters));
-    if (recording.pictures.empty() || slowest.empty()) {
-        return card(html);
+    std::string sheet;
+    for (std::size_t i = 0; i < std::min(SlowPictures::most_kept, slowest.size()); ++i) {
+        sheet += slow_picture_html(recording, slowest[i].record);
     }
-    html += "<div class=\"sheet\">\n";
-    for (std::size_t i = 0; i < std::min(most_pictures, slowest.size()); ++i) {
-        const std::filesystem::path& picture =
-            nearest_picture(recording.pictures, slowest[i].record.frame);
-        html += picture_html(
-            picture,
-            widest_px,
-            fmt::format(
-                "frame {}, {:.2f} ms: nearest picture, {}",
-                slowest[i].record.frame,
-                slowest[i].record.frame_ms,
-                picture.filename().string()));
-    }
-    return card(html + "</div>\n");
+    return card(
+        "<p>" + overrun_summary(recording) + "</p>\n" +
+        html_of(slowest_table(slowest, recording.has_counters)) +
+        (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
 }
 
 std::string one_html(const LoadedRecording& recording) {
@@ -303,13 +309,13 @@ std::string html_report(
     std::string html = head(recordings);
     html += "<header><p class=\"lead\">Octant flight report</p><h1>" +
             escaped(page_title(recordings)) + "</h1></header>\n";
+    for (const HtmlTable& table : further) {
+        html += card(html_of(table));
+    }
     if (recordings.size() == 1) {
         html += one_html(recordings.front());
     } else if (!recordings.empty()) {
         html += several_html(recordings, page_folder);
-    }
-    for (const HtmlTable& table : further) {
-        html += card(html_of(table));
     }
     return html + "</main>\n<div id=\"tip\" hidden></div>\n<script>" + std::string(page_script()) +
            "</script>\n</body>\n</html>\n";

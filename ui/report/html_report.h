@@ -11,7 +11,7 @@ namespace octant::ui::report {
 
 /// A self-contained page on one recording, or on several (several_html). That on one has its
 /// figures with their definitions, plots over simulated time with the path's legs, pictures, its
-/// slowest frames and why, settings and machine. `further` tables come last. Nothing is fetched
+/// slowest frames and why, settings and machine. `further` tables come first. Nothing is fetched
 /// when it is read; its own script draws the plots. `page_folder` is where the page will lie, for
 /// links.
 std::string html_report(

@@ -23,7 +23,9 @@ bool is_recording_name(std::string_view name) {
         counters_name,
         "packets.bin",
         "report.html"};
-    return is_unfinished(name) || (name.starts_with("picture-") && name.ends_with(".png")) ||
+    const bool is_picture =
+        (name.starts_with("picture-") || name.starts_with("slow-")) && name.ends_with(".png");
+    return is_unfinished(name) || is_picture ||
            std::find(names.begin(), names.end(), name) != names.end();
 }
 

@@ -1,6 +1,7 @@
 #include "ui/sweep/split_flight.h"
 
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -8,8 +9,10 @@
 #include "ui/report/frame_csv.h"
 #include "ui/report/json_text.h"
 #include "ui/report/kernel_counters.h"
+#include "ui/report/overruns.h"
 #include "ui/report/png_file.h"
 #include "ui/report/recording.h"
+#include "ui/report/slow_pictures.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_check.h"
 #include "ui/settings/settings_file.h"
@@ -21,6 +24,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::sweep {
 
@@ -161,11 +165,13 @@ public:
             add(part, *row, video);
         }
         before_ = &part;
+        folders_.push_back(part.folder);
     }
 
     void finish(const PartFile& last) {
         const auto states = report::read_run_file(last.folder / "run.json").state_hash;
         recording_.finish({std::stoull(states, nullptr, 16), picture_hash_.value(), {}});
+        copy_slow_pictures();
     }
 
 private:
@@ -186,7 +192,22 @@ private:
         if (picture_every_ > 0 && row.frame % picture_every_ == 0) {
             copy_into(from, picture);
         }
+        slow_.add(row);
         video.add(from, rate_hz_);
+    }
+
+    /// Those of the whole flight's slowest frames: each is among the slowest of its part.
+    void copy_slow_pictures() const {
+        std::vector<report::Overrun> slowest = slow_.slowest();
+        slowest.resize(std::min(slowest.size(), report::SlowPictures::most_kept));
+        for (const report::Overrun& frame : slowest) {
+            const std::string name = report::slow_picture_name(frame.record.frame);
+            const auto part = std::ranges::find_if(
+                folders_, [&](const fs::path& folder) { return is_file(folder / name); });
+            if (picture_every_ > 0 && part != folders_.end()) {
+                copy_into(*part / name, recording_.folder() / name);
+            }
+        }
     }
 
     double rate_hz_;
@@ -195,6 +216,8 @@ private:
     Hash picture_hash_;
     std::optional<FrameRecord> last_;
     const PartFile* before_ = nullptr;
+    std::vector<fs::path> folders_; // of the parts so far
+    report::SlowFrames slow_;
 };
 
 /// run.json of the whole: what the first part's says, with the summary that stands in `file`.

@@ -3,6 +3,7 @@
 #include "flightpaths/toml_fields.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_words.h"
 
@@ -197,6 +198,17 @@ Axis Reader::axis_of(std::string_view name, const toml::node& node) const {
     return axis;
 }
 
+/// Throws Error for an aircraft or a path that is neither built in nor a file, as seen from the
+/// sweep's folder.
+void check_names(const fs::path& sweep_file, settings::RunSettings settings) {
+    settings::find_files_from(fs::absolute(sweep_file).parent_path(), settings);
+    for (const std::string& name : settings.path.aircraft) {
+        const settings::FlownAircraft flown = settings::flown_aircraft(name);
+        base::aircraft_file(flown.shape);
+        base::path_file(flown.path.value_or(settings.path.name), flown.shape);
+    }
+}
+
 /// In the order in which they stand in the file.
 std::vector<Axis> Reader::axes() const {
     std::vector<Axis> axes;
@@ -216,8 +228,8 @@ void Reader::set(
     settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
     try {
         settings::set_by_name(settings, name, words);
-        if (name == "aircraft") { // looked at here, where the line is known
-            std::ranges::for_each(settings.path.aircraft, settings::flown_aircraft);
+        if (name == "aircraft" || name == "path") { // looked at here, where the line is known
+            check_names(file_, settings);
         }
     } catch (const Error& fault) {
         error_at(file_, line, fault.what());

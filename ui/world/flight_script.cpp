@@ -42,7 +42,7 @@ void note_what_flies(
     if (is_built_in && sim::find_aircraft_kind(shape) == nullptr) {
         notes.push_back(fmt::format(
             "{} flies the {} path of {}, within its limits: only its own shape is known",
-            printable(shape),
+            printable(std::filesystem::path(shape).filename().string()),
             path,
             flown.name));
     }

@@ -4,6 +4,7 @@
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/slow_pictures.h"
 #include "ui/sweep/split_flight.h"
 
 #include <catch2/catch.hpp>
@@ -61,6 +62,8 @@ std::vector<std::string> rows_in(const fs::path& recording) {
     return rows;
 }
 
+constexpr std::size_t slow_pictures = ui::report::SlowPictures::most_kept;
+
 void check_same(const fs::path& whole, const fs::path& merged, std::size_t frames) {
     const auto one = ui::report::load_recording(whole);
     const auto other = ui::report::load_recording(merged);
@@ -73,6 +76,14 @@ void check_same(const fs::path& whole, const fs::path& merged, std::size_t frame
     REQUIRE(one.pictures.size() == other.pictures.size());
     for (std::size_t i = 0; i < one.pictures.size(); ++i) {
         CHECK(read_file(one.pictures[i]) == read_file(other.pictures[i]));
+    }
+    CHECK(other.slowest.size() == one.slowest.size());
+    for (const auto* recording : {&one, &other}) { // each has those of its own slowest frames
+        for (std::size_t i = 0; i < std::min(slow_pictures, recording->slowest.size()); ++i) {
+            const int frame = recording->slowest[i].record.frame;
+            const auto file = recording->folder / ui::report::slow_picture_name(frame);
+            CHECK(fs::exists(file) == !one.pictures.empty());
+        }
     }
     for (const char* name : {"track.csv", "track.acmi"}) {
         CHECK(read_file(whole / name) == read_file(merged / name));

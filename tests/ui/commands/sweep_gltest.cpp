@@ -61,6 +61,7 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     const tests::ProgramRun differs = run_octant(line);
     CHECK(differs.exit_code == 1);
     CHECK_THAT(differs.out, Contains("pictures of turn-500md-r1 on "));
+    CHECK_THAT(read_file(out / "report.html"), Contains("<td>pictures of turn-500md-r1 on "));
 }
 
 TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
@@ -75,7 +76,13 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.out, Contains("1 of 2 flights done"));
     CHECK_THAT(run.out, Contains("failed: nowhere.toml: ") && Contains("nowhere.toml: expected"));
-    CHECK_THAT(run.err, Contains("1 flights failed and are tried again"));
+    CHECK_THAT(run.err, Contains("flights that failed and are tried again: 1"));
+    CHECK_THAT(
+        read_file(made / "out/report.html"),
+        Contains("Flights that are not done") && Contains("<td>nowhere.toml</td>"));
+    write_file(file, "[settings]\nsize = \"64x48\"\npath = \"nowhere.toml\"\n");
+    CHECK(run_octant({"sweep", file, "--out", (made / "none").string()}).exit_code == 1);
+    CHECK_THAT(read_file(made / "none/report.html"), Contains("<td>faults</td>"));
     tests::check_refused(
         "sweep", {file, "--out", made.string()}, "expected an empty folder or that of a sweep");
     // Others have files of that name too.

@@ -4,6 +4,7 @@
 #include "ui/report/html_report.h"
 #include "ui/report/page_plot.h"
 #include "ui/report/recording.h"
+#include "ui/report/slow_pictures.h"
 
 #include <catch2/catch.hpp>
 
@@ -104,6 +105,29 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK(html_report(recordings, further) == page);
 }
 
+TEST_CASE("the four slowest frames of a flight are shown by their own pictures") {
+    const ScratchFolder scratch;
+    LoadedRecording recording = made_up_recording(scratch / "one", "flight", 5.0);
+    CHECK_THAT(html_report(std::span(&recording, 1)), Contains(" ms: nearest picture, "));
+    SlowPictures pictures;
+    for (const int frame : {1, 17, 20, 18, 19}) { // 1 is of the warm-up
+        FrameRecord record = made_up_frame(frame, 5.0);
+        record.frame_ms = frame == 1 ? 99.0 : frame;
+        pictures.add(record, made_up_picture(8, 4, 4).view());
+    }
+    pictures.add(made_up_frame(21, 1.0), made_up_picture(8, 4, 4).view());
+    pictures.write(scratch / "one");
+    for (int frame = 0; frame < 30; ++frame) {
+        const bool is_kept = frame >= 17 && frame <= 20;
+        CHECK(std::filesystem::exists((scratch / "one") / slow_picture_name(frame)) == is_kept);
+    }
+    recording.slowest.resize(1);
+    REQUIRE(recording.slowest.front().record.frame == 20);
+    CHECK_THAT(
+        html_report(std::span(&recording, 1)),
+        Contains(" ms</figcaption>") && !Contains(": nearest picture"));
+}
+
 TEST_CASE("several flights stand in a table, and those of the same flight are compared") {
     const ScratchFolder scratch;
     std::vector recordings{
@@ -142,8 +166,16 @@ TEST_CASE("a change that repeats bear out is marked, and a long study stays smal
     }
     const std::string page = html_report(recordings);
     CHECK_THAT(page, Contains("<td class=\"worse\">+11.7 % ("));
+    CHECK_THAT(page, Contains("12 of 200 runs"));
+    const std::size_t overlaid = page.find("Frame time of each run");
+    REQUIRE(overlaid != std::string::npos);
+    const std::string curves = page.substr(overlaid, page.find("</script>", overlaid) - overlaid);
+    CHECK_THAT(curves, Contains("run-10\"") && Contains("run-11\"") && !Contains("run-12\""));
     CHECK(count_of(page, "class=\"plot small\"") == 200);
     CHECK(count_of(page, "data:image/png;base64,") == 24);
+    recordings[1].run.noise = {"Other programs used 50 % of the processor time."};
+    const std::string noisy = html_report(recordings);
+    CHECK_THAT(noisy, Contains("<td class=\"\">+11.7 % (") && Contains("Beside noisy runs"));
     CHECK(page.size() < 3'000'000);
 }
 

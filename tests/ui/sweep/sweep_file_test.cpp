@@ -113,6 +113,9 @@ TEST_CASE("a sweep's faults are told by file and line") {
     check_refused("repeats = 0", ":1: repeats: expected a whole number from 1 to 1000");
     check_refused("[settings]\nsize = \"64\"", ":2: size: expected");
     check_refused("[vary]\naircraft = [\"=f15\"]", ":2: aircraft: expected NAME=PATH");
+    check_refused("[vary]\naircraft = [\"f15\", \"f16\"]", ":2: aircraft: expected f15, 500md");
+    check_refused("[vary]\naircraft = [\"f15=loop\"]", ":2: path: expected straight, jinking");
+    check_refused("[settings]\n\npath = \"loop\"", ":3: path: expected straight, jinking");
     check_refused("[settings]\nwings = 2", ":2: wings: expected the name of a setting");
     check_refused("[vary]\npath = \"turn\"", ":2: path: expected a list, a range or named groups");
     check_refused("[vary]\npath = []", ":2: path: expected values, got none");

@@ -1,0 +1,37 @@
+#include "ui/report/slow_pictures.h"
+
+#include "ui/report/contact_sheet.h"
+#include "ui/report/frame_csv.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace octant::ui::report {
+
+std::string slow_picture_name(int frame) {
+    return fmt::format("slow-{:05}.png", frame);
+}
+
+/// Of frames that took as long as each other the first ones are kept, as SlowFrames does.
+void SlowPictures::add(const FrameRecord& record, const PictureView& picture) {
+    constexpr int widest_px = 640;
+    if (record.warm_up) {
+        return;
+    }
+    const FrameRecord written = as_written(record);
+    const auto place = std::ranges::find_if(
+        kept_, [&](const Kept& kept) { return kept.record.frame_ms < written.frame_ms; });
+    if (place == kept_.end() && kept_.size() == most_kept) {
+        return;
+    }
+    kept_.insert(place, {written, shrunk(picture, widest_px)});
+    kept_.resize(std::min(kept_.size(), most_kept));
+}
+
+void SlowPictures::write(const std::filesystem::path& folder) const {
+    for (const Kept& kept : kept_) {
+        write_png(folder / slow_picture_name(kept.record.frame), kept.picture.view());
+    }
+}
+
+} // namespace octant::ui::report

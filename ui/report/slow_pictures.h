@@ -1,0 +1,40 @@
+#pragma once
+
+#include "ui/report/frame_record.h"
+#include "ui/report/png_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace octant::ui::report {
+
+/// The name of a slow frame's picture in a recording: slow-00042.png.
+std::string slow_picture_name(int frame);
+
+/// Small pictures of the slowest frames of a flight, those of its warm-up left out, while it is
+/// flown; in constant memory.
+class SlowPictures {
+public:
+    /// As many of the slowest frames as a report shows.
+    static constexpr std::size_t most_kept = 4;
+
+    /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must
+    /// hold.
+    void add(const FrameRecord& record, const PictureView& picture);
+
+    /// Writes each of them into the folder by its name. Throws Error (disk full).
+    void write(const std::filesystem::path& folder) const;
+
+private:
+    struct Kept {
+        FrameRecord record;
+        Picture picture;
+    };
+
+    /// The slowest first.
+    std::vector<Kept> kept_;
+};
+
+} // namespace octant::ui::report
