@@ -91,7 +91,7 @@ std::optional<double> vertical_unit_m(SystemHandle system) {
 /// Metres a unit of the band: as it says, else as its system says, else as `given`, else 1.
 double unit_m_of(const path& file, const OpenRaster& raster, const std::optional<double>& given) {
     std::string unit = GDALGetRasterUnitType(raster.band);
-    if (unit == "unspecified" || unit == "unknown") {
+    if (unit == "unspecified" || unit == "unknown" || unit == "-") {
         unit.clear();
     }
     const auto named = unit.empty() ? vertical_unit_m(raster.system) : metres_from_unit(unit);
@@ -243,7 +243,8 @@ void check_height(const path& file, double height_m) {
         error_in(
             file,
             fmt::format(
-                "expected heights from {:g} to {:g} m, got {:g} m",
+                "expected heights from {:g} to {:g} m, got {:g} m: --height-scale says how many "
+                "metres a unit is, where the file does not",
                 lowest_import_m,
                 highest_import_m,
                 height_m));

@@ -171,14 +171,13 @@ TEST_CASE("a field without any height is refused") {
 }
 
 TEST_CASE("heights that no ground has are refused") {
-    check_raster_refused(
-        flat(4, 4, 9000.5), "expected heights from -12000 to 9000 m, got 9000.5 m");
-    check_raster_refused(
-        flat(4, 4, -12001.0), "expected heights from -12000 to 9000 m, got -12001 m");
-    check_text_refused(
-        "bright.pgm",
-        "P2 2 2 65535 1 2 3 65535",
-        "expected heights from -12000 to 9000 m, got 65535 m");
+    const auto message = [](const std::string& got) {
+        return "expected heights from -12000 to 9000 m, got " + got +
+               " m: --height-scale says how many metres a unit is, where the file does not";
+    };
+    check_raster_refused(flat(4, 4, 9000.5), message("9000.5"));
+    check_raster_refused(flat(4, 4, -12001.0), message("-12001"));
+    check_text_refused("bright.pgm", "P2 2 2 65535 1 2 3 65535", message("65535"));
 }
 
 TEST_CASE("sizes that are too small or too large are refused before anything is read") {

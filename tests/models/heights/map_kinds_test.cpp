@@ -150,7 +150,7 @@ TEST_CASE(
     CHECK(std::abs(over.place->longitude_deg) == Approx(180.0).margin(0.01));
 }
 
-TEST_CASE("heights in feet, fathoms and units by option become metres") {
+TEST_CASE("heights in feet, fathoms, no unit and units by option become metres") {
     RasterFile raster = metric_hills();
     raster.system = "EPSG:32610+6360"; // NAVD 88 in US survey feet
     const path file = scratch_file("compound.tif");
@@ -165,6 +165,10 @@ TEST_CASE("heights in feet, fathoms and units by option become metres") {
     raster.unit = "fathom";
     write_raster(file, "GTiff", raster);
     CHECK(read_height_field(file).height_m(0, 0) == Approx(south_west * 1.8288));
+    raster.unit = "-";
+    write_raster(file, "GTiff", raster);
+    CHECK(read_height_field(file).height_m(0, 0) == Approx(south_west));
+    CHECK(read_height_field(file, options).height_m(0, 0) == Approx(south_west * 0.3048));
     raster.unit = "smoot";
     write_raster(file, "GTiff", raster);
     options.height_scale = 1.7018;
