@@ -1,6 +1,7 @@
 #include "flightpaths/acmi_tape.h"
 
 #include "flightpaths/acmi_text.h"
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/motion_fill.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
@@ -62,7 +63,7 @@ double span_s(const std::vector<TapedPlace>& places) {
     return places.back().time_s - places.front().time_s;
 }
 
-sim::AircraftState state_of(const TapedPlace& place, const GeoOrigin& origin, double begin_s) {
+sim::AircraftState state_of(const TapedPlace& place, const GeoPlace& origin, double begin_s) {
     sim::AircraftState state;
     state.time_s = place.time_s - begin_s;
     const glm::dvec2 at_m = local_from_geo(origin, place.latitude_deg, place.longitude_deg);
@@ -78,7 +79,7 @@ sim::AircraftState state_of(const TapedPlace& place, const GeoOrigin& origin, do
 std::optional<sim::Trajectory> trajectory_of(
     const std::vector<TapedPlace>& places,
     bool has_attitude,
-    const GeoOrigin& origin,
+    const GeoPlace& origin,
     double begin_s,
     Omitted& omitted) {
     std::vector<sim::AircraftState> samples;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flightpaths/local_tangent.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct TapedAircraft {
 struct AcmiTape {
     /// The one seen longest comes first, the others in the order in which they appear. Not empty.
     std::vector<TapedAircraft> aircraft;
-    GeoOrigin origin; ///< where the first one is seen first
+    GeoPlace origin; ///< where the first one is seen first
     /// What was left out, and why, a line each.
     std::vector<std::string> notes;
 };

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 
 #include <string>
@@ -27,7 +27,7 @@ struct AcmiHeader {
     /// The row of the aircraft, which says what Tacview calls it; null where it has none.
     const sim::AircraftKind* kind = nullptr;
     std::string aircraft; ///< the name of an aircraft without a row
-    GeoOrigin origin;     ///< where the world's origin lies on the earth
+    GeoPlace origin;      ///< where the world's origin lies on the earth
     std::vector<LegBegin> bookmarks;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/links/fix.h"
 #include "sim/links/live_vehicle.h"
 #include "ui/world/world.h"
@@ -39,7 +40,7 @@ public:
     glm::dvec3 world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
 
     /// Where the world's origin lies on the earth; nothing until that is known.
-    const std::optional<models::heights::GeoPlace>& origin() const { return origin_; }
+    const std::optional<GeoPlace>& origin() const { return origin_; }
 
     LiveHeight height() const { return height_; }
 
@@ -54,7 +55,7 @@ private:
     const world::World& world_;
     bool height_is_chosen_;
     LiveHeight height_;
-    std::optional<models::heights::GeoPlace> origin_;
+    std::optional<GeoPlace> origin_;
     std::map<sim::links::VehicleKey, double> offsets_m_;
     bool off_the_map_ = false;
     double their_ground_m_ = 0.0; ///< of the newest fix

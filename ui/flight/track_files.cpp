@@ -51,7 +51,7 @@ std::string_view flown_part(std::string_view text, std::size_t begin, double unt
 flightpaths::AcmiHeader acmi_header(
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin) {
+    const std::optional<GeoPlace>& origin) {
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.kind = world.leader_kind;
@@ -62,7 +62,7 @@ flightpaths::AcmiHeader acmi_header(
         }
     }
     if (origin) {
-        header.origin = {origin->latitude_deg, origin->longitude_deg};
+        header.origin = *origin;
     }
     return header;
 }
@@ -73,7 +73,7 @@ void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin) {
+    const std::optional<GeoPlace>& origin) {
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
     write_file(
         folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, origin)));

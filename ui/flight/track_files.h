@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/base/output_file.h"
 #include "ui/world/world.h"
 
@@ -21,7 +22,7 @@ void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin);
+    const std::optional<GeoPlace>& origin);
 
 /// The tracks of a flight along the world's path while it is flown: at any time the files hold what
 /// has been flown, so that those of a killed flight go no further than it came.

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_limits.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 
@@ -17,8 +17,8 @@ struct FlightScript {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
-    std::optional<sim::AircraftLimits> limits;    ///< of what flies, where they are known
-    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
+    std::optional<sim::AircraftLimits> limits; ///< of what flies, where they are known
+    std::optional<GeoPlace> origin;            ///< of a track that knows where it was flown
     std::vector<flightpaths::LegBegin> legs;
     std::vector<std::string> notes;
     /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its

@@ -57,7 +57,7 @@ Pair pair_of(const std::string& text) {
     return {first->value, second->value, first->letter != '\0'};
 }
 
-std::optional<models::heights::GeoPlace> place_of(const settings::PathSettings& settings) {
+std::optional<GeoPlace> place_of(const settings::PathSettings& settings) {
     const std::string& terrain = settings.terrain;
     if (settings::is_built_in_ground(terrain)) {
         return std::nullopt;
@@ -81,7 +81,7 @@ void check_place(const settings::PathSettings& settings) {
 
 glm::dvec2 place_from_text(
     const std::string& text,
-    const std::optional<models::heights::GeoPlace>& map_place,
+    const std::optional<GeoPlace>& map_place,
     const glm::dvec2& half_extent_m) {
     const Pair pair = pair_of(text);
     const glm::dvec2 as_metres(pair.first, pair.second);
@@ -98,8 +98,7 @@ glm::dvec2 place_from_text(
         }
         return as_metres;
     }
-    const glm::dvec2 local_m = flightpaths::local_from_geo(
-        {map_place->latitude_deg, map_place->longitude_deg}, pair.first, pair.second);
+    const glm::dvec2 local_m = flightpaths::local_from_geo(*map_place, pair.first, pair.second);
     const bool on_map =
         std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
     return pair.lettered || on_map ? local_m : as_metres;

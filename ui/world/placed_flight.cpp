@@ -1,5 +1,6 @@
 #include "ui/world/placed_flight.h"
 
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/placement.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -17,18 +18,6 @@ namespace octant::ui::world {
 
 namespace {
 
-flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
-    switch (mode) {
-    case settings::HeightMode::Clear:
-        return flightpaths::HeightMode::Clear;
-    case settings::HeightMode::Follow:
-        return flightpaths::HeightMode::Follow;
-    case settings::HeightMode::Datum:
-        break;
-    }
-    return flightpaths::HeightMode::Datum;
-}
-
 flightpaths::Placement placement_of(
     const settings::RunSettings& settings, const FlightScript& script, const SceneGround& ground) {
     flightpaths::Placement placement;
@@ -38,17 +27,15 @@ flightpaths::Placement placement_of(
         placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = flightpaths::local_from_geo(
-            {ground.place->latitude_deg, ground.place->longitude_deg},
-            script.origin->latitude_deg,
-            script.origin->longitude_deg);
+            *ground.place, script.origin->latitude_deg, script.origin->longitude_deg);
         placement.heading_rad = 0.0;
     }
     if (settings.path.heading_deg) {
         placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
     }
-    placement.mode = placement_mode(settings.path.height_mode.value_or(
-        at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
-    if (placement.mode == flightpaths::HeightMode::Follow && !script.limits) {
+    placement.mode = settings.path.height_mode.value_or(
+        at_its_own_place ? sim::HeightMode::Datum : sim::HeightMode::Clear);
+    if (placement.mode == sim::HeightMode::Follow && !script.limits) {
         throw Error(fmt::format(
             "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
             "got '{}'",
@@ -61,7 +48,7 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-flightpaths::GroundHeight heights_of(const SceneGround& ground) {
+GroundHeight heights_of(const SceneGround& ground) {
     return [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); };
 }
 
@@ -70,12 +57,12 @@ flightpaths::GroundHeight heights_of(const SceneGround& ground) {
 flightpaths::PlacedPath
 placed(const FlightScript& script, flightpaths::Placement placement, const SceneGround& ground) {
     const auto heights = heights_of(ground);
-    if (!script.is_tape || placement.mode != flightpaths::HeightMode::Datum) {
+    if (!script.is_tape || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
             script.trajectory, placement, heights, script.min_clearance_m, script.limits);
     }
     constexpr double least_m = 2.0;
-    placement.mode = flightpaths::HeightMode::Clear;
+    placement.mode = sim::HeightMode::Clear;
     flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
         script.trajectory, placement, heights, least_m, script.limits);
     if (lifted.offset_m > 0.0) {
@@ -84,7 +71,7 @@ placed(const FlightScript& script, flightpaths::Placement placement, const Scene
             lifted.offset_m));
         return lifted;
     }
-    placement.mode = flightpaths::HeightMode::Datum;
+    placement.mode = sim::HeightMode::Datum;
     return flightpaths::place_over_ground(
         script.trajectory, placement, heights, script.min_clearance_m, script.limits);
 }

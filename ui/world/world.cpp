@@ -203,7 +203,7 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
     if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) {
         return points;
     }
-    const scene::GroundHeight ground = [&](double x_m, double y_m) {
+    const GroundHeight ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };
     std::vector<sim::AircraftState> flight;

@@ -61,6 +61,11 @@ double focal_px(const Camera& camera, int picture_height_px) {
     return up_px / std::min(camera.pixel_aspect, 1.0);
 }
 
+glm::dquat body_from_view() {
+    return glm::quat_cast(glm::dmat3(
+        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0)));
+}
+
 glm::dvec3 ahead_of(const Camera& camera) {
     return camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0);
 }

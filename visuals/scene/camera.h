@@ -28,6 +28,10 @@ struct Camera {
 /// at itself, it looks north.
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
 
+/// Rotation from the view axes of a camera that looks ahead in a body (right, up, back) to that
+/// body's own (ahead, right, down).
+glm::dquat body_from_view();
+
 /// Rotation part of the view: eye-relative world vectors to view axes.
 glm::mat4 world_to_view(const Camera& camera);
 

@@ -95,10 +95,7 @@ cockpit(const sim::AircraftState& state, const Subject& subject, const GroundHei
     Camera camera;
     camera.eye_m = state.position_m + state.body_to_world * subject.pilot_eye_m;
     lift_above_ground(camera.eye_m, ground);
-    // View axes x right, y up, -z ahead in body axes x forward, y right, z down.
-    static const glm::dquat view_to_body =
-        glm::quat_cast(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)));
-    camera.view_to_world = glm::normalize(state.body_to_world * view_to_body);
+    camera.view_to_world = glm::normalize(state.body_to_world * body_from_view());
     camera.near_m = 0.15;
     return camera;
 }
