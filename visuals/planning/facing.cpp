@@ -1,5 +1,7 @@
 #include "visuals/planning/facing.h"
 
+#include "visuals/scene/screen_step.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

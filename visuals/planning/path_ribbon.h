@@ -2,7 +2,7 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/planning/aircraft_hull.h"
-#include "visuals/planning/flown_path.h"
+#include "visuals/planning/drawn_path.h"
 #include "visuals/planning/veils.h"
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RibbonView {
 class PathRibbon {
 public:
     /// The path must outlive the ribbon.
-    explicit PathRibbon(const FlownPath& path);
+    explicit PathRibbon(const DrawnPath& path);
 
     struct Dash {
         HullBox box; ///< holds it; eye at the origin
@@ -49,7 +49,7 @@ private:
     void add_dash(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
     void add_piece(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
 
-    const FlownPath& path_;
+    const DrawnPath& path_;
     std::size_t points_a_dash_ = 1;
     std::vector<Dash> dashes_;
     std::vector<models::ColourVertex> vertices_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/planning/frame_view.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -7,7 +8,6 @@
 
 #include <glm/mat4x4.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,6 @@
 #include <vector>
 
 namespace octant::visuals::planning {
-
-/// What an aircraft is refined for. World axes with the eye at the origin.
-struct RefineLook {
-    std::array<glm::dvec3, 4> frustum{}; ///< frustum_normals
-    glm::dvec3 ahead{0.0, 1.0, 0.0};     ///< unit vector
-    double pixel_rad = 0.001;
-};
 
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
 /// memory; what stays from frame to frame is not worked out again.
@@ -36,7 +29,7 @@ public:
     /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame
     /// before, so it is made fit at once.
     refine::RefinedFrame
-    update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first);
+    update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
 
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 

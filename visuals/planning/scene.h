@@ -3,7 +3,7 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
-#include "visuals/planning/flown_path.h"
+#include "visuals/planning/drawn_path.h"
 #include "visuals/scene/ground_texture.h"
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct Scene {
     std::vector<FarModel> far_models;     ///< for some of the models
     std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
     overlay::InstrumentLayout dials;      ///< of that cockpit
-    std::shared_ptr<const FlownPath> path = nullptr; ///< the first aircraft's, where one is known
+    std::shared_ptr<const DrawnPath> path = nullptr; ///< the first aircraft's, where one is known
 
     const AircraftModel& model_of(std::size_t number) const { return *models[aircraft[number]]; }
 

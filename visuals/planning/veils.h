@@ -20,8 +20,8 @@ struct VeilRange {
     std::size_t count = 0;
 };
 
-/// Clear triangles of a frame on their way into the picture: seen through the haze, cut at the
-/// view's edges and placed. Keeps its memory.
+/// Transparent triangles of a frame on their way into the picture: seen through the haze, cut at
+/// the view's edges and placed. Keeps its memory.
 class Veils {
 public:
     /// Forgets the last frame. The haze must outlive the frame.

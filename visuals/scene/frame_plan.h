@@ -60,9 +60,6 @@ struct TriangleDraw {
     std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
 };
 
-/// What renderers round screen positions to: 1/256 pixel.
-inline constexpr double screen_step_px = 1.0 / 256.0;
-
 /// A corner of what is drawn over the picture.
 struct OverlayVertex {
     glm::vec2 at_px{0.0F}; ///< from the picture's upper left corner

@@ -13,7 +13,7 @@ namespace octant::visuals::planning {
 
 /// The path of an aircraft as it is drawn: points at even times, and where its legs begin. World
 /// axes.
-struct FlownPath {
+struct DrawnPath {
     struct Point {
         glm::dvec3 position_m{0.0};
         glm::dvec3 right{1.0, 0.0, 0.0}; ///< unit vector along the wings
@@ -40,6 +40,6 @@ struct NamedTime {
 };
 
 /// The path of a trajectory. Long ones have fewer points a second.
-FlownPath flown_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs);
+DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs);
 
 } // namespace octant::visuals::planning

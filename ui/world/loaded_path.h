@@ -12,8 +12,8 @@
 
 namespace octant::ui::world {
 
-/// A path before it is laid over ground.
-struct FlightScript {
+/// A path or a recorded track as its file gives it, before it is laid over ground.
+struct LoadedPath {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
@@ -29,6 +29,6 @@ struct FlightScript {
 };
 
 /// What an aircraft of this shape flies by a path's name or file. Throws Error.
-FlightScript load_script(const std::string& path, const std::string& shape, bool lenient);
+LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
 
 } // namespace octant::ui::world
