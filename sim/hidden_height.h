@@ -6,4 +6,9 @@ namespace octant::sim {
 /// so far below any ground that no view shows it.
 inline constexpr double hidden_height_m = -1e5;
 
+/// Whether an aircraft at this height is not there, and nothing of it is to be drawn.
+inline bool is_hidden_at(double height_m) {
+    return height_m <= hidden_height_m;
+}
+
 } // namespace octant::sim

@@ -1,5 +1,6 @@
 #include "visuals/planning/fleet.h"
 
+#include "sim/hidden_height.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/planning/mesh_levels.h"
 
@@ -110,6 +111,7 @@ void Fleet::place(
     const glm::dvec3& eye_m = view.camera.eye_m;
     for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
         const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
+        placed_[i].is_hidden = sim::is_hidden_at(aircraft.states[i].position_m.z);
         place(placed_[i], state, aircraft.turned, view);
         hulls_[i] = hull_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
     }
@@ -193,7 +195,7 @@ void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
     }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
-    if (!scene::in_view(place_m, radius_m, view.frustum)) {
+    if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
         aircraft.representation = model.as_polygons();
         aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
         return;
@@ -206,11 +208,15 @@ void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
     aircraft.is_represented = true;
 }
 
-/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh nothing.
+/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not
+/// there nothing.
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
+    if (aircraft.is_hidden) {
+        return;
+    }
     if (is_mesh(aircraft)) {
         if (!is_refined(aircraft)) {
             aircraft.ranges.push_back(model.levels[aircraft.representation].range);

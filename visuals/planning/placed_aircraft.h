@@ -34,6 +34,7 @@ struct PlacedAircraft {
     int polygon_count = 0;       ///< of all ranges; of a refined mesh its triangles
     int cell = 0;                ///< of the draw order, in which the eye is; 0 where it has parts
     bool is_represented = false; ///< in the last frame, in view
+    bool is_hidden = false;      ///< it is not there: nothing of it is drawn
     std::size_t representation = 0; ///< index into AircraftModel::errors_m
     std::uint32_t first_smooth = 0; ///< as AircraftDraw::first_smooth
     scene::Tints tints{};

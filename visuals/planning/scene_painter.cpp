@@ -67,7 +67,7 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
     // What is refined comes apart, so that all others become one step.
     for (const bool refined : {false, true}) {
         for (const std::uint32_t i : near_to_far_) {
-            if (is_refined(placed[i]) == refined) {
+            if (is_refined(placed[i]) == refined && !placed[i].is_hidden) {
                 paint(frame, placed[i], scene::DepthUse::Nearest);
             }
         }
@@ -79,7 +79,9 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
     steps_.add_shadows_by_depth(frame.ground);
     steps_.add_sky(scene::DepthUse::InfinitelyFar);
     for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
-        paint_transparent(frame, placed[*i]);
+        if (!placed[*i].is_hidden) {
+            paint_transparent(frame, placed[*i]);
+        }
     }
 }
 
@@ -122,10 +124,10 @@ void ScenePainter::take_members(const FrameScene& frame, const Knot& knot) {
     members_.clear();
     knot_dashes_.clear();
     for (const std::uint32_t member : order_.members(knot)) {
-        if (member < frame.fleet.hulls().size()) {
-            members_.push_back(&frame.fleet.placed()[member]);
-        } else {
+        if (member >= frame.fleet.hulls().size()) {
             knot_dashes_.push_back(member);
+        } else if (!frame.fleet.placed()[member].is_hidden) {
+            members_.push_back(&frame.fleet.placed()[member]);
         }
     }
 }
@@ -133,6 +135,9 @@ void ScenePainter::take_members(const FrameScene& frame, const Knot& knot) {
 /// Paints a knot and again what lies before it; nothing again where it is out of view.
 void ScenePainter::paint_knot(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
     take_members(frame, knot);
+    if (members_.empty() && knot_dashes_.empty()) {
+        return;
+    }
     if (!in_view(knot.box, frame.view)) {
         for (const PlacedAircraft* member : members_) {
             steps_.add(draw_of(*member));
