@@ -14,7 +14,8 @@ namespace {
 /// The picture's plane at distance 1 from the eye: right and up.
 struct Plane {
     glm::dvec2 middle{0.0};
-    glm::dvec2 half{1.0}; ///< of its sides
+    /// Half of its sides.
+    glm::dvec2 half{1.0};
 };
 
 Plane plane_of(const Camera& camera, double aspect) {

@@ -14,7 +14,8 @@ struct Camera {
     glm::dvec3 eye_m{0.0};
     /// View axes are as in OpenGL: x right, y up, -z ahead.
     glm::dquat view_to_world{1.0, 0.0, 0.0, 0.0};
-    double vertical_fov_rad = 0.785398163397448; ///< 45 degrees
+    /// Usually 45 degrees.
+    double vertical_fov_rad = 0.785398163397448;
     double near_m = 0.5;
     /// Where the middle of the picture's plane lies right of and above straight ahead, in units of
     /// its distance; the plane stays square to straight ahead. The field of view is that of a
