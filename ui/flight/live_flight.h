@@ -105,7 +105,8 @@ private:
     /// Which aircraft shows a vehicle.
     struct Place {
         std::size_t aircraft = 0;
-        std::optional<std::uint16_t> type; ///< of an entity
+        /// The type of an entity; nothing for other vehicles.
+        std::optional<std::uint16_t> type;
     };
 
     std::optional<std::uint16_t> shown_view() const;
@@ -124,10 +125,13 @@ private:
     CigiOverWorld cigi_ground_;
     sim::links::LiveTraffic traffic_;
     sim::links::TrafficCounts counted_;
-    double newest_s_ = -1.0;    ///< packet of the last frame
-    std::vector<Place> places_; ///< of the vehicles that are shown
+    /// The time of the newest packet in the last frame.
+    double newest_s_ = -1.0;
+    /// By vehicle, as far as they are shown.
+    std::vector<Place> places_;
     std::vector<visuals::planning::TurnedPart> turned_;
-    double aspect_ = 1.0; ///< of the pictures
+    /// Width over height of the pictures.
+    double aspect_ = 1.0;
     std::vector<sim::AircraftState> of_vehicles_;
 };
 

@@ -17,9 +17,12 @@ namespace octant::ui::flight {
 
 /// Whose heights count where senders bring a ground of their own.
 enum class LiveHeight {
-    Msl,   ///< theirs above the sea
-    Agl,   ///< theirs above ground, over ours
-    Offset ///< theirs above the sea, moved once so that the first fix is as high above our ground
+    /// Theirs above the sea.
+    Msl,
+    /// Theirs above ground, over ours.
+    Agl,
+    /// Theirs above the sea, moved once so that the first fix is as high above our ground.
+    Offset
 };
 
 inline constexpr std::string_view live_height_names = "msl, agl or offset";
@@ -58,7 +61,8 @@ private:
     std::optional<GeoPlace> origin_;
     std::map<sim::links::VehicleKey, double> offsets_m_;
     bool off_the_map_ = false;
-    double their_ground_m_ = 0.0; ///< of the newest fix
+    /// The heights of their ground and of ours at the newest fix.
+    double their_ground_m_ = 0.0;
     double our_ground_m_ = 0.0;
     bool grounds_differ_ = false;
 };

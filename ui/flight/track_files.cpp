@@ -14,7 +14,8 @@ namespace octant::ui::flight {
 
 namespace {
 
-constexpr double rounding_s = 1e-6; ///< times in files have six decimals at the least
+/// Times in files have six decimals at the least.
+constexpr double rounding_s = 1e-6;
 
 sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());

@@ -38,11 +38,13 @@ public:
 private:
     struct Track {
         GrowingFile file;
-        std::string text; ///< of the whole path
+        /// Of the whole path.
+        std::string text;
         std::size_t written = 0;
     };
 
-    std::array<Track, 2> tracks_; ///< track.csv, track.acmi
+    /// Those of track.csv and track.acmi.
+    std::array<Track, 2> tracks_;
     std::optional<double> flushed_s_;
 };
 

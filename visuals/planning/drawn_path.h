@@ -16,7 +16,8 @@ namespace octant::visuals::planning {
 struct DrawnPath {
     struct Point {
         glm::dvec3 position_m{0.0};
-        glm::dvec3 right{1.0, 0.0, 0.0}; ///< unit vector along the wings
+        /// A unit vector along the wings.
+        glm::dvec3 right{1.0, 0.0, 0.0};
     };
 
     struct Leg {
@@ -24,10 +25,12 @@ struct DrawnPath {
         std::string name;
     };
 
-    double first_s = 0.0; ///< of the first point
-    double step_s = 0.1;  ///< from one point to the next
+    /// The time of the first point, and from one point to the next.
+    double first_s = 0.0;
+    double step_s = 0.1;
     std::vector<Point> points;
-    std::vector<Leg> legs; ///< by time
+    /// By the times at which they begin.
+    std::vector<Leg> legs;
 
     /// Time of a point.
     double time_s(std::size_t point) const { return first_s + step_s * static_cast<double>(point); }

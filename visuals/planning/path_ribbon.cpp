@@ -12,10 +12,12 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr std::size_t most_dashes = 80;
-constexpr double dash_s = 1.0; ///< where that are not too many
+/// Where that are not too many dashes.
+constexpr double dash_s = 1.0;
 constexpr double box_margin_m = 0.2;
 constexpr double farthest_m = 40000.0;
-constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U}; ///< amber, cyan
+/// Amber and cyan.
+constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U};
 constexpr std::uint32_t flown_alpha = 0xd0U;
 constexpr std::uint32_t coming_alpha = 0x68U;
 

@@ -14,7 +14,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
+/// The bit of RefinedDraw::first_smooth that flat triangles have.
+constexpr std::uint32_t flat_polygon = 1;
 
 float part_of(std::uint32_t colour, unsigned shift) {
     return static_cast<float>(colour >> shift & 0xffU);

@@ -52,14 +52,21 @@ private:
     refine::ViewRefiner refiner_;
     shading::ChangingMeshSelector selector_;
     bool shows_levels_;
-    bool choosing_ = false;      ///< some triangles are smooth and some are not
-    bool all_flat_ = false;      ///< whether all are flat, where none is chosen
-    bool front_changed_ = true;  ///< since the selector has seen it
-    bool drawn_changed_ = true;  ///< since draw()
-    std::size_t slot_count_ = 0; ///< of vertices_; those of flat triangles lie behind
+    /// Whether some triangles are smooth and some are not.
+    bool choosing_ = false;
+    /// Whether all are flat, where none is chosen.
+    bool all_flat_ = false;
+    /// Whether the front has changed since the selector has seen it.
+    bool front_changed_ = true;
+    /// Whether anything has changed since draw().
+    bool drawn_changed_ = true;
+    /// How many of vertices_ are slots of the front; those of flat triangles lie behind them.
+    std::size_t slot_count_ = 0;
     std::vector<scene::ModelVertex> vertices_;
-    std::vector<shading::LitPoint> points_; ///< one a slot
-    std::vector<std::uint32_t> labels_;     ///< one a place of the front's indices
+    /// One for each slot.
+    std::vector<shading::LitPoint> points_;
+    /// One for each place of the front's indices.
+    std::vector<std::uint32_t> labels_;
     std::vector<std::uint32_t> indices_;
     std::vector<refine::PlaceRange> ranges_;
 };
