@@ -27,10 +27,12 @@ constexpr double highest_m = 1e6;
 /// What is left out.
 struct Omitted {
     long samples = 0;
-    int once = 0; ///< objects
+    /// Objects that are seen once.
+    int once = 0;
     int far = 0;
     int many = 0;
-    int others = 0; ///< that are no aircraft
+    /// Objects that are no aircraft.
+    int others = 0;
 };
 
 bool flies(const TapedObject& object) {

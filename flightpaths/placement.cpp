@@ -56,7 +56,8 @@ std::string where(double time_s, const glm::dvec3& place_m) {
 /// Ground along a path, or where it leaves the map.
 struct GroundTrack {
     std::vector<double> heights_m;
-    std::optional<std::size_t> leaves_at; ///< index of the first place without ground
+    /// The index of the first place without ground.
+    std::optional<std::size_t> leaves_at;
 };
 
 GroundTrack ground_along(const std::vector<glm::dvec3>& places_m, const GroundHeight& ground) {

@@ -15,7 +15,8 @@
 namespace octant::flightpaths {
 
 struct Placement {
-    glm::dvec2 place_m{0.0}; ///< where the path's origin goes
+    /// Where the path's origin goes.
+    glm::dvec2 place_m{0.0};
     /// Turn of the whole path about its origin, clockwise; 0 keeps its north. Not given: that one
     /// of 24 headings (15 degrees apart) whose ground has the least height difference, the lowest
     /// heading among equals; headings that leave the map are passed over. If all 24 leave it, the
@@ -26,12 +27,15 @@ struct Placement {
 
 struct PlacedPath {
     sim::Trajectory trajectory;
-    double offset_m = 0.0; ///< added to every height; when following, the least that was added
+    /// What was added to every height; when following, the least that was added.
+    double offset_m = 0.0;
     double heading_rad = 0.0;
-    glm::dvec2 origin_m{0.0}; ///< where the path's origin came to lie
+    /// Where the path's origin came to lie.
+    glm::dvec2 origin_m{0.0};
     double lowest_clearance_m = 0.0;
     double lowest_clearance_at_s = 0.0;
-    std::vector<std::string> notes; ///< what was not done as wanted, a sentence each
+    /// What was not done as wanted, a sentence each.
+    std::vector<std::string> notes;
 };
 
 /// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin

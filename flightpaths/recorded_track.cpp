@@ -94,7 +94,8 @@ constexpr std::array<Known, 11> jsbsim_columns{{
 }};
 
 struct Column {
-    int field = -1; ///< -1: not there
+    /// Negative = it is not there.
+    int field = -1;
     std::string_view name;
 };
 

@@ -9,7 +9,8 @@
 namespace octant::flightpaths {
 
 struct RecordedTrack {
-    sim::Trajectory trajectory; ///< at least 2 samples
+    /// At least 2 samples.
+    sim::Trajectory trajectory;
     /// Where the local origin lies; set when the recording gives latitude and longitude. The first
     /// sample then is at x = y = 0; heights stay those of the recording, above datum.
     std::optional<GeoPlace> origin;

@@ -26,8 +26,10 @@ struct AcmiHeader {
     std::string title;
     /// The row of the aircraft, which says what Tacview calls it; null where it has none.
     const sim::AircraftKind* kind = nullptr;
-    std::string aircraft; ///< the name of an aircraft without a row
-    GeoPlace origin;      ///< where the world's origin lies on the earth
+    /// The name of an aircraft without a row.
+    std::string aircraft;
+    /// Where the world's origin lies on the earth.
+    GeoPlace origin;
     std::vector<LegBegin> bookmarks;
 };
 

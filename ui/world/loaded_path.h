@@ -17,8 +17,10 @@ struct LoadedPath {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
-    std::optional<sim::AircraftLimits> limits; ///< of what flies, where they are known
-    std::optional<GeoPlace> origin;            ///< of a track that knows where it was flown
+    /// Those of what flies, where they are known.
+    std::optional<sim::AircraftLimits> limits;
+    /// That of a track which knows where it was flown.
+    std::optional<GeoPlace> origin;
     std::vector<flightpaths::LegBegin> legs;
     std::vector<std::string> notes;
     /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its

@@ -23,7 +23,8 @@ namespace {
 
 struct Part {
     double value = 0.0;
-    char letter = '\0'; ///< N, S, E, W or none
+    /// N, S, E, W or none.
+    char letter = '\0';
 };
 
 std::optional<Part> part_of(std::string_view text, std::string_view letters) {
@@ -44,7 +45,8 @@ std::optional<Part> part_of(std::string_view text, std::string_view letters) {
 struct Pair {
     double first = 0.0;
     double second = 0.0;
-    bool lettered = false; ///< so these are degrees
+    /// Whether a letter says that these are degrees.
+    bool lettered = false;
 };
 
 Pair pair_of(const std::string& text) {

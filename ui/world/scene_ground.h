@@ -24,9 +24,12 @@ struct SceneGround {
     std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.
     std::shared_ptr<const visuals::scene::GroundTexture> texture;
-    std::string name;               ///< with its size, for people
-    std::optional<GeoPlace> place;  ///< nothing for made ground
-    std::vector<std::string> notes; ///< what a person should be told
+    /// With its size, for people.
+    std::string name;
+    /// Nothing for made ground.
+    std::optional<GeoPlace> place;
+    /// What a person should be told.
+    std::vector<std::string> notes;
 };
 
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
