@@ -1,6 +1,7 @@
 #include "flightpaths/acmi_tape.h"
 
 #include "flightpaths/acmi_text.h"
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/motion_fill.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
@@ -26,10 +27,12 @@ constexpr double highest_m = 1e6;
 /// What is left out.
 struct Omitted {
     long samples = 0;
-    int once = 0; ///< objects
+    /// Objects that are seen once.
+    int once = 0;
     int far = 0;
     int many = 0;
-    int others = 0; ///< that are no aircraft
+    /// Objects that are no aircraft.
+    int others = 0;
 };
 
 bool flies(const TapedObject& object) {
@@ -62,7 +65,7 @@ double span_s(const std::vector<TapedPlace>& places) {
     return places.back().time_s - places.front().time_s;
 }
 
-sim::AircraftState state_of(const TapedPlace& place, const GeoOrigin& origin, double begin_s) {
+sim::AircraftState state_of(const TapedPlace& place, const GeoPlace& origin, double begin_s) {
     sim::AircraftState state;
     state.time_s = place.time_s - begin_s;
     const glm::dvec2 at_m = local_from_geo(origin, place.latitude_deg, place.longitude_deg);
@@ -78,7 +81,7 @@ sim::AircraftState state_of(const TapedPlace& place, const GeoOrigin& origin, do
 std::optional<sim::Trajectory> trajectory_of(
     const std::vector<TapedPlace>& places,
     bool has_attitude,
-    const GeoOrigin& origin,
+    const GeoPlace& origin,
     double begin_s,
     Omitted& omitted) {
     std::vector<sim::AircraftState> samples;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flightpaths/local_tangent.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -13,15 +13,18 @@ namespace octant::flightpaths {
 /// An aircraft of a Tacview tape: at least 2 samples, in metres east, north and above the sea of
 /// the tape's origin, seconds since the first sample of any.
 struct TapedAircraft {
-    std::string name; ///< as the tape has it, empty where it has none
-    std::string type; ///< its tags, such as "Air+Rotorcraft"; empty where it has none
+    /// As the tape has it, empty where it has none.
+    std::string name;
+    /// Its tags, such as "Air+Rotorcraft"; empty where it has none.
+    std::string type;
     sim::Trajectory trajectory;
 };
 
 struct AcmiTape {
     /// The one seen longest comes first, the others in the order in which they appear. Not empty.
     std::vector<TapedAircraft> aircraft;
-    GeoOrigin origin; ///< where the first one is seen first
+    /// Where the first one is seen first.
+    GeoPlace origin;
     /// What was left out, and why, a line each.
     std::vector<std::string> notes;
 };

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double longest_s = 86400.0;
 constexpr std::size_t most_objects = 1000000;
-constexpr std::size_t most_places = 20000000; ///< of all objects
+/// The most places of all objects together.
+constexpr std::size_t most_places = 20000000;
 
 struct Source {
     const std::filesystem::path& file;

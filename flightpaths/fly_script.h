@@ -13,11 +13,13 @@ namespace octant::flightpaths {
 /// The time at which a leg began, for bookmarks in a recording.
 struct LegBegin {
     double time_s = 0.0;
-    std::string label; ///< the leg's label, or its kind
+    /// The leg's label, or its kind.
+    std::string label;
 };
 
 struct FlownPath {
-    sim::Trajectory trajectory; ///< exactly script.samples samples, the first at 0 s
+    /// Exactly script.samples samples, the first at 0 s.
+    sim::Trajectory trajectory;
     std::vector<std::string> notes;
     std::vector<LegBegin> legs;
 };

@@ -9,7 +9,8 @@ namespace octant::flightpaths {
 
 struct LiftedPath {
     sim::Trajectory trajectory;
-    bool follows = true; ///< false: nothing but one lift for all heights fits the limits
+    /// False where nothing but one lift for all heights fits the limits.
+    bool follows = true;
 };
 
 /// Lifts a path over ground, changing in time.

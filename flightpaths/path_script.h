@@ -19,21 +19,32 @@ std::string_view word_of(LegKind kind);
 /// needs are there.
 struct Leg {
     LegKind kind = LegKind::Straight;
-    int line = 0; ///< where the leg begins in its file
+    /// Where the leg begins in its file.
+    int line = 0;
     std::string label;
     std::optional<double> duration_s;
-    std::optional<double> load_factor;        ///< lift over weight, in g
-    std::optional<double> bank_rad;           ///< right wing down
-    std::optional<double> climb_rad;          ///< path angle to hold or to reach, up
-    std::optional<double> to_height_m;        ///< leg ends when this height is passed
-    std::optional<double> heading_change_rad; ///< leg ends after this turn, above zero
-    bool to_the_left = false;                 ///< side of a turn
-    double lateral_g = 0.0;                   ///< amplitude of a weave from side to side
-    double period_s = 1.0;                    ///< of that weave
-    double vertical_g = 0.0;                  ///< amplitude of a weave up and down
+    /// Lift over weight, in g.
+    std::optional<double> load_factor;
+    /// Positive with the right wing down.
+    std::optional<double> bank_rad;
+    /// The path angle to hold or to reach, upwards.
+    std::optional<double> climb_rad;
+    /// The leg ends when this height is passed.
+    std::optional<double> to_height_m;
+    /// The leg ends after this turn, which is above zero.
+    std::optional<double> heading_change_rad;
+    /// The side of a turn.
+    bool to_the_left = false;
+    /// The amplitude of a weave from side to side.
+    double lateral_g = 0.0;
+    /// The period of that weave.
+    double period_s = 1.0;
+    /// The amplitude of a weave up and down.
+    double vertical_g = 0.0;
     double vertical_period_s = 1.0;
     double acceleration_mps2 = 0.0;
-    std::optional<double> to_speed_mps; ///< where the acceleration ends
+    /// The speed at which the acceleration ends.
+    std::optional<double> to_speed_mps;
     std::optional<double> roll_rate_radps;
 };
 
@@ -41,21 +52,26 @@ struct Leg {
 struct PathScript {
     std::filesystem::path file;
     std::string aircraft;
-    int aircraft_line = 1; ///< where the file names it
+    /// The line in which the file names it.
+    int aircraft_line = 1;
     std::string title;
-    int rate_hz = 20; ///< samples a second; divides sim::steps_per_second
-    int samples = 0;  ///< at least 2
+    /// Samples a second; divides sim::steps_per_second.
+    int rate_hz = 20;
+    /// At least 2.
+    int samples = 0;
     /// Lowest clearance over the ground that the path is meant for; at least 1.
     double min_clearance_m = 1.0;
     double angle_of_attack_rad_per_g = 0.0;
-    int start_line = 1; ///< where [start] begins in the file
+    /// Where [start] begins in the file.
+    int start_line = 1;
     /// Where the path starts, from its origin and as high over it, and on which course.
     double north_m = 0.0;
     double east_m = 0.0;
     double height_m = 0.0;
     double heading_rad = 0.0;
     double speed_mps = 0.0;
-    std::vector<Leg> legs; ///< at least one
+    /// At least one.
+    std::vector<Leg> legs;
 };
 
 /// Reads a path file (TOML). Throws Error "file:line: expected ..., got ..." for a file that is

@@ -56,7 +56,8 @@ std::string where(double time_s, const glm::dvec3& place_m) {
 /// Ground along a path, or where it leaves the map.
 struct GroundTrack {
     std::vector<double> heights_m;
-    std::optional<std::size_t> leaves_at; ///< index of the first place without ground
+    /// The index of the first place without ground.
+    std::optional<std::size_t> leaves_at;
 };
 
 GroundTrack ground_along(const std::vector<glm::dvec3>& places_m, const GroundHeight& ground) {
@@ -260,14 +261,14 @@ PlacedPath place_over_ground(
     const std::vector<double> times_s = step_times(path);
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
     // A turn by 0 rounds attitudes once more and drops the signs of zeros.
-    const bool as_it_was = placement.mode == HeightMode::Datum && choice.heading_rad == 0.0 &&
+    const bool as_it_was = placement.mode == sim::HeightMode::Datum && choice.heading_rad == 0.0 &&
                            choice.origin_m == glm::dvec2(0.0);
     const sim::Trajectory over = as_it_was ? path : moved(path, choice);
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
     const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
     sim::Trajectory placed = over;
     bool follows = true;
-    if (placement.mode == HeightMode::Follow) {
+    if (placement.mode == sim::HeightMode::Follow) {
         LiftedPath lifted = following(over, places_m, ground_m, min_clearance_m, *limits);
         follows = lifted.follows;
         placed = std::move(lifted.trajectory);
@@ -276,8 +277,8 @@ PlacedPath place_over_ground(
     Lowest lowest = lowest_of(places_m, ground_m);
     const double missing_m = min_clearance_m - lowest.clearance_m;
     // Between samples a curve may dip a little below the envelope that the samples lie on.
-    if (placement.mode == HeightMode::Clear ||
-        (placement.mode == HeightMode::Follow && missing_m > 0.0)) {
+    if (placement.mode == sim::HeightMode::Clear ||
+        (placement.mode == sim::HeightMode::Follow && missing_m > 0.0)) {
         placed = raised(placed, missing_m);
         places_m = places_along(placed, times_s);
         lowest = lowest_of(places_m, ground_m);

@@ -1,51 +1,41 @@
 #pragma once
 
 #include "sim/aircraft_limits.h"
+#include "sim/base/ground_height.h"
+#include "sim/height_mode.h"
 #include "sim/trajectory.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::flightpaths {
 
-/// Height of the ground at world x (east), y (north), m; nothing outside the map.
-using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
-
-enum class HeightMode {
-    /// The whole path is lifted (or lowered) by one height, so that its lowest clearance over the
-    /// ground is the wanted one.
-    Clear,
-    /// Heights are heights over a smoothed ground; where the aircraft cannot follow any, the whole
-    /// path is lifted by one height, and a note says so.
-    Follow,
-    /// Heights stay as they are; with place 0, 0 and heading 0 all of the path is as it was, to the
-    /// last bit.
-    Datum
-};
-
 struct Placement {
-    glm::dvec2 place_m{0.0}; ///< where the path's origin goes
+    /// Where the path's origin goes.
+    glm::dvec2 place_m{0.0};
     /// Turn of the whole path about its origin, clockwise; 0 keeps its north. Not given: that one
     /// of 24 headings (15 degrees apart) whose ground has the least height difference, the lowest
     /// heading among equals; headings that leave the map are passed over. If all 24 leave it, the
     /// same again with the middle of the path (of its bounding box) at the place.
     std::optional<double> heading_rad;
-    HeightMode mode = HeightMode::Clear;
+    sim::HeightMode mode = sim::HeightMode::Clear;
 };
 
 struct PlacedPath {
     sim::Trajectory trajectory;
-    double offset_m = 0.0; ///< added to every height; when following, the least that was added
+    /// What was added to every height; when following, the least that was added.
+    double offset_m = 0.0;
     double heading_rad = 0.0;
-    glm::dvec2 origin_m{0.0}; ///< where the path's origin came to lie
+    /// Where the path's origin came to lie.
+    glm::dvec2 origin_m{0.0};
     double lowest_clearance_m = 0.0;
     double lowest_clearance_at_s = 0.0;
-    std::vector<std::string> notes; ///< what was not done as wanted, a sentence each
+    /// What was not done as wanted, a sentence each.
+    std::vector<std::string> notes;
 };
 
 /// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin

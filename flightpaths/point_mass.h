@@ -9,17 +9,24 @@ namespace octant::flightpaths {
 /// velocity, y right, z down, away from the lift) are a rotation and not two angles, so that a bank
 /// beyond 90 degrees or a climb through the vertical is no special case.
 struct PointMass {
-    glm::dvec3 position_m{0.0};                     ///< world
-    double speed_mps = 0.0;                         ///< above zero
-    glm::dquat flight_to_world{1.0, 0.0, 0.0, 0.0}; ///< unit
-    double load_factor = 1.0;                       ///< lift over weight, in g
+    /// World axes.
+    glm::dvec3 position_m{0.0};
+    /// Above zero.
+    double speed_mps = 0.0;
+    /// A unit quaternion.
+    glm::dquat flight_to_world{1.0, 0.0, 0.0, 0.0};
+    /// Lift over weight, in g.
+    double load_factor = 1.0;
 };
 
 /// Rates that are held constant over one step.
 struct Controls {
-    double roll_rate_radps = 0.0;      ///< about the velocity; positive lowers the right wing
-    double load_factor_rate_gps = 0.0; ///< change of the load factor, g/s
-    double acceleration_mps2 = 0.0;    ///< change of the speed
+    /// About the velocity; positive lowers the right wing.
+    double roll_rate_radps = 0.0;
+    /// The change of the load factor, g/s.
+    double load_factor_rate_gps = 0.0;
+    /// The change of the speed.
+    double acceleration_mps2 = 0.0;
 };
 
 /// Position, track (clockwise from north), path angle (up) and bank (right) as a point mass.

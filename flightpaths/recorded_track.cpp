@@ -1,5 +1,6 @@
 #include "flightpaths/recorded_track.h"
 
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/motion_fill.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
@@ -93,7 +94,8 @@ constexpr std::array<Known, 11> jsbsim_columns{{
 }};
 
 struct Column {
-    int field = -1; ///< -1: not there
+    /// Negative = it is not there.
+    int field = -1;
     std::string_view name;
 };
 
@@ -212,7 +214,7 @@ Row row_from(std::string_view line, const Header& header, const Source& at) {
 
 /// A JSBSim row in the units and axes of our own columns.
 Row own_from_jsbsim(
-    Row row, const Header& header, std::optional<GeoOrigin>& origin, const Source& at) {
+    Row row, const Header& header, std::optional<GeoPlace>& origin, const Source& at) {
     if (std::abs(row[North]) > 89.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
             "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
@@ -223,7 +225,7 @@ Row own_from_jsbsim(
         row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
     }
     if (!origin) {
-        origin = GeoOrigin{row[North], row[East]};
+        origin = GeoPlace{row[North], row[East]};
     }
     const glm::dvec2 local = local_from_geo(*origin, row[North], row[East]);
     row[North] = local.y;
@@ -305,7 +307,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     }
     const Header header = header_from(lines.front(), {file, 1});
     const bool as_quaternion = header.has({QuaternionW});
-    std::optional<GeoOrigin> origin;
+    std::optional<GeoPlace> origin;
     std::vector<sim::AircraftState> samples;
     for (std::size_t i = 1; i < lines.size(); ++i) {
         if (split_words(lines[i]).empty()) {

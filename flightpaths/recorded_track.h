@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flightpaths/local_tangent.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -9,10 +9,11 @@
 namespace octant::flightpaths {
 
 struct RecordedTrack {
-    sim::Trajectory trajectory; ///< at least 2 samples
+    /// At least 2 samples.
+    sim::Trajectory trajectory;
     /// Where the local origin lies; set when the recording gives latitude and longitude. The first
     /// sample then is at x = y = 0; heights stay those of the recording, above datum.
-    std::optional<GeoOrigin> origin;
+    std::optional<GeoPlace> origin;
 };
 
 /// Reads a recorded flight as text: a line of column names, then a line a sample, separated by

@@ -4,6 +4,7 @@
 
 #include "flightpaths/track_writer.h"
 
+#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/format_once.h"
@@ -56,9 +57,9 @@ std::string properties_of(const AcmiHeader& header) {
     return "Type=Air+FixedWing,Name=" + acmi_text(header.aircraft);
 }
 
-std::string acmi_transform(const sim::AircraftState& state, const GeoOrigin& origin) {
+std::string acmi_transform(const sim::AircraftState& state, const GeoPlace& origin) {
     const glm::dvec2 east_north(state.position_m.x, state.position_m.y);
-    const GeoOrigin place = geo_from_local(origin, east_north);
+    const GeoPlace place = geo_from_local(origin, east_north);
     const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
     const std::string heading = compass(angles.heading_rad, 2);
     return fmt::format(

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 
 #include <string>
@@ -26,8 +26,10 @@ struct AcmiHeader {
     std::string title;
     /// The row of the aircraft, which says what Tacview calls it; null where it has none.
     const sim::AircraftKind* kind = nullptr;
-    std::string aircraft; ///< the name of an aircraft without a row
-    GeoOrigin origin;     ///< where the world's origin lies on the earth
+    /// The name of an aircraft without a row.
+    std::string aircraft;
+    /// Where the world's origin lies on the earth.
+    GeoPlace origin;
     std::vector<LegBegin> bookmarks;
 };
 

@@ -8,10 +8,14 @@ namespace octant::sim {
 /// Motion of one aircraft at one time. World: x east, y north, z up (sim/base/axes.h).
 struct AircraftState {
     double time_s = 0.0;
-    glm::dvec3 position_m{0.0};                   ///< world, of the aircraft's reference point
-    glm::dvec3 velocity_mps{0.0};                 ///< world
-    glm::dquat body_to_world{1.0, 0.0, 0.0, 0.0}; ///< unit; body x forward, y right, z down
-    double load_factor = 1.0;                     ///< lift over weight, in g
+    /// The place of the aircraft's reference point, world axes.
+    glm::dvec3 position_m{0.0};
+    /// World axes.
+    glm::dvec3 velocity_mps{0.0};
+    /// A unit quaternion; body axes are x forward, y right, z down.
+    glm::dquat body_to_world{1.0, 0.0, 0.0, 0.0};
+    /// Lift over weight, in g.
+    double load_factor = 1.0;
 };
 
 } // namespace octant::sim

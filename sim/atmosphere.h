@@ -5,9 +5,12 @@ namespace octant::sim {
 /// Still air at one height of the ICAO standard atmosphere.
 struct Air {
     double density_kgpm3 = 0.0;
-    double sound_mps = 0.0;         ///< speed of sound
-    double pressure_ratio = 0.0;    ///< pressure over that at sea level
-    double temperature_ratio = 0.0; ///< absolute temperature over that at sea level
+    /// The speed of sound.
+    double sound_mps = 0.0;
+    /// The pressure over that at sea level.
+    double pressure_ratio = 0.0;
+    /// The absolute temperature over that at sea level.
+    double temperature_ratio = 0.0;
 };
 
 /// Air of a height above datum, taken as geopotential height above sea level. Heights below -2 km

@@ -31,9 +31,11 @@ private:
         /// The angle of attack as velocity and attitude have it, without incidence_rad_.
         double alpha_rad = 0.0;
         double beta_rad = 0.0;
-        glm::dvec3 along{0.0}; ///< unit vector of the velocity; 0 at rest
+        /// A unit vector along the velocity; 0 at rest.
+        glm::dvec3 along{0.0};
         glm::dvec3 acceleration_mps2{0.0};
-        double thrust_lift_n = 0.0; ///< component of the thrust along the lift
+        /// The component of the thrust along the lift.
+        double thrust_lift_n = 0.0;
         double load_factor = 0.0;
     };
 
@@ -62,12 +64,17 @@ private:
     Air air_;
     Flow now_;
     FlightWarnings warnings_;
-    bool recovers_ = false; ///< has stalled and is not yet back in level flight
+    /// Whether it has stalled and is not yet back in level flight.
+    bool recovers_ = false;
     double trim_lever_ = 0.0;
-    double lever_ = 0.0;             ///< what the engines run at; lags behind the pilot's lever
-    double asked_load_factor_ = 1.0; ///< lags behind what the stick commands
-    double asked_alpha_rad_ = 0.0;   ///< gives asked_load_factor_; incidence_rad_ included
-    double roll_radps_ = 0.0;        ///< roll rate about the velocity
+    /// What the engines run at; lags behind the pilot's lever.
+    double lever_ = 0.0;
+    /// Lags behind what the stick commands.
+    double asked_load_factor_ = 1.0;
+    /// Gives asked_load_factor_; includes incidence_rad_.
+    double asked_alpha_rad_ = 0.0;
+    /// The roll rate about the velocity.
+    double roll_radps_ = 0.0;
     double asked_beta_rad_ = 0.0;
     /// What the start's attitude lacks of the angle of attack of its load factor; fades away.
     double incidence_rad_ = 0.0;

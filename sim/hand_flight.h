@@ -7,16 +7,22 @@ namespace octant::sim {
 /// What a pilot asks of the aircraft. F-15: stick, rudder, throttle. 500MD: cyclic, pedals,
 /// collective. Values outside their range are clamped, not-a-numbers count as 0.
 struct PilotControls {
-    double pitch = 0.0;    ///< -1 pushed .. 1 pulled
-    double roll = 0.0;     ///< -1 left .. 1 right
-    double yaw = 0.0;      ///< -1 left .. 1 right
-    double throttle = 0.0; ///< 0 idle or lowest collective .. 1 full
+    /// From -1, pushed, to 1, pulled.
+    double pitch = 0.0;
+    /// From -1, left, to 1, right.
+    double roll = 0.0;
+    /// From -1, left, to 1, right.
+    double yaw = 0.0;
+    /// From 0, idle or the lowest collective, to 1, full.
+    double throttle = 0.0;
 };
 
 /// Why a flight by hand is not quite in its pilot's hands.
 struct FlightWarnings {
-    bool stalled = false;    ///< more lift was asked for than the wing has
-    bool at_a_limit = false; ///< load factor, roll rate, bank, speed or climb is held at its limit
+    /// Whether more lift was asked for than the wing has.
+    bool stalled = false;
+    /// Whether load factor, roll rate, bank, speed or climb is held at its limit.
+    bool at_a_limit = false;
 };
 
 /// An aircraft flown by hand: a point mass with attitude, in fixed steps of sim::step_s. The same

@@ -28,7 +28,8 @@ private:
     struct Flow {
         md500::RotorFlow rotor;
         double thrust_n = 0.0;
-        bool held = false; ///< the blades could lift more than power or strength allow
+        /// Whether the blades could lift more than power or strength allow.
+        bool held = false;
         glm::dvec3 acceleration_mps2{0.0};
         double load_factor = 0.0;
     };
@@ -45,9 +46,11 @@ private:
     StepClock clock_;
     Air air_;
     double trim_collective_ = 0.0;
-    double collective_ = 0.0; ///< what the blades stand at; lags behind the pilot's lever
+    /// What the blades stand at; lags behind the pilot's lever.
+    double collective_ = 0.0;
     double induced_mps_ = 0.0;
-    EulerAngles angle_rates_radps_; ///< rates of heading, pitch and roll
+    /// The rates of heading, pitch and roll.
+    EulerAngles angle_rates_radps_;
     FlightWarnings warnings_;
     Flow now_;
 };

@@ -27,7 +27,8 @@ private:
     double trim_throttle(const AircraftState& state, double speed_mps) const;
 
     const AircraftKind& kind_;
-    double speed_mps_ = 0.0; ///< to be held
+    /// The speed that is to be held.
+    double speed_mps_ = 0.0;
     int level_steps_ = 0;
 };
 

@@ -8,9 +8,12 @@ inline constexpr double mass_kg = 1361.0;
 
 /// The airflow at the rotor.
 struct RotorFlow {
-    double through_mps = 0.0; ///< speed of climb along the shaft
-    double across_mps = 0.0;  ///< speed in the plane of the disc; not negative
-    double induced_mps = 0.0; ///< induced velocity (downwash) at the disc
+    /// The speed of climb along the shaft.
+    double through_mps = 0.0;
+    /// The speed in the plane of the disc; not negative.
+    double across_mps = 0.0;
+    /// The induced velocity (downwash) at the disc.
+    double induced_mps = 0.0;
 };
 
 /// What the blades lift at a collective of 0 .. 1 with no regard to power. May be negative.

@@ -21,9 +21,12 @@ SunPosition sun_position(double latitude_deg, double day, double solar_hour);
 /// A day of the Gregorian calendar, and a minute of it by the sun's own time.
 struct SolarTime {
     int year = 2000;
-    int month = 1;  ///< from 1
-    int day = 1;    ///< of the month, from 1
-    int minute = 0; ///< from midnight, below 24 * 60
+    /// From 1.
+    int month = 1;
+    /// Of the month, from 1.
+    int day = 1;
+    /// From midnight, below 24 * 60.
+    int minute = 0;
 
     bool operator==(const SolarTime&) const = default;
 };

@@ -29,18 +29,6 @@ using namespace md500;
 
 constexpr int body_sides = 16;
 
-/// A section between two heights, `half` wide to each side.
-Section section(
-    double s, double half, double top_u, double bottom_u, double flat = 0.0, double side = 0.0) {
-    const glm::dvec3 middle_m = at(s, 0.0, 0.5 * (top_u + bottom_u));
-    const double tall = 0.5 * (top_u - bottom_u);
-    return {middle_m.x, 0.0, middle_m.z, half, tall, tall, flat, side};
-}
-
-void ring_line(PaintedSolid& solid, double s) {
-    paint(solid, stripe(at(s, 0.0, 0.0), {1.0, 0.0, 0.0}, line_m), "line");
-}
-
 /// A window or a mark on the right side, by stations and heights.
 Stencil on_side(const std::vector<glm::dvec2>& corners_su, double side) {
     std::vector<glm::dvec2> corners;
@@ -56,15 +44,15 @@ Stencil on_side(const std::vector<glm::dvec2>& corners_su, double side) {
 
 PaintedSolid body() {
     const std::array<Section, 9> sections{
-        section(0.0, 0.10, 1.10, 0.86),
-        section(0.22, 0.38, 1.44, 0.60),
-        section(0.75, 0.66, 1.88, 0.38, 0.1, 0.05),
-        section(1.35, 0.76, roof_u, 0.29, 0.25, 0.12),
-        section(2.0, 0.78, roof_u, 0.27, 0.26, 0.15),
-        section(2.7, 0.72, roof_u, 0.33, 0.24, 0.12),
-        section(3.15, 0.56, 2.02, 0.62, 0.14, 0.06),
-        section(3.45, 0.38, 1.94, 0.98, 0.05, 0.02),
-        section(3.7, 0.20, 1.84, 1.42)};
+        stations.section(0.0, 0.10, 1.10, 0.86),
+        stations.section(0.22, 0.38, 1.44, 0.60),
+        stations.section(0.75, 0.66, 1.88, 0.38, 0.1, 0.05),
+        stations.section(1.35, 0.76, roof_u, 0.29, 0.25, 0.12),
+        stations.section(2.0, 0.78, roof_u, 0.27, 0.26, 0.15),
+        stations.section(2.7, 0.72, roof_u, 0.33, 0.24, 0.12),
+        stations.section(3.15, 0.56, 2.02, 0.62, 0.14, 0.06),
+        stations.section(3.45, 0.38, 1.94, 0.98, 0.05, 0.02),
+        stations.section(3.7, 0.20, 1.84, 1.42)};
     PaintedSolid solid = lofted(sections, body_sides, "olive");
     solid.push_back(end_of(sections.front(), body_sides, true, "olive"));
     solid.push_back(end_of(sections.back(), body_sides, false, "olive"));
@@ -86,7 +74,12 @@ PaintedSolid body() {
         for (const double s : {1.28, 2.04, 2.70}) { // edges of the doors
             paint(
                 solid,
-                on_side({{s, 0.52}, {s + line_m, 0.52}, {s + line_m, 1.98}, {s, 1.98}}, side),
+                on_side(
+                    {{s, 0.52},
+                     {s + stations.panel_line_m, 0.52},
+                     {s + stations.panel_line_m, 1.98},
+                     {s, 1.98}},
+                    side),
                 "line");
         }
         paint_roundel(
@@ -96,7 +89,7 @@ PaintedSolid body() {
             "star");
     }
     paint(solid, {{{{1.0, 0.0, 0.0}, -(1.95 - 1.22)}, {right, 0.02}, {-right, 0.02}}}, "olive");
-    ring_line(solid, 3.15);
+    stations.ring_line(solid, 3.15);
     return solid;
 }
 
@@ -127,7 +120,7 @@ void add_fairing(ModelBuilder& model) {
             return corner.z > 1.20 - roof_u - 1e-6;
         });
     });
-    ring_line(solid, 2.1);
+    stations.ring_line(solid, 2.1);
     model.add("fairing", solid);
     PaintedSolid mast = box_between(at(1.89, -0.06, 2.44), at(2.01, 0.06, rotor_u - 0.03), "black");
     model.add("mast", mast);
@@ -135,11 +128,12 @@ void add_fairing(ModelBuilder& model) {
 
 void add_tail(ModelBuilder& model) {
     const std::array<Section, 2> boom{
-        section(3.7, 0.17, 1.82, 1.46, 0.0, 0.0), section(6.45, 0.09, 1.72, 1.52, 0.0, 0.0)};
+        stations.section(3.7, 0.17, 1.82, 1.46, 0.0, 0.0),
+        stations.section(6.45, 0.09, 1.72, 1.52, 0.0, 0.0)};
     PaintedSolid tube = lofted(boom, 12, "olive");
     tube.push_back(end_of(boom[1], 12, false, "olive"));
     for (const double s : {4.4, 5.4, 6.1}) {
-        ring_line(tube, s);
+        stations.ring_line(tube, s);
     }
     paint(tube, stripe(at(5.85, 0.0, 0.0), {1.0, 0.0, 0.0}, 0.12), "yellow");
     model.add("boom", tube);

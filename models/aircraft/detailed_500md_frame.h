@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/aircraft/model_builder.h"
+#include "models/aircraft/stations.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,15 +12,10 @@ namespace octant::models::aircraft::md500 {
 
 inline constexpr double roof_u = 2.10;
 inline constexpr double rotor_u = 2.70;
-/// The width of a panel line.
-inline constexpr double line_m = 0.02;
+inline constexpr Stations stations{1.95, 1.20, 0.02};
 
-inline const glm::dvec3 up(0.0, 0.0, -1.0);
-inline const glm::dvec3 right(0.0, 1.0, 0.0);
-
-/// A place by station, distance to the right and height, in body axes.
 inline glm::dvec3 at(double s, double r, double u) {
-    return {1.95 - s, r, 1.20 - u};
+    return stations.at(s, r, u);
 }
 
 /// The main rotor and the tail rotor, which turn.

@@ -30,15 +30,6 @@ using namespace f15;
 
 constexpr int body_sides = 12;
 
-/// A section between two heights, half `half` wide.
-Section section(
-    double s, double half, double top_u, double bottom_u, double flat = 0.0, double side = 0.0) {
-    const double middle_u = 0.5 * (top_u + bottom_u);
-    const glm::dvec3 middle_m = at(s, 0.0, middle_u);
-    const double tall = 0.5 * (top_u - bottom_u);
-    return {middle_m.x, 0.0, middle_m.z, half, tall, tall, flat, side};
-}
-
 /// A section above the deck: half an ellipse.
 Section hood(double s, double half, double rise, double flat = 0.0) {
     const glm::dvec3 middle_m = at(s, 0.0, deck_u);
@@ -47,16 +38,16 @@ Section hood(double s, double half, double rise, double flat = 0.0) {
 
 PaintedSolid forebody() {
     const std::array<Section, 6> sections{
-        section(0.0, 0.0, -0.43, -0.43),
-        section(0.55, 0.2, -0.24, -0.60, 0.02, 0.02),
-        section(1.6, 0.44, 0.02, -0.79, 0.08, 0.06),
-        section(3.2, 0.62, deck_u, -0.92, 0.34, 0.14),
-        section(4.9, 0.69, deck_u, -0.95, 0.57, 0.2),
-        section(8.2, 0.72, deck_u, -0.95, 0.60, 0.3)};
+        stations.section(0.0, 0.0, -0.43, -0.43),
+        stations.section(0.55, 0.2, -0.24, -0.60, 0.02, 0.02),
+        stations.section(1.6, 0.44, 0.02, -0.79, 0.08, 0.06),
+        stations.section(3.2, 0.62, deck_u, -0.92, 0.34, 0.14),
+        stations.section(4.9, 0.69, deck_u, -0.95, 0.57, 0.2),
+        stations.section(8.2, 0.72, deck_u, -0.95, 0.60, 0.3)};
     PaintedSolid solid = lofted(sections, body_sides, "grey");
     paint(solid, {{{{1.0, 0.0, 0.0}, -(10.40 - 1.55)}}}, "radome");
     for (const double s : {1.55, 2.5, 3.15, 4.9, 6.4}) {
-        ring_line(solid, s);
+        stations.ring_line(solid, s);
     }
     // The tub under the canopy, the gun's and the nose gear's panels, the national marking.
     const std::array<glm::dvec2, 6> tub{
@@ -110,10 +101,10 @@ void add_cockpit(ModelBuilder& model) {
     model.add("cockpit", hood_box);
     model.add("cockpit", box_between(at(4.86, -0.21, deck_u), at(5.2, 0.21, 0.80), "suit"));
     const std::array<Section, 4> helmet{
-        section(4.90, 0.06, 0.99, 0.88),
-        section(4.96, 0.12, 1.07, 0.82),
-        section(5.10, 0.13, 1.09, 0.82),
-        section(5.18, 0.09, 1.05, 0.84)};
+        stations.section(4.90, 0.06, 0.99, 0.88),
+        stations.section(4.96, 0.12, 1.07, 0.82),
+        stations.section(5.10, 0.13, 1.09, 0.82),
+        stations.section(5.18, 0.09, 1.05, 0.84)};
     PaintedSolid head = lofted(helmet, 8, "helmet");
     head.push_back(end_of(helmet.front(), 8, true, "tub"));
     head.push_back(end_of(helmet.back(), 8, false, "helmet"));
@@ -134,7 +125,7 @@ void add_spine(ModelBuilder& model) {
             });
         });
         for (const double s : {8.4, 10.8}) {
-            ring_line(solid, s);
+            stations.ring_line(solid, s);
         }
         model.add("spine", solid);
     }
@@ -142,20 +133,20 @@ void add_spine(ModelBuilder& model) {
 
 PaintedSolid body() {
     const std::array<Section, 5> sections{
-        section(8.2, 1.50, deck_u, -0.95, 1.2, 0.4),
-        section(9.6, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
-        section(14.4, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
-        section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3),
-        section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
+        stations.section(8.2, 1.50, deck_u, -0.95, 1.2, 0.4),
+        stations.section(9.6, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
+        stations.section(14.4, side_r - 0.01, deck_u, -0.95, 1.4, 0.42),
+        stations.section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3),
+        stations.section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
     PaintedSolid solid = lofted(sections, body_sides, "grey");
     solid.push_back(end_of(sections.front(), body_sides, true, "panel"));
     solid.push_back(end_of(sections.back(), body_sides, false, "metal"));
     for (const double s : {10.1, 12.2, 14.4, 16.2}) {
-        ring_line(solid, s);
+        stations.ring_line(solid, s);
     }
     paint(solid, {{{{-1.0, 0.0, 0.0}, 10.40 - 16.2 - 0.02}}}, "metal"); // bare around the engines
     for (const double side : {1.0, -1.0}) {
-        Stencil seam = stripe(at(0.0, side * 0.72, 0.0), right, line_m);
+        Stencil seam = stripe(at(0.0, side * 0.72, 0.0), right, stations.panel_line_m);
         seam.facing = up;
         seam.least_cosine = 0.7;
         paint(solid, seam, "line");
@@ -194,8 +185,8 @@ PaintedSolid intake() {
         return std::ranges::all_of(
             face.corners_m, [](const glm::dvec3& corner) { return corner.x < 10.40 - 8.2 + 1e-6; });
     });
-    ring_line(solid, 7.3);
-    Stencil ramp = stripe(at(6.3, 0.0, 0.0), {1.0, 0.0, 0.0}, line_m);
+    stations.ring_line(solid, 7.3);
+    Stencil ramp = stripe(at(6.3, 0.0, 0.0), {1.0, 0.0, 0.0}, stations.panel_line_m);
     ramp.facing = up;
     ramp.least_cosine = 0.9;
     paint(solid, ramp, "line");
@@ -219,12 +210,12 @@ PaintedSolid wing() {
         const glm::dvec3 root = shape.root_m - glm::dvec3(share * shape.root_chord_m, 0.0, 0.0);
         const glm::dvec3 tip = shape.tip_m - glm::dvec3(share * shape.tip_chord_m, 0.0, 0.0);
         const glm::dvec3 line = tip - root;
-        return stripe(root, {line.y, -line.x, 0.0}, line_m);
+        return stripe(root, {line.y, -line.x, 0.0}, stations.panel_line_m);
     };
     paint(solid, along(0.78), "line");
     paint(solid, along(0.1), "line");
     for (const double r : {3.05, 4.75}) {
-        Stencil rib = stripe(at(0.0, r, 0.0), right, line_m);
+        Stencil rib = stripe(at(0.0, r, 0.0), right, stations.panel_line_m);
         paint(solid, rib, "line");
     }
     return solid;

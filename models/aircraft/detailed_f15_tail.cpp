@@ -18,17 +18,13 @@ Section pipe(double s, double r, double radius) {
 
 } // namespace
 
-void ring_line(PaintedSolid& solid, double s) {
-    paint(solid, stripe(at(s, 0.0, 0.0), {1.0, 0.0, 0.0}, line_m), "line");
-}
-
 void add_tail(ModelBuilder& model) {
     PaintedSolid boom = box_between(at(14.45, side_r, -0.20), at(18.6, 2.13, 0.32), "grey");
     const glm::dvec3 taper = glm::normalize(glm::dvec3(1.0, -0.45, 0.0));
     cut_off(boom, {taper, -glm::dot(taper, at(18.6, 1.86, 0.0))}, "grey");
     const glm::dvec3 nose = glm::normalize(glm::dvec3(-1.0, -0.9, 0.0));
     cut_off(boom, {nose, -glm::dot(nose, at(14.45, 1.80, 0.0))}, "grey");
-    ring_line(boom, 16.0);
+    stations.ring_line(boom, 16.0);
     model.add_both("boom", boom);
 
     Aerofoil stabilator;
@@ -38,7 +34,7 @@ void add_tail(ModelBuilder& model) {
     stabilator.tip_chord_m = 1.15;
     stabilator.half_thickness_m = 0.075 * up;
     PaintedSolid plane = wing_of(stabilator, "wing", "under");
-    Stencil rib = stripe(at(0.0, 2.7, 0.0), right, line_m);
+    Stencil rib = stripe(at(0.0, 2.7, 0.0), right, stations.panel_line_m);
     paint(plane, rib, "line");
     model.add_both("stabilator", plane);
 
@@ -50,13 +46,13 @@ void add_tail(ModelBuilder& model) {
     fin.half_thickness_m = 0.09 * right;
     PaintedSolid upright = wing_of(fin, "fin", "fin");
     paint(upright, {{{up, 0.11 - 3.18}, {down, -(0.11 - 3.36)}}}, "band");
-    paint(upright, stripe(at(0.0, 0.0, 2.2), up, line_m), "line");
+    paint(upright, stripe(at(0.0, 0.0, 2.2), up, stations.panel_line_m), "line");
     const glm::dvec3 hinge = (fin.tip_m - glm::dvec3(0.72 * fin.tip_chord_m, 0.0, 0.0)) -
                              (fin.root_m - glm::dvec3(0.72 * fin.root_chord_m, 0.0, 0.0));
     Stencil rudder = stripe(
         fin.root_m - glm::dvec3(0.72 * fin.root_chord_m, 0.0, 0.0),
         {hinge.z, 0.0, -hinge.x},
-        line_m);
+        stations.panel_line_m);
     paint(upright, rudder, "line");
     for (int letter = 0; letter < 2; ++letter) { // the wing's code, two letters F
         const double s = 16.45 + 0.34 * letter;

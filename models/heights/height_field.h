@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -9,12 +11,6 @@
 #include <vector>
 
 namespace octant::models::heights {
-
-/// Where a height field lies on the earth. Axes stay those of the local tangent plane.
-struct GeoPlace {
-    double latitude_deg = 0.0;  ///< of the field's centre, WGS 84
-    double longitude_deg = 0.0; ///< of the field's centre, WGS 84
-};
 
 /// A coordinate system whose x and y run along a field's own.
 struct MapSystem {

@@ -32,9 +32,8 @@ Reference reference_from_proj(const std::string& text) {
 
 /// The way on the ground between two places that lie close together, metres east and north.
 glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg) {
-    constexpr double equator_m = 6378137.0;
-    constexpr double flattening = 1.0 / 298.257223563;
-    constexpr double e2 = flattening * (2.0 - flattening);
+    using octant::wgs84::e2;
+    constexpr double equator_m = octant::wgs84::semi_major_m;
     constexpr double rad = std::numbers::pi / 180.0;
     const double latitude = 0.5 * (from_deg.y + to_deg.y) * rad;
     const double root = std::sqrt(1.0 - e2 * std::sin(latitude) * std::sin(latitude));

@@ -3,6 +3,8 @@
 
 #include "sim/links/earth.h"
 
+#include "sim/base/geo_place.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +12,10 @@ namespace octant::sim::links {
 
 namespace {
 
-constexpr double semi_major_m = 6378137.0;
-constexpr double flattening = 1.0 / 298.257223563;
+using wgs84::e2;
+using wgs84::flattening;
+using wgs84::semi_major_m;
 constexpr double semi_minor_m = semi_major_m * (1.0 - flattening);
-constexpr double e2 = flattening * (2.0 - flattening);
 constexpr double second_e2 = e2 / (1.0 - e2);
 
 double prime_vertical_m(double latitude_rad) {

@@ -15,6 +15,7 @@
 
 using namespace octant;
 using namespace octant::flightpaths;
+using octant::sim::HeightMode;
 using octant::tests::replaced;
 using octant::tests::track_fault;
 using octant::tests::written;

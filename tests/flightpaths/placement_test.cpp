@@ -16,6 +16,7 @@
 
 using namespace octant;
 using namespace octant::flightpaths;
+using octant::sim::HeightMode;
 using octant::tests::shipped;
 
 namespace {

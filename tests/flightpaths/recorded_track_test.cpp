@@ -1,3 +1,4 @@
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/motion_fill.h"
 #include "flightpaths/recorded_track.h"
 #include "flightpaths/track_writer.h"
@@ -220,8 +221,8 @@ TEST_CASE("a written track reads back as the same states") {
 }
 
 TEST_CASE("local metres and degrees undo each other") {
-    const GeoOrigin origin{-33.5, 179.99};
-    const GeoOrigin place = geo_from_local(origin, {5000, -3000});
+    const GeoPlace origin{-33.5, 179.99};
+    const GeoPlace place = geo_from_local(origin, {5000, -3000});
     const glm::dvec2 back = local_from_geo(origin, place.latitude_deg, place.longitude_deg);
     CHECK(back.x == Approx(5000));
     CHECK(back.y == Approx(-3000));

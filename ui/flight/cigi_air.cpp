@@ -49,7 +49,7 @@ visuals::scene::AirSettings air_of_host(
     visuals::scene::AirSettings usual,
     const std::optional<links::CigiAtmosphere>& atmosphere,
     const std::optional<links::CigiCelestial>& celestial,
-    const std::optional<models::heights::GeoPlace>& place) {
+    const std::optional<GeoPlace>& place) {
     if (atmosphere) {
         constexpr double least_m = 50.0;
         constexpr double most_m = 5e5;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/height_field.h"
+#include "sim/base/geo_place.h"
 #include "sim/links/cigi_packets.h"
 #include "visuals/scene/settings.h"
 
@@ -15,6 +15,6 @@ visuals::scene::AirSettings air_of_host(
     visuals::scene::AirSettings usual,
     const std::optional<sim::links::CigiAtmosphere>& atmosphere,
     const std::optional<sim::links::CigiCelestial>& celestial,
-    const std::optional<models::heights::GeoPlace>& place);
+    const std::optional<GeoPlace>& place);
 
 } // namespace octant::ui::flight

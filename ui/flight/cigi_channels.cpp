@@ -52,11 +52,8 @@ rate_of(std::size_t number, const sim::AircraftState& before, const sim::Aircraf
 /// The camera from the first aircraft, along and about its body axes.
 links::CigiViewControl view_of(const scene::Camera& camera, const sim::AircraftState& aircraft) {
     const glm::dquat world_to_body = glm::conjugate(aircraft.body_to_world);
-    // View axes of OpenGL (right, up, back) are those of a body: ahead, right, down.
-    const glm::dmat3 body_from_gl(
-        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0));
     const glm::dquat turned =
-        world_to_body * camera.view_to_world * glm::conjugate(glm::quat_cast(body_from_gl));
+        world_to_body * camera.view_to_world * glm::conjugate(scene::body_from_view());
     links::CigiViewControl view;
     view.offset_m = world_to_body * (camera.eye_m - aircraft.position_m);
     view.angles = euler_from_body_to_world(glm::normalize(body_to_world_from_euler({}) * turned));

@@ -44,8 +44,10 @@ private:
     struct Channel {
         sim::links::Source peer;
         bool answers = false;
-        std::uint32_t shows = 0;    ///< host frame
-        std::uint32_t ig_frame = 0; ///< its own
+        /// The host frame that it shows.
+        std::uint32_t shows = 0;
+        /// The number of its own frame.
+        std::uint32_t ig_frame = 0;
     };
 
     void listen();
@@ -56,7 +58,8 @@ private:
     std::optional<sim::links::UdpPort> socket_;
     std::vector<sim::links::Datagram> heard_;
     std::uint32_t host_frame_ = 0;
-    std::vector<sim::AircraftState> before_; ///< in the picture that was sent last
+    /// The states in the picture that was sent last.
+    std::vector<sim::AircraftState> before_;
 };
 
 } // namespace octant::ui::flight

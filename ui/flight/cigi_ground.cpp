@@ -18,10 +18,8 @@ constexpr double most_steps = 10000.0;
 constexpr double found_m = 0.01;
 constexpr int most_halvings = 64;
 
-flightpaths::GeoOrigin origin_of(const LivePlace& place) {
-    return place.origin()
-               ? flightpaths::GeoOrigin{place.origin()->latitude_deg, place.origin()->longitude_deg}
-               : flightpaths::GeoOrigin{};
+GeoPlace origin_of(const LivePlace& place) {
+    return place.origin().value_or(GeoPlace());
 }
 
 } // namespace
@@ -31,8 +29,7 @@ glm::dvec3 CigiOverWorld::world_from(const glm::dvec3& place) const {
 }
 
 glm::dvec3 CigiOverWorld::place_from(const glm::dvec3& at_m) const {
-    const flightpaths::GeoOrigin geo =
-        flightpaths::geo_from_local(origin_of(place_), glm::dvec2(at_m.x, at_m.y));
+    const GeoPlace geo = flightpaths::geo_from_local(origin_of(place_), glm::dvec2(at_m.x, at_m.y));
     return {geo.latitude_deg, geo.longitude_deg, at_m.z};
 }
 

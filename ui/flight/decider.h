@@ -15,9 +15,12 @@ namespace octant::ui::flight {
 struct FrameOutcome {
     double frame_ms = 0.0;
     int terrain_triangles = 0;
-    int may_be_smooth = 0;   ///< polygons of aircraft, at least 0
-    int smooth_polygons = 0; ///< how many of these were lit smoothly
-    bool warm_up = false;    ///< a warm-up frame, from which nothing is learned
+    /// Polygons of aircraft, at least 0.
+    int may_be_smooth = 0;
+    /// How many of these were lit smoothly.
+    int smooth_polygons = 0;
+    /// Whether it is a warm-up frame, from which nothing is learned.
+    bool warm_up = false;
 };
 
 /// Decides for each frame how many triangles of ground it aims at and how many polygons are smooth:
@@ -52,11 +55,13 @@ private:
 
     visuals::scene::Adaptation adapt_;
     double rate_hz_ = 60.0;
-    int settled_triangles_ = 0; ///< of the settings
+    /// What the settings ask for.
+    int settled_triangles_ = 0;
     StressSettings stress_settings_;
     StressState stress_;
     std::optional<visuals::shading::ShadingState> shading_;
-    std::vector<Decision> replayed_; ///< by frame; empty = nothing is replayed
+    /// By frame; empty = nothing is replayed.
+    std::vector<Decision> replayed_;
 };
 
 } // namespace octant::ui::flight

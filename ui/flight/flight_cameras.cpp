@@ -12,7 +12,7 @@ namespace scene = visuals::scene;
 std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings) {
     const world::World world = world::load_world(settings);
     const world::PictureTimes times = world::picture_times_of(settings, world.flight);
-    const scene::GroundHeight ground = [&](double x_m, double y_m) {
+    const GroundHeight ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };
     Simulation simulation(world);

@@ -12,8 +12,10 @@ namespace octant::ui::flight {
 /// From where one frame of a run is seen.
 struct FlightCamera {
     visuals::scene::Camera camera;
-    glm::dvec3 aircraft_m{0.0};     ///< the first
-    double aircraft_radius_m = 0.0; ///< of a sphere around it
+    /// Where the first aircraft is.
+    glm::dvec3 aircraft_m{0.0};
+    /// The radius of a sphere around it.
+    double aircraft_radius_m = 0.0;
 };
 
 /// The cameras of all frames of a run, where a session with these settings has them. Loads the

@@ -19,8 +19,10 @@ namespace octant::ui::flight {
 struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
-    std::optional<std::filesystem::path> replay_of; ///< recording whose rows are flown again
-    std::string swept; ///< how a sweep flies it beside others; empty = no sweep does
+    /// The recording whose rows are flown again.
+    std::optional<std::filesystem::path> replay_of;
+    /// How a sweep flies it beside others; empty = no sweep does.
+    std::string swept;
 };
 
 /// What came out of a flight.
@@ -28,9 +30,12 @@ struct FlightEnd {
     report::Statistics statistics;
     std::uint64_t state_hash = 0;
     std::uint64_t picture_hash = 0;
-    std::vector<std::string> notes;   ///< where results are
-    std::vector<std::string> missing; ///< what was asked for and needs a program that is not here
-    std::string fault;                ///< what went wrong beside the recording; empty = nothing
+    /// Where results are.
+    std::vector<std::string> notes;
+    /// What was asked for and needs a program that is not here.
+    std::vector<std::string> missing;
+    /// What went wrong beside the recording; empty = nothing.
+    std::string fault;
 };
 
 /// True when the folder holds a finished recording of these settings and input files by this very
@@ -75,7 +80,8 @@ private:
     report::SlowPictures slow_pictures_;
     std::optional<GrowingTracks> tracks_;
     std::optional<report::VideoPipe> video_;
-    report::FrameTimes times_; ///< without a folder
+    /// The times of frames where there is no folder.
+    report::FrameTimes times_;
     double flown_until_s_ = 0.0;
 };
 

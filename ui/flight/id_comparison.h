@@ -15,8 +15,10 @@ namespace octant::ui::flight {
 /// How a picture of polygon numbers differs from a reference.
 struct IdDifference {
     long pixels = 0;
-    long differing = 0;            ///< other than the reference's pixel
-    std::vector<glm::ivec2> apart; ///< whose number is in none of the 3 x 3 pixels around it
+    /// Pixels that show another number than the reference's.
+    long differing = 0;
+    /// Pixels whose number is in none of the reference's 3 x 3 pixels around them.
+    std::vector<glm::ivec2> apart;
 };
 
 /// Compares two pictures of the same size (asserted).
@@ -35,12 +37,14 @@ long wrong_among(
 struct IdComparison {
     long pixels = 0;
     long differing = 0;
-    long apart = 0; ///< whose number is in none of the reference's 3 x 3 pixels
+    /// Pixels whose number is in none of the reference's 3 x 3 pixels around them.
+    long apart = 0;
     /// Of the pixels apart, those whose number a reference of three times the size does not have
     /// there either.
     long wrong = 0;
     int frames = 0;
-    int frames_with_cuts = 0; ///< in which something stood in front of an aircraft
+    /// Frames in which something stood in front of an aircraft.
+    int frames_with_cuts = 0;
     long cuts = 0;
     long unordered = 0;
 };
@@ -67,8 +71,10 @@ IdComparison compare_with_depth_buffer(
 /// What the last picture of a session's window got wrong against a depth buffer.
 struct PixelCheck {
     long pixels = 0;
-    long differing = 0; ///< show another polygon
-    long wrong = 0;     ///< of these, where a picture three times as large does not show it nearby
+    /// Pixels that show another polygon.
+    long differing = 0;
+    /// Of these, those where a picture three times as large does not show it nearby.
+    long wrong = 0;
 };
 
 /// Draws the session's last moment by order and by depth, beside its renderer, and compares. Throws

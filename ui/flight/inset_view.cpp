@@ -16,7 +16,8 @@ namespace scene = visuals::scene;
 namespace {
 
 constexpr int share_of_side = 3;
-constexpr int margin_share = 40; ///< of the picture's height
+/// The picture's height by the margin.
+constexpr int margin_share = 40;
 constexpr int share_of_triangles = 4;
 constexpr int fewest_triangles = 1000;
 

@@ -71,7 +71,8 @@ private:
     settings::RunSettings settings_;
     visuals::scene::PixelRect rectangle_;
     std::optional<visuals::planning::Planner> planner_;
-    bool settles_ = true; ///< the ground's detail has not been set for a first picture
+    /// Whether the ground's detail is still to be set for a first picture.
+    bool settles_ = true;
 };
 
 } // namespace octant::ui::flight

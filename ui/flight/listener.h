@@ -77,7 +77,8 @@ private:
     std::optional<PacketWriter> writer_;
     std::deque<sim::links::Datagram> waiting_;
     double words_at_s_ = 0.0;
-    std::optional<double> told_at_s_; ///< nothing: not yet
+    /// Nothing = nothing has been told yet.
+    std::optional<double> told_at_s_;
     double called_at_s_ = 0.0;
     std::uint32_t cigi_frames_ = 0;
     long pictures_ = 0;

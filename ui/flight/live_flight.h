@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/links/live_traffic.h"
 #include "ui/flight/cigi_ground.h"
 #include "ui/flight/live_place.h"
@@ -68,7 +69,7 @@ public:
     /// What was told for the first time since the last call.
     std::vector<std::string> take_news() { return traffic_.take_news(); }
 
-    std::optional<models::heights::GeoPlace> origin() const override { return place_.origin(); }
+    std::optional<GeoPlace> origin() const override { return place_.origin(); }
 
     /// The message that CIGI hosts get for a picture.
     std::vector<std::byte> cigi_message(std::uint32_t picture, double time_s) {
@@ -104,7 +105,8 @@ private:
     /// Which aircraft shows a vehicle.
     struct Place {
         std::size_t aircraft = 0;
-        std::optional<std::uint16_t> type; ///< of an entity
+        /// The type of an entity; nothing for other vehicles.
+        std::optional<std::uint16_t> type;
     };
 
     std::optional<std::uint16_t> shown_view() const;
@@ -123,10 +125,13 @@ private:
     CigiOverWorld cigi_ground_;
     sim::links::LiveTraffic traffic_;
     sim::links::TrafficCounts counted_;
-    double newest_s_ = -1.0;    ///< packet of the last frame
-    std::vector<Place> places_; ///< of the vehicles that are shown
+    /// The time of the newest packet in the last frame.
+    double newest_s_ = -1.0;
+    /// By vehicle, as far as they are shown.
+    std::vector<Place> places_;
     std::vector<visuals::planning::TurnedPart> turned_;
-    double aspect_ = 1.0; ///< of the pictures
+    /// Width over height of the pictures.
+    double aspect_ = 1.0;
     std::vector<sim::AircraftState> of_vehicles_;
 };
 

@@ -85,16 +85,16 @@ glm::dvec3 LivePlace::world_from(const sim::links::VehicleKey& key, const sim::l
     }
     if (!origin_ &&
         ground_m(flightpaths::local_from_geo({}, fix.latitude_deg, fix.longitude_deg))) {
-        origin_ = models::heights::GeoPlace{}; // As we send from ground without a place.
+        origin_ = GeoPlace{}; // As we send from ground without a place.
     }
     if (!origin_) {
         // The world's origin, so that this fix comes to lie at the flight's place.
-        const flightpaths::GeoOrigin origin =
+        const GeoPlace origin =
             flightpaths::geo_from_local({fix.latitude_deg, fix.longitude_deg}, -place_m);
-        origin_ = {origin.latitude_deg, origin.longitude_deg};
+        origin_ = origin;
     }
-    const glm::dvec2 at_m = flightpaths::local_from_geo(
-        {origin_->latitude_deg, origin_->longitude_deg}, fix.latitude_deg, fix.longitude_deg);
+    const glm::dvec2 at_m =
+        flightpaths::local_from_geo(*origin_, fix.latitude_deg, fix.longitude_deg);
     return {at_m, height_of(key, fix, at_m)};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/links/fix.h"
 #include "sim/links/live_vehicle.h"
 #include "ui/world/world.h"
@@ -16,9 +17,12 @@ namespace octant::ui::flight {
 
 /// Whose heights count where senders bring a ground of their own.
 enum class LiveHeight {
-    Msl,   ///< theirs above the sea
-    Agl,   ///< theirs above ground, over ours
-    Offset ///< theirs above the sea, moved once so that the first fix is as high above our ground
+    /// Theirs above the sea.
+    Msl,
+    /// Theirs above ground, over ours.
+    Agl,
+    /// Theirs above the sea, moved once so that the first fix is as high above our ground.
+    Offset
 };
 
 inline constexpr std::string_view live_height_names = "msl, agl or offset";
@@ -39,7 +43,7 @@ public:
     glm::dvec3 world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
 
     /// Where the world's origin lies on the earth; nothing until that is known.
-    const std::optional<models::heights::GeoPlace>& origin() const { return origin_; }
+    const std::optional<GeoPlace>& origin() const { return origin_; }
 
     LiveHeight height() const { return height_; }
 
@@ -54,10 +58,11 @@ private:
     const world::World& world_;
     bool height_is_chosen_;
     LiveHeight height_;
-    std::optional<models::heights::GeoPlace> origin_;
+    std::optional<GeoPlace> origin_;
     std::map<sim::links::VehicleKey, double> offsets_m_;
     bool off_the_map_ = false;
-    double their_ground_m_ = 0.0; ///< of the newest fix
+    /// The heights of their ground and of ours at the newest fix.
+    double their_ground_m_ = 0.0;
     double our_ground_m_ = 0.0;
     bool grounds_differ_ = false;
 };

@@ -103,9 +103,7 @@ std::optional<scene::Camera> LiveFlight::camera_of_view(
     const glm::dquat north_up = body_to_world_from_euler({});
     const glm::dquat turned = glm::conjugate(north_up) * body_to_world_from_euler(view.angles);
     const glm::dquat view_to_world = state.body_to_world * turned;
-    const glm::dmat3 body_from_gl(
-        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0));
-    camera.view_to_world = glm::normalize(view_to_world * glm::quat_cast(body_from_gl));
+    camera.view_to_world = glm::normalize(view_to_world * scene::body_from_view());
     camera.eye_m = state.position_m + state.body_to_world * view.offset_m;
     return camera;
 }

@@ -29,7 +29,8 @@ constexpr std::string_view magic = "octant packets 1 ";
 constexpr std::string_view none = "-";
 constexpr std::size_t largest_bytes = std::size_t{1} << 32U;
 constexpr std::size_t most_bytes_a_record = 65536;
-constexpr double longest_s = 1e7; ///< of a recording
+/// The longest recording that is read.
+constexpr double longest_s = 1e7;
 
 std::string_view text_of(links::Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; // NOLINT

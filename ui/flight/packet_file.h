@@ -45,7 +45,8 @@ struct PacketFrame {
     std::vector<sim::links::Datagram> packets;
     bool has_words = false;
     std::vector<std::string> words;
-    std::string time_of_day; ///< that the sun shows from this picture on; empty = as before
+    /// What the sun shows from this picture on; empty = as before.
+    std::string time_of_day;
 };
 
 /// A live recording, read again.

@@ -14,7 +14,8 @@ namespace octant::ui::flight {
 
 namespace {
 
-constexpr int most_triangles = 100000000; ///< more than any control asks for
+/// More than any control asks for.
+constexpr int most_triangles = 100000000;
 
 std::string compared(const Replay& replay, const std::string& recorded, const std::string& now) {
     if (!replay.ended) {

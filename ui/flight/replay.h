@@ -12,9 +12,12 @@ namespace octant::ui::flight {
 /// A recording that is to be flown again as its rows say.
 struct Replay {
     std::filesystem::path folder;
-    std::vector<Decision> decisions; ///< by frame, at least one
-    bool ended = false;              ///< false: it was killed and has no hashes
-    std::string state_hash;          ///< 16 hex digits
+    /// By frame, at least one.
+    std::vector<Decision> decisions;
+    /// False where it was killed and has no hashes.
+    bool ended = false;
+    /// Sixteen hex digits.
+    std::string state_hash;
     std::string picture_hash;
 };
 
@@ -28,10 +31,14 @@ void check_frames(const Replay& replay, int frames);
 
 /// How a replay compares with its recording.
 struct ReplayVerdict {
-    std::string state_hash;   ///< "same", "other" or "unknown" (the recording was killed)
-    std::string picture_hash; ///< "same", "other" or "unknown", as state_hash
-    bool is_same = false;     ///< whether both hashes are known to be the same
-    std::string line;         ///< all of it for people
+    /// "same", "other" or "unknown" (the recording was killed).
+    std::string state_hash;
+    /// "same", "other" or "unknown", as state_hash.
+    std::string picture_hash;
+    /// Whether both hashes are known to be the same.
+    bool is_same = false;
+    /// All of it for people.
+    std::string line;
 };
 
 ReplayVerdict

@@ -46,7 +46,8 @@ private:
     std::vector<sim::links::TacviewServer> tacview_;
     CigiChannels channels_;
     bool head_told_ = false;
-    std::vector<sim::links::UdpPort> socket_; ///< one, where there is a target
+    /// One, where there is a target.
+    std::vector<sim::links::UdpPort> socket_;
 };
 
 } // namespace octant::ui::flight

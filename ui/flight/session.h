@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/ground_height.h"
 #include "ui/base/stopwatch.h"
 #include "ui/flight/decider.h"
 #include "ui/flight/moment.h"
@@ -166,7 +167,7 @@ private:
     PictureMaker pictures_;
     std::optional<Simulation> simulation_;
     world::PictureTimes times_;
-    visuals::scene::GroundHeight ground_height_;
+    GroundHeight ground_height_;
     Moment now_;
     Moment next_;
     bool next_is_reached_ = false;

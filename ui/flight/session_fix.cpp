@@ -14,13 +14,12 @@ namespace links = sim::links;
 
 namespace {
 
-flightpaths::GeoOrigin origin_of(const Session& session) {
-    std::optional<models::heights::GeoPlace> place = session.world().ground_place;
+GeoPlace origin_of(const Session& session) {
+    std::optional<GeoPlace> place = session.world().ground_place;
     if (session.simulation().is_live()) {
         place = session.simulation().source().origin();
     }
-    return place ? flightpaths::GeoOrigin{place->latitude_deg, place->longitude_deg}
-                 : flightpaths::GeoOrigin{};
+    return place.value_or(GeoPlace());
 }
 
 /// Microseconds as a clock that wraps around.
@@ -33,7 +32,7 @@ std::uint32_t ticks_at(double time_s) {
 
 links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     const glm::dvec3& at_m = state.position_m;
-    const flightpaths::GeoOrigin place =
+    const GeoPlace place =
         flightpaths::geo_from_local(origin_of(session), glm::dvec2(at_m.x, at_m.y));
     links::Fix fix;
     fix.latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);

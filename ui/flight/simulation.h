@@ -111,7 +111,8 @@ private:
 
     const world::World& world_;
     world::Formation formation_;
-    std::vector<double> reach_down_m_; ///< of each aircraft, below its reference point
+    /// How far each aircraft reaches below its reference point.
+    std::vector<double> reach_down_m_;
     double time_s_ = 0.0;
     long next_step_ = 0;
     std::vector<sim::AircraftState> states_;
@@ -120,10 +121,12 @@ private:
     bool logs_ = false;
     std::vector<sim::AircraftState> log_;
     std::unique_ptr<sim::HandFlight> pilot_;
-    const sim::AircraftKind* kind_ = nullptr; ///< by hand
+    /// What is flown by hand; else null.
+    const sim::AircraftKind* kind_ = nullptr;
     std::optional<sim::Levelling> levelling_;
     sim::PilotControls controls_;
-    std::array<sim::AircraftState, 2> last_two_; ///< by hand: of the first aircraft, at steps
+    /// By hand: the first aircraft's states at the last two steps.
+    std::array<sim::AircraftState, 2> last_two_;
     std::optional<End> end_;
     StateSource* source_ = nullptr;
 };

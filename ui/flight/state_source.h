@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/heights/height_field.h"
 #include "sim/aircraft_state.h"
+#include "sim/base/geo_place.h"
 #include "visuals/planning/turned_part.h"
 #include "visuals/scene/camera.h"
 
@@ -42,7 +42,7 @@ public:
     virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
 
     /// Where the world's origin lies on the earth, once that is known.
-    virtual std::optional<models::heights::GeoPlace> origin() const = 0;
+    virtual std::optional<GeoPlace> origin() const = 0;
 };
 
 } // namespace octant::ui::flight

@@ -9,20 +9,26 @@ namespace octant::ui::flight {
 /// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
 /// image generators, is the share of its time that a frame uses: frame_ms / share_ms.
 struct StressSettings {
-    double share_ms = 1000.0 / 60.0; ///< a frame's time, above zero
-    int lowest = 1000;               ///< triangles; at least 1
-    int highest = 100000;            ///< triangles; at least `lowest`
+    /// A frame's time, above zero.
+    double share_ms = 1000.0 / 60.0;
+    /// The fewest triangles; at least 1.
+    int lowest = 1000;
+    /// The most triangles; at least `lowest`.
+    int highest = 100000;
     /// The budget is left alone while the stress is between these.
     double least_stress = 0.75;
     double most_stress = 0.90;
     /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered
     /// stress from the middle of the band over its edge; above `most_stress`.
     double most_counted_stress = 2.0;
-    double filter_s = 0.5;     ///< time constant of the filter, in simulated time
-    double filter_frames = 20; ///< and no fewer frames than these; at least 1
+    /// The time constant of the filter, in simulated time.
+    double filter_s = 0.5;
+    /// The filter spans no fewer frames than these; at least 1.
+    double filter_frames = 20;
     /// A course ends this near to the middle of the band; below half the band's width.
     double rest_stress = 0.02;
-    double largest_fall = 0.02; ///< share of the target that it may lose from frame to frame
+    /// The share of the target that it may lose from frame to frame.
+    double largest_fall = 0.02;
     double largest_rise = 0.005;
     /// The target rises only while at least this share of it is drawn: a budget that nobody uses
     /// says nothing of what it would cost.
@@ -33,9 +39,11 @@ struct StressSettings {
 struct StressState {
     enum class Course { Held, Falling, Rising };
 
-    double target = 0.0; ///< triangles of the next frame, within the settings' limits
+    /// The triangles of the next frame, within the settings' limits.
+    double target = 0.0;
     Course course = Course::Held;
-    std::optional<double> stress; ///< filtered, with the last frame measured; none before the first
+    /// Filtered, with the last frame measured; nothing before the first.
+    std::optional<double> stress;
     /// What the control goes by: filtered too, but with long frames counted less and carried over
     /// to each new target. At rest the same as `stress`.
     double expected_stress = 0.0;
@@ -46,8 +54,10 @@ struct StressState {
 
 /// What a frame made with StressState::triangles() took.
 struct FrameCost {
-    double frame_ms = 0.0; ///< at least 0
-    int triangles = 0;     ///< of ground that were drawn
+    /// At least 0.
+    double frame_ms = 0.0;
+    /// The triangles of ground that were drawn.
+    int triangles = 0;
 };
 
 /// The settings of a run: from an eighth of its triangle budget to four times as many.

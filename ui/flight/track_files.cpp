@@ -14,7 +14,8 @@ namespace octant::ui::flight {
 
 namespace {
 
-constexpr double rounding_s = 1e-6; ///< times in files have six decimals at the least
+/// Times in files have six decimals at the least.
+constexpr double rounding_s = 1e-6;
 
 sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
@@ -51,7 +52,7 @@ std::string_view flown_part(std::string_view text, std::size_t begin, double unt
 flightpaths::AcmiHeader acmi_header(
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin) {
+    const std::optional<GeoPlace>& origin) {
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.kind = world.leader_kind;
@@ -62,7 +63,7 @@ flightpaths::AcmiHeader acmi_header(
         }
     }
     if (origin) {
-        header.origin = {origin->latitude_deg, origin->longitude_deg};
+        header.origin = *origin;
     }
     return header;
 }
@@ -73,7 +74,7 @@ void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin) {
+    const std::optional<GeoPlace>& origin) {
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
     write_file(
         folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, origin)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/base/output_file.h"
 #include "ui/world/world.h"
 
@@ -21,7 +22,7 @@ void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<models::heights::GeoPlace>& origin);
+    const std::optional<GeoPlace>& origin);
 
 /// The tracks of a flight along the world's path while it is flown: at any time the files hold what
 /// has been flown, so that those of a killed flight go no further than it came.
@@ -37,11 +38,13 @@ public:
 private:
     struct Track {
         GrowingFile file;
-        std::string text; ///< of the whole path
+        /// Of the whole path.
+        std::string text;
         std::size_t written = 0;
     };
 
-    std::array<Track, 2> tracks_; ///< track.csv, track.acmi
+    /// Those of track.csv and track.acmi.
+    std::array<Track, 2> tracks_;
     std::optional<double> flushed_s_;
 };
 

@@ -10,6 +10,6 @@ namespace octant::ui::report {
 /// Recordings of the same flight on the same kind of machine beside each other, as HTML: a table of
 /// their variants where settings differ, and their frame times in one plot. Says so where no two
 /// belong together.
-std::string compared_flights_html(std::span<const LoadedRecording> recordings);
+std::string compared_flights_html(Recordings recordings);
 
 } // namespace octant::ui::report

@@ -82,8 +82,7 @@ what_forbids_comparison(const LoadedRecording& first, const LoadedRecording& sec
     return names;
 }
 
-std::vector<std::vector<std::size_t>>
-comparable_groups(std::span<const LoadedRecording> recordings) {
+std::vector<std::vector<std::size_t>> comparable_groups(Recordings recordings) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         const auto found = std::ranges::find_if(groups, [&](const auto& group) {
@@ -99,7 +98,7 @@ comparable_groups(std::span<const LoadedRecording> recordings) {
 }
 
 std::vector<std::vector<std::size_t>>
-variants_of(std::span<const LoadedRecording> recordings, std::span<const std::size_t> group) {
+variants_of(Recordings recordings, std::span<const std::size_t> group) {
     std::vector<std::vector<std::size_t>> variants;
     for (const std::size_t i : group) {
         const auto found = std::ranges::find_if(variants, [&](const auto& variant) {
@@ -156,8 +155,7 @@ Gate read_gate(const std::string& text) {
     return gate;
 }
 
-std::vector<std::string>
-gate_faults(std::span<const LoadedRecording> recordings, const Gate& gate) {
+std::vector<std::string> gate_faults(Recordings recordings, const Gate& gate) {
     std::vector<std::string> faults;
     const LoadedRecording& first = recordings.front();
     for (const LoadedRecording& recording : recordings.subspan(1)) {

@@ -16,12 +16,11 @@ what_forbids_comparison(const LoadedRecording& first, const LoadedRecording& sec
 
 /// Recordings that may be compared, by their indices, in the order in which the first of each
 /// comes. What they differ in is what a comparison is about.
-std::vector<std::vector<std::size_t>>
-comparable_groups(std::span<const LoadedRecording> recordings);
+std::vector<std::vector<std::size_t>> comparable_groups(Recordings recordings);
 
 /// The recordings of a group by all of their settings: repeats of each variant.
 std::vector<std::vector<std::size_t>>
-variants_of(std::span<const LoadedRecording> recordings, std::span<const std::size_t> group);
+variants_of(Recordings recordings, std::span<const std::size_t> group);
 
 /// The middle value, or the mean of the two in the middle. At least one value.
 double median_of(std::vector<double> values);
@@ -50,6 +49,6 @@ Gate read_gate(const std::string& text);
 
 /// One line for each figure that a later recording has worse than the first by more than the gate
 /// allows. Throws Error where the recordings cannot be compared or have no frames.
-std::vector<std::string> gate_faults(std::span<const LoadedRecording> recordings, const Gate& gate);
+std::vector<std::string> gate_faults(Recordings recordings, const Gate& gate);
 
 } // namespace octant::ui::report

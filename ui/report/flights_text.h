@@ -13,8 +13,6 @@
 
 namespace octant::ui::report {
 
-using Recordings = std::span<const LoadedRecording>;
-
 /// Of curves in one plot, as HTML has them.
 inline constexpr std::array run_colours{
     "#3b82f6",

@@ -21,8 +21,6 @@ namespace octant::ui::report {
 
 namespace {
 
-using Recordings = std::span<const LoadedRecording>;
-
 std::string title_of(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }

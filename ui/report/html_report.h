@@ -15,7 +15,7 @@ namespace octant::ui::report {
 /// when it is read; its own script draws the plots. `page_folder` is where the page will lie, for
 /// links.
 std::string html_report(
-    std::span<const LoadedRecording> recordings,
+    Recordings recordings,
     std::span<const HtmlTable> further = {},
     const std::filesystem::path& page_folder = {});
 

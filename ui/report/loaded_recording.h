@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,8 @@ struct LoadedRecording {
     std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };
+
+using Recordings = std::span<const LoadedRecording>;
 
 /// The frame of "picture-00042.png", nothing for other names.
 std::optional<long> picture_frame(std::string_view name);

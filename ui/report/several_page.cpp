@@ -19,7 +19,6 @@ namespace octant::ui::report {
 namespace {
 
 namespace fs = std::filesystem;
-using Recordings = std::span<const LoadedRecording>;
 
 std::vector<std::size_t> all_of(Recordings recordings) {
     std::vector<std::size_t> all(recordings.size());

@@ -12,7 +12,6 @@ namespace octant::ui::report {
 /// those of the same flight, their curves in common plots, a small plot each with common axes,
 /// pictures, and the settings that all share. A recording whose own page lies in its folder is
 /// linked from `page_folder`.
-std::string
-several_html(std::span<const LoadedRecording> recordings, const std::filesystem::path& page_folder);
+std::string several_html(Recordings recordings, const std::filesystem::path& page_folder);
 
 } // namespace octant::ui::report

@@ -20,10 +20,10 @@ inline constexpr std::array enum_names<visuals::scene::View>{
     Named{visuals::scene::View::Free, "free"}};
 
 template <>
-inline constexpr std::array enum_names<HeightMode>{
-    Named{HeightMode::Clear, "clear"},
-    Named{HeightMode::Follow, "follow"},
-    Named{HeightMode::Datum, "datum"}};
+inline constexpr std::array enum_names<sim::HeightMode>{
+    Named{sim::HeightMode::Clear, "clear"},
+    Named{sim::HeightMode::Follow, "follow"},
+    Named{sim::HeightMode::Datum, "datum"}};
 
 template <>
 inline constexpr std::array enum_names<RendererKind>{

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/height_mode.h"
 #include "visuals/scene/settings.h"
 
 #include <optional>
@@ -9,7 +10,6 @@
 
 namespace octant::ui::settings {
 
-enum class HeightMode { Clear, Follow, Datum };
 /// Auto: Raster where no GPU draws.
 enum class RendererKind { Auto, Raster, Gl };
 enum class ContextKind { OsMesa, Egl, Window };
@@ -39,7 +39,7 @@ struct PathSettings {
     std::optional<double> heading_deg;
     /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at
     /// the heights that they give.
-    std::optional<HeightMode> height_mode;
+    std::optional<sim::HeightMode> height_mode;
     bool lenient = false;
 
     bool operator==(const PathSettings&) const = default;

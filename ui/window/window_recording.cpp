@@ -40,7 +40,7 @@ settings::RunSettings from_step(
         settings.path.name = flight_name;
         settings.path.place = "0,0";
         settings.path.heading_deg = 0.0;
-        settings.path.height_mode = settings::HeightMode::Datum;
+        settings.path.height_mode = sim::HeightMode::Datum;
         settings.time.start_s = 0.0;
     }
     return settings;

@@ -20,9 +20,12 @@ struct LoadedAircraft {
     std::vector<std::uint32_t> aircraft;
     std::vector<visuals::planning::FarModel> far_models;
     std::optional<std::uint32_t> cockpit;
-    visuals::overlay::InstrumentLayout dials;       ///< of the cockpit
-    std::vector<std::string> notes;                 ///< what a person should be told
-    std::vector<std::filesystem::path> order_files; ///< kept painting orders that were used
+    /// The working dials of the cockpit.
+    visuals::overlay::InstrumentLayout dials;
+    /// What a person should be told.
+    std::vector<std::string> notes;
+    /// Kept painting orders that were used.
+    std::vector<std::filesystem::path> order_files;
 };
 
 /// Loads aircraft of these shapes, names or files, and the cockpit of the first one where it has

@@ -11,8 +11,10 @@ namespace octant::ui::world {
 
 /// Which aircraft a CIGI host means by the types of its entities.
 struct EntityTable {
-    std::vector<std::string> aircraft;          ///< all that are loaded, as --aircraft takes them
-    std::map<std::uint16_t, std::size_t> types; ///< an index into `aircraft` for each
+    /// All that are loaded, as --aircraft takes them.
+    std::vector<std::string> aircraft;
+    /// An index into `aircraft` for each type.
+    std::map<std::uint16_t, std::size_t> types;
 };
 
 /// Reads a TOML file of tables [[entity]], each with `type` (a number from 0 to 65535), `aircraft`

@@ -14,12 +14,17 @@ namespace octant::ui::world {
 
 /// A path as it is flown over the ground of a run.
 struct Flight {
-    sim::Trajectory trajectory; ///< world axes
+    /// States in world axes.
+    sim::Trajectory trajectory;
     std::string title;
-    double rate_hz = 20.0;    ///< samples a second
-    glm::dvec2 place_m{0.0};  ///< where the path's origin lies
-    double heading_rad = 0.0; ///< how far the path was turned, clockwise
-    double offset_m = 0.0;    ///< how far it was lifted
+    /// Samples a second.
+    double rate_hz = 20.0;
+    /// Where the path's origin lies.
+    glm::dvec2 place_m{0.0};
+    /// How far the path was turned, clockwise.
+    double heading_rad = 0.0;
+    /// How far the path was lifted.
+    double offset_m = 0.0;
     /// The least height above the ground, and when it is flown at.
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;

@@ -20,11 +20,16 @@ public:
     double framed_radius_m(double leader_radius_m) const;
 
 private:
-    int abreast_;    ///< aircraft in a line, the leader's place among them
-    int lines_;      ///< one above the other, in each layer
-    int ranks_;      ///< wingmen to one side of a line's middle
-    double aside_m_; ///< how far a rank stands beside the one before
-    double back_m_;  ///< how far a rank stands behind the one before
+    /// Aircraft in a line, the leader's place among them.
+    int abreast_;
+    /// Lines one above the other, in each layer.
+    int lines_;
+    /// Wingmen to one side of a line's middle.
+    int ranks_;
+    /// How far a rank stands beside the one before.
+    double aside_m_;
+    /// How far a rank stands behind the one before.
+    double back_m_;
 };
 
 } // namespace octant::ui::world

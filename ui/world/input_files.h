@@ -15,9 +15,12 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings);
 
 /// Where a recording has a file that its run reads.
 enum class Kept {
-    Inside,  ///< a copy lies in the recording
-    BuiltIn, ///< in the program's own folder
-    Outside  ///< too large to copy: a terrain, which is known by its hash
+    /// A copy lies in the recording.
+    Inside,
+    /// The file lies in the program's own folder.
+    BuiltIn,
+    /// The file is too large to copy: a terrain, which is known by its hash.
+    Outside
 };
 
 /// A file that a run reads.

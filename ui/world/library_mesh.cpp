@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Library {
-    std::string_view word; ///< what octant-read-mesh calls it
+    /// What octant-read-mesh calls it.
+    std::string_view word;
     std::string_view name;
     std::string_view endings;
 };

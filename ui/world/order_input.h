@@ -23,7 +23,8 @@ OrderInput read_order_input(const std::string& name_or_file, const std::string& 
 /// How many planes an eye is tried against.
 struct PlaneTests {
     int most = 0;
-    double mean = 0.0; ///< over eyes in all directions, 0.05 to 20 times the radius away
+    /// Over eyes in all directions, 0.05 to 20 times the radius away.
+    double mean = 0.0;
 };
 
 PlaneTests plane_tests(const visuals::draworder::OrderedModel& ordered);

@@ -10,9 +10,11 @@ namespace octant::ui::world {
 
 /// When the pictures of a run are taken.
 struct PictureTimes {
-    std::vector<double> at_s; ///< at least one
+    /// At least one.
+    std::vector<double> at_s;
     double rate_hz = 0.0;
-    double until_s = 0.0; ///< the last simulation step of the run
+    /// The time of the last simulation step of the run.
+    double until_s = 0.0;
 
     /// Leaves the first so many, at least one; does nothing where there are no more.
     void cut_to(std::size_t frames);

@@ -23,7 +23,8 @@ namespace {
 
 struct Part {
     double value = 0.0;
-    char letter = '\0'; ///< N, S, E, W or none
+    /// N, S, E, W or none.
+    char letter = '\0';
 };
 
 std::optional<Part> part_of(std::string_view text, std::string_view letters) {
@@ -44,7 +45,8 @@ std::optional<Part> part_of(std::string_view text, std::string_view letters) {
 struct Pair {
     double first = 0.0;
     double second = 0.0;
-    bool lettered = false; ///< so these are degrees
+    /// Whether a letter says that these are degrees.
+    bool lettered = false;
 };
 
 Pair pair_of(const std::string& text) {
@@ -57,7 +59,7 @@ Pair pair_of(const std::string& text) {
     return {first->value, second->value, first->letter != '\0'};
 }
 
-std::optional<models::heights::GeoPlace> place_of(const settings::PathSettings& settings) {
+std::optional<GeoPlace> place_of(const settings::PathSettings& settings) {
     const std::string& terrain = settings.terrain;
     if (settings::is_built_in_ground(terrain)) {
         return std::nullopt;
@@ -81,7 +83,7 @@ void check_place(const settings::PathSettings& settings) {
 
 glm::dvec2 place_from_text(
     const std::string& text,
-    const std::optional<models::heights::GeoPlace>& map_place,
+    const std::optional<GeoPlace>& map_place,
     const glm::dvec2& half_extent_m) {
     const Pair pair = pair_of(text);
     const glm::dvec2 as_metres(pair.first, pair.second);
@@ -98,8 +100,7 @@ glm::dvec2 place_from_text(
         }
         return as_metres;
     }
-    const glm::dvec2 local_m = flightpaths::local_from_geo(
-        {map_place->latitude_deg, map_place->longitude_deg}, pair.first, pair.second);
+    const glm::dvec2 local_m = flightpaths::local_from_geo(*map_place, pair.first, pair.second);
     const bool on_map =
         std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
     return pair.lettered || on_map ? local_m : as_metres;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/height_field.h"
+#include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
 
 #include <glm/vec2.hpp>
@@ -16,7 +16,7 @@ namespace octant::ui::world {
 /// on a map without a place.
 glm::dvec2 place_from_text(
     const std::string& text,
-    const std::optional<models::heights::GeoPlace>& map_place,
+    const std::optional<GeoPlace>& map_place,
     const glm::dvec2& half_extent_m);
 
 /// Before anything is loaded: throws Error where place_from_text would for this ground whatever its

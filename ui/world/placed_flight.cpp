@@ -1,5 +1,6 @@
 #include "ui/world/placed_flight.h"
 
+#include "flightpaths/local_tangent.h"
 #include "flightpaths/placement.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -17,38 +18,24 @@ namespace octant::ui::world {
 
 namespace {
 
-flightpaths::HeightMode placement_mode(settings::HeightMode mode) {
-    switch (mode) {
-    case settings::HeightMode::Clear:
-        return flightpaths::HeightMode::Clear;
-    case settings::HeightMode::Follow:
-        return flightpaths::HeightMode::Follow;
-    case settings::HeightMode::Datum:
-        break;
-    }
-    return flightpaths::HeightMode::Datum;
-}
-
 flightpaths::Placement placement_of(
-    const settings::RunSettings& settings, const FlightScript& script, const SceneGround& ground) {
+    const settings::RunSettings& settings, const LoadedPath& loaded, const SceneGround& ground) {
     flightpaths::Placement placement;
     const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
-    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
+    const bool at_its_own_place = loaded.origin && ground.place && !settings.path.place;
     if (settings.path.place) {
         placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = flightpaths::local_from_geo(
-            {ground.place->latitude_deg, ground.place->longitude_deg},
-            script.origin->latitude_deg,
-            script.origin->longitude_deg);
+            *ground.place, loaded.origin->latitude_deg, loaded.origin->longitude_deg);
         placement.heading_rad = 0.0;
     }
     if (settings.path.heading_deg) {
         placement.heading_rad = rad_from_deg(*settings.path.heading_deg);
     }
-    placement.mode = placement_mode(settings.path.height_mode.value_or(
-        at_its_own_place ? settings::HeightMode::Datum : settings::HeightMode::Clear));
-    if (placement.mode == flightpaths::HeightMode::Follow && !script.limits) {
+    placement.mode = settings.path.height_mode.value_or(
+        at_its_own_place ? sim::HeightMode::Datum : sim::HeightMode::Clear);
+    if (placement.mode == sim::HeightMode::Follow && !loaded.limits) {
         throw Error(fmt::format(
             "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
             "got '{}'",
@@ -61,42 +48,42 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-flightpaths::GroundHeight heights_of(const SceneGround& ground) {
+GroundHeight heights_of(const SceneGround& ground) {
     return [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); };
 }
 
 /// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights
 /// meet ours, all of the tape is lifted clear, and a note says so.
 flightpaths::PlacedPath
-placed(const FlightScript& script, flightpaths::Placement placement, const SceneGround& ground) {
+placed(const LoadedPath& loaded, flightpaths::Placement placement, const SceneGround& ground) {
     const auto heights = heights_of(ground);
-    if (!script.is_tape || placement.mode != flightpaths::HeightMode::Datum) {
+    if (!loaded.is_tape || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
-            script.trajectory, placement, heights, script.min_clearance_m, script.limits);
+            loaded.trajectory, placement, heights, loaded.min_clearance_m, loaded.limits);
     }
     constexpr double least_m = 2.0;
-    placement.mode = flightpaths::HeightMode::Clear;
+    placement.mode = sim::HeightMode::Clear;
     flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
-        script.trajectory, placement, heights, least_m, script.limits);
+        loaded.trajectory, placement, heights, least_m, loaded.limits);
     if (lifted.offset_m > 0.0) {
         lifted.notes.push_back(fmt::format(
             "the tape's first aircraft meets this ground: all are lifted by {:.1f} m",
             lifted.offset_m));
         return lifted;
     }
-    placement.mode = flightpaths::HeightMode::Datum;
+    placement.mode = sim::HeightMode::Datum;
     return flightpaths::place_over_ground(
-        script.trajectory, placement, heights, script.min_clearance_m, script.limits);
+        loaded.trajectory, placement, heights, loaded.min_clearance_m, loaded.limits);
 }
 
 /// Lays a path over the ground; what is wrong with it is said with the name of the path.
 flightpaths::PlacedPath placed_by_name(
     const std::string& name,
-    const FlightScript& script,
+    const LoadedPath& loaded,
     const flightpaths::Placement& placement,
     const SceneGround& ground) {
     try {
-        return placed(script, placement, ground);
+        return placed(loaded, placement, ground);
     } catch (const Error& fault) {
         throw Error(fmt::format("{}: {}", printable(name), fault.what()));
     }
@@ -120,15 +107,15 @@ std::string path_of(const settings::RunSettings& settings) {
 
 Flight place_flight(
     const settings::RunSettings& settings,
-    FlightScript script,
+    LoadedPath loaded,
     const SceneGround& ground,
     std::vector<std::string>& notes) {
     flightpaths::PlacedPath path =
-        placed_by_name(path_of(settings), script, placement_of(settings, script, ground), ground);
+        placed_by_name(path_of(settings), loaded, placement_of(settings, loaded, ground), ground);
     add(notes, path.notes);
     std::map<std::size_t, sim::Trajectory> others;
-    for (std::size_t i = 0; i < script.others.size(); ++i) {
-        others.emplace(i + 1, flightpaths::placed_beside(script.others[i], path));
+    for (std::size_t i = 0; i < loaded.others.size(); ++i) {
+        others.emplace(i + 1, flightpaths::placed_beside(loaded.others[i], path));
     }
     const auto stem = [](const std::string& name) {
         return std::filesystem::path(name).stem().string();
@@ -140,13 +127,13 @@ Flight place_flight(
             stem(settings::shape_of(settings.path.aircraft.front())),
             stem(path_of(settings)),
             stem(settings.path.terrain)),
-        .rate_hz = script.rate_hz,
+        .rate_hz = loaded.rate_hz,
         .place_m = path.origin_m,
         .heading_rad = path.heading_rad,
         .offset_m = path.offset_m,
         .lowest_clearance_m = path.lowest_clearance_m,
         .lowest_clearance_s = path.lowest_clearance_at_s,
-        .legs = std::move(script.legs),
+        .legs = std::move(loaded.legs),
         .others = std::move(others)};
 }
 
@@ -157,17 +144,17 @@ sim::Trajectory own_path(
     const SceneGround& ground,
     const Flight& first,
     std::vector<std::string>& notes) {
-    const FlightScript script = load_script(*flown.path, flown.shape, settings.path.lenient);
-    add(notes, script.notes);
-    flightpaths::Placement placement = placement_of(settings, script, ground);
-    const bool at_its_own_place = script.origin && ground.place && !settings.path.place;
+    const LoadedPath loaded = load_path(*flown.path, flown.shape, settings.path.lenient);
+    add(notes, loaded.notes);
+    flightpaths::Placement placement = placement_of(settings, loaded, ground);
+    const bool at_its_own_place = loaded.origin && ground.place && !settings.path.place;
     if (!at_its_own_place) {
         placement.heading_rad = first.heading_rad;
-        const glm::dvec3 start_m = script.trajectory.samples().front().position_m;
+        const glm::dvec3 start_m = loaded.trajectory.samples().front().position_m;
         const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));
         placement.place_m = begin_m - glm::dvec2(turn * start_m);
     }
-    flightpaths::PlacedPath path = placed_by_name(*flown.path, script, placement, ground);
+    flightpaths::PlacedPath path = placed_by_name(*flown.path, loaded, placement, ground);
     add(notes, path.notes);
     return begun_at(path.trajectory, first.trajectory.start_s() + flown.from_s);
 }

@@ -4,7 +4,7 @@
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings.h"
 #include "ui/world/flight.h"
-#include "ui/world/flight_script.h"
+#include "ui/world/loaded_path.h"
 #include "ui/world/scene_ground.h"
 
 #include <glm/vec2.hpp>
@@ -21,7 +21,7 @@ std::string path_of(const settings::RunSettings& settings);
 /// what a person should be told to the notes. Throws Error.
 Flight place_flight(
     const settings::RunSettings& settings,
-    FlightScript script,
+    LoadedPath loaded,
     const SceneGround& ground,
     std::vector<std::string>& notes);
 

@@ -12,9 +12,12 @@
 namespace octant::ui::world {
 
 struct RefineInput {
-    std::string file;     ///< a triangle mesh or a progressive mesh (.pm)
-    std::size_t base = 0; ///< meshes: vertices of the base mesh, at least; 0 = as few as can be
-    std::size_t most_vertices = std::numeric_limits<std::size_t>::max(); ///< read of a .pm file
+    /// A triangle mesh or a progressive mesh (.pm).
+    std::string file;
+    /// Of meshes: vertices of the base mesh, at least; 0 = as few as can be.
+    std::size_t base = 0;
+    /// The most vertices that are read of a .pm file.
+    std::size_t most_vertices = std::numeric_limits<std::size_t>::max();
     bool quiet = false;
 };
 

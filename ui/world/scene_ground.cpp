@@ -94,8 +94,8 @@ SceneGround load_polygons(const settings::RunSettings& settings) {
 
 } // namespace
 
-settings::RunSettings ground_settings(
-    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place) {
+settings::RunSettings
+ground_settings(const settings::RunSettings& settings, const std::optional<GeoPlace>& place) {
     settings::RunSettings own = with_sun_of_time(settings, place);
     if (!settings.air.palette && settings.path.terrain == "canyon") {
         own.air.palette = scene::Palette::Arid;

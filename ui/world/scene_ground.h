@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/height_field.h"
+#include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
 #include "ui/world/ground_texture_file.h"
 #include "visuals/landscape/ground.h"
@@ -16,17 +16,20 @@ namespace octant::ui::world {
 
 /// The settings with what the ground decides where they leave it open: its colours, and the sun at
 /// its place.
-settings::RunSettings ground_settings(
-    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place);
+settings::RunSettings
+ground_settings(const settings::RunSettings& settings, const std::optional<GeoPlace>& place);
 
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {
     std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.
     std::shared_ptr<const visuals::scene::GroundTexture> texture;
-    std::string name;                               ///< with its size, for people
-    std::optional<models::heights::GeoPlace> place; ///< nothing for made ground
-    std::vector<std::string> notes;                 ///< what a person should be told
+    /// With its size, for people.
+    std::string name;
+    /// Nothing for made ground.
+    std::optional<GeoPlace> place;
+    /// What a person should be told.
+    std::vector<std::string> notes;
 };
 
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for

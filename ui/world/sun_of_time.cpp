@@ -10,7 +10,7 @@ namespace octant::ui::world {
 
 namespace {
 
-using Place = std::optional<models::heights::GeoPlace>;
+using Place = std::optional<GeoPlace>;
 
 std::optional<sim::SunPosition> sun_of(const visuals::scene::AirSettings& air, const Place& place) {
     const auto time = air.time ? sim::solar_time_from_text(*air.time) : std::nullopt;

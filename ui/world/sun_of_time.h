@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/heights/height_field.h"
+#include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
 
 #include <optional>
@@ -11,22 +11,22 @@ namespace octant::ui::world {
 /// Where the sun is worked out for ground without a place.
 inline constexpr double latitude_without_place_deg = 45.0;
 
-double latitude_of(const std::optional<models::heights::GeoPlace>& place);
+double latitude_of(const std::optional<GeoPlace>& place);
 
 /// The settings with the sun where it stands at their time and that place, on the horizon at night;
 /// the same settings where they name no time, which has passed settings::check_settings.
-settings::RunSettings with_sun_of_time(
-    settings::RunSettings settings, const std::optional<models::heights::GeoPlace>& place);
+settings::RunSettings
+with_sun_of_time(settings::RunSettings settings, const std::optional<GeoPlace>& place);
 
 /// The same for settings that follow others: where their time is that of before and their sun is
 /// not, the sun was moved by hand, and they name no time any more.
 settings::RunSettings with_sun_followed(
     settings::RunSettings settings,
     const settings::RunSettings& before,
-    const std::optional<models::heights::GeoPlace>& place);
+    const std::optional<GeoPlace>& place);
 
 /// What a person should be told where the sun of the settings' time is below the horizon.
-std::optional<std::string> note_of_night(
-    const settings::RunSettings& settings, const std::optional<models::heights::GeoPlace>& place);
+std::optional<std::string>
+note_of_night(const settings::RunSettings& settings, const std::optional<GeoPlace>& place);
 
 } // namespace octant::ui::world

@@ -9,7 +9,7 @@
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
-#include "ui/world/flight_script.h"
+#include "ui/world/loaded_path.h"
 #include "ui/world/place_text.h"
 #include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
@@ -138,13 +138,13 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     }
 }
 
-std::shared_ptr<const planning::FlownPath> drawn_path(const Flight& flight) {
+std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
     std::vector<planning::NamedTime> legs;
     for (const flightpaths::LegBegin& leg : flight.legs) {
         legs.push_back({leg.time_s, leg.label});
     }
-    return std::make_shared<const planning::FlownPath>(
-        planning::flown_path(flight.trajectory, legs));
+    return std::make_shared<const planning::DrawnPath>(
+        planning::drawn_path(flight.trajectory, legs));
 }
 
 /// What the tower is placed by; `flight` keeps the states.
@@ -203,7 +203,7 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
     if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) {
         return points;
     }
-    const scene::GroundHeight ground = [&](double x_m, double y_m) {
+    const GroundHeight ground = [&](double x_m, double y_m) {
         return world.scene.ground->height_at(x_m, y_m);
     };
     std::vector<sim::AircraftState> flight;
@@ -236,9 +236,9 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     // first.
     std::future<SceneGround> coming_ground =
         std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
-    std::optional<FlightScript> script;
+    std::optional<LoadedPath> script;
     if (!is_live) {
-        script = load_script(
+        script = load_path(
             path_of(settings),
             settings::shape_of(settings.path.aircraft.front()),
             settings.path.lenient);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/heights/height_field.h"
 #include "sim/aircraft_kind.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/flight.h"
@@ -31,7 +31,7 @@ struct World {
         .others = {}};
     visuals::scene::FixedPoints points;
     std::string ground_name;
-    std::optional<models::heights::GeoPlace> ground_place;
+    std::optional<GeoPlace> ground_place;
     /// What a person should be told: voids filled, legs clipped, ...
     std::vector<std::string> notes;
     /// Kept painting orders that were used.

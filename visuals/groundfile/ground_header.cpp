@@ -184,7 +184,7 @@ GroundFacts facts_of(const GroundHeader& h) {
     GroundFacts facts;
     facts.name = cleaned({h.name.data(), h.name_length});
     if (h.has_place != 0) {
-        facts.place = models::heights::GeoPlace{h.latitude_deg, h.longitude_deg};
+        facts.place = GeoPlace{h.latitude_deg, h.longitude_deg};
     }
     if (h.system.wkt_length > 0) {
         facts.system = models::heights::MapSystem{

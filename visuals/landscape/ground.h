@@ -22,7 +22,8 @@ namespace octant::visuals::landscape {
 struct GroundSource {
     terrain::GroundSamples samples;
     models::heights::GroundArea area;
-    std::optional<models::heights::GeoPlace> place; ///< nothing for made ground
+    /// Nothing for made ground.
+    std::optional<GeoPlace> place;
 };
 
 /// What stands below the aircraft: a height field under a quadtree, ground under a mesh by

@@ -9,12 +9,17 @@ namespace octant::visuals::landscape {
 
 /// A place of ground before light falls on it.
 struct Site {
-    float east_m;      ///< of the field's south-west corner
-    float north_m;     ///< of the field's south-west corner
-    float height_m;    ///< above the water level
-    float steepness;   ///< 1 - cosine of the slope
-    float footprint_m; ///< what is smaller is seen as its mean
-    float patches;     ///< noise in [-1, 1], features of some hundred metres
+    /// East and north of the field's south-west corner.
+    float east_m;
+    float north_m;
+    /// Above the water level.
+    float height_m;
+    /// 1 - cosine of the slope.
+    float steepness;
+    /// What is smaller is seen as its mean.
+    float footprint_m;
+    /// Noise in [-1, 1] with features of some hundred metres.
+    float patches;
 };
 
 /// What covers a place of temperate ground, shares 0..1.

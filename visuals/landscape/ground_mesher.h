@@ -31,16 +31,20 @@ MeshSettings mesh_settings(const scene::Settings& settings, bool textured);
 /// From where the ground is meshed for one frame, and how finely.
 struct GroundRequest {
     scene::Camera camera;
-    double aspect = 1.0;         ///< width of the picture by its height
-    int triangle_target = 20000; ///< at least 1; ground that is always drawn whole ignores it
+    /// Width of the picture by its height.
+    double aspect = 1.0;
+    /// At least 1; ground that is always drawn whole ignores it.
+    int triangle_target = 20000;
 };
 
 /// What was drawn of the ground in one frame.
 struct GroundCounts {
     int triangles = 0;
     int fans = 0;
-    double resolution = 0.0; ///< C; 0 where the screen-space error decides
-    double error_px = 0.0;   ///< screen-space error the mesh was made for; 0 where C decides
+    /// C; 0 where the screen-space error decides.
+    double resolution = 0.0;
+    /// The screen-space error that the mesh was made for; 0 where C decides.
+    double error_px = 0.0;
 };
 
 /// One view's meshes of a ground, frame after frame: the detail control and the memory that its

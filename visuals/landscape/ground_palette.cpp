@@ -56,7 +56,7 @@ relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& set
                                    : nullptr;
 }
 
-nature::Climate climate_at(const std::optional<models::heights::GeoPlace>& place) {
+nature::Climate climate_at(const std::optional<GeoPlace>& place) {
     return place ? nature::climate_of(place->latitude_deg, place->longitude_deg)
                  : nature::Climate();
 }

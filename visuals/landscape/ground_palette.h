@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
@@ -30,7 +31,7 @@ std::shared_ptr<const nature::ReliefLight>
 relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
 
 /// What grows at a place; of made ground where there is none.
-nature::Climate climate_at(const std::optional<models::heights::GeoPlace>& place);
+nature::Climate climate_at(const std::optional<GeoPlace>& place);
 
 /// Whether ground has the same colours under both: its sun, water and palette.
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);

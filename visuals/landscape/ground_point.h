@@ -6,11 +6,14 @@ namespace octant::visuals::landscape {
 
 /// A place on the ground.
 struct GroundPoint {
-    float east_m = 0.0F;   ///< of the field's south-west corner
-    float north_m = 0.0F;  ///< of the field's south-west corner
-    float height_m = 0.0F; ///< above datum
+    /// East and north of the field's south-west corner.
+    float east_m = 0.0F;
+    float north_m = 0.0F;
+    /// Above datum.
+    float height_m = 0.0F;
     glm::vec3 normal{0.0F, 0.0F, 1.0F};
-    float shore = 0.0F; ///< of water: share of its surroundings that is land
+    /// Of water: the share of its surroundings that is land.
+    float shore = 0.0F;
 };
 
 } // namespace octant::visuals::landscape

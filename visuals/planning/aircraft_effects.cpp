@@ -22,11 +22,15 @@ using models::ColourVertex;
 using models::polygons::Pivot;
 using models::polygons::PolygonModel;
 
-constexpr double quick_turns_per_s = 3.0; ///< blades that turn faster are seen as a disc
-constexpr double slack = 0.06; ///< of a disc's radius that the rest may reach through its plane
+/// Blades that turn faster are seen as a disc.
+constexpr double quick_turns_per_s = 3.0;
+/// The share of a disc's radius that the rest may reach through its plane.
+constexpr double slack = 0.06;
 constexpr int spokes = 32;
-constexpr double plume_radii = 9.0; ///< its length
-constexpr double vapour_m = 14.0;   ///< its length
+/// The length of a plume.
+constexpr double plume_radii = 9.0;
+/// The length of a trail of vapour.
+constexpr double vapour_m = 14.0;
 constexpr double vapour_high_m = 0.5;
 constexpr int vapour_steps = 8;
 

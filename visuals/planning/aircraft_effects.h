@@ -19,9 +19,12 @@ namespace octant::visuals::planning {
 
 /// How much of an aircraft's effects is seen in a state, each 0..1.
 struct EffectStrength {
-    double exhaust = 0.0; ///< hot air behind the nozzles
-    double burner = 0.0;  ///< afterburners: climb and load ask for more thrust than without them
-    double vapour = 0.0;  ///< at the wingtips, under load
+    /// Hot air behind the nozzles.
+    double exhaust = 0.0;
+    /// Afterburners: climb and load ask for more thrust than there is without them.
+    double burner = 0.0;
+    /// Vapour at the wingtips, under load.
+    double vapour = 0.0;
 };
 
 EffectStrength strength_of(const sim::AircraftState& state);
@@ -42,7 +45,8 @@ public:
     const HullExtent& extent() const { return extent_; }
 
     struct Ranges {
-        VeilRange before; ///< the aircraft
+        /// What is painted before the aircraft, and what after it.
+        VeilRange before;
         VeilRange after;
     };
 
@@ -64,7 +68,8 @@ private:
         glm::dvec3 place_m{0.0};
         glm::dvec3 out{0.0, 0.0, -1.0};
         double radius_m = 1.0;
-        std::uint32_t pivot = models::no_index; ///< of a disc
+        /// The pivot whose blades a disc shows.
+        std::uint32_t pivot = models::no_index;
     };
 
     void find_discs(const models::polygons::PolygonModel& model);
@@ -74,7 +79,8 @@ private:
 
     std::vector<Effect> veils_;
     HullExtent extent_;
-    std::vector<models::ColourVertex> vertices_; ///< of the frame at hand
+    /// The corners and triangles of one effect in the frame at hand.
+    std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
 };
 

@@ -28,7 +28,8 @@ HullExtent circle_of(const models::polygons::Pivot& pivot, const glm::dvec3& poi
 /// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.
 struct HullBox {
     glm::dvec3 centre_m{0.0};
-    glm::dmat3 axes{1.0}; ///< columns: unit vectors along the edges
+    /// Columns are unit vectors along the edges.
+    glm::dmat3 axes{1.0};
     glm::dvec3 half_m{0.0};
 };
 

@@ -111,7 +111,8 @@ private:
 
     const models::polygons::PolygonModel& model_;
     std::span<const glm::vec3> normals_;
-    std::vector<std::uint32_t> apexes_; ///< the fan's first corner of each polygon
+    /// The first corner of each polygon's fan.
+    std::vector<std::uint32_t> apexes_;
     scene::ModelBuffers buffers_;
 };
 

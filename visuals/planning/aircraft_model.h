@@ -23,7 +23,8 @@ namespace octant::visuals::planning {
 /// flat list and, behind them, all polygons in file order. As meshes, where it has levels of
 /// detail: behind both.
 struct AircraftModel {
-    models::polygons::PolygonModel polygons; ///< that the order speaks of
+    /// The polygons that the order speaks of.
+    models::polygons::PolygonModel polygons;
     draworder::DrawOrder order;
     scene::ModelBuffers buffers;
     /// Where the vertices of each polygon begin, and those of the last one end.
@@ -31,11 +32,15 @@ struct AircraftModel {
     /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
     std::vector<std::uint32_t> first_indices;
     scene::IndexRange file_order;
-    std::vector<std::uint32_t> file_list; ///< what file_order draws: no repeats
-    HullExtent hull;                      ///< of polygons and meshes
+    /// The polygons that file_order draws, without repeats.
+    std::vector<std::uint32_t> file_list;
+    /// Holds polygons and meshes.
+    HullExtent hull;
     scene::Subject subject;
-    shading::ShadedPolygons shaded; ///< the polygons
-    std::vector<MeshLevel> levels;  ///< finest first; often none
+    /// How the polygons are shaded.
+    shading::ShadedPolygons shaded;
+    /// Levels of detail, finest first; often none.
+    std::vector<MeshLevel> levels;
     /// In place of levels: a mesh that is refined in each frame. Body axes.
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
     /// Of each representation: the levels or the progressive mesh, then the polygons.
@@ -46,7 +51,8 @@ struct AircraftModel {
     /// With a progressive mesh: its transparent surfaces, which are blended over all others. Their
     /// polygons have the number 0 each.
     scene::IndexRange transparent{};
-    float opacity = 1.0F; ///< of the transparent surfaces
+    /// How much of what is behind the transparent surfaces hide.
+    float opacity = 1.0F;
 
     /// How many indices draw a polygon.
     std::uint32_t index_count_of(std::uint32_t polygon) const {
@@ -86,8 +92,10 @@ void add_progressive(
 
 /// A part of a mesh aircraft that turns by a pivot of its polygons.
 struct TurningMesh {
-    const models::TriangleMesh* mesh = nullptr; ///< body axes, as at the time 0
-    std::uint32_t pivot = 0;                    ///< index into PolygonModel::pivots
+    /// The part as at the time 0, in body axes.
+    const models::TriangleMesh* mesh = nullptr;
+    /// Index into PolygonModel::pivots.
+    std::uint32_t pivot = 0;
 };
 
 /// Gives a model with a progressive mesh the parts that turn beside it. Loading work.

@@ -1,5 +1,7 @@
 #include "visuals/planning/facing.h"
 
+#include "visuals/scene/screen_step.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -10,9 +12,9 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Renderers round screen positions to 1/256 pixel; twice that bounds the error of both ends of an
+/// Twice what renderers round screen positions to: it bounds the error of both ends of an
 /// edge.
-constexpr float rounding_px = 2.0F / 256.0F;
+constexpr float rounding_px = 2.0F * static_cast<float>(scene::screen_step_px);
 
 float sum_of_parts(const glm::vec3& v) {
     const glm::vec3 size = glm::abs(v);

@@ -235,7 +235,6 @@ void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_bod
 }
 
 void Fleet::refine(const FrameView& view) {
-    const RefineLook look{view.frustum, ahead_of(view.camera), view.pixel_rad};
     splits_ = 0;
     collapses_ = 0;
     for (PlacedAircraft& aircraft : placed_) {
@@ -244,7 +243,7 @@ void Fleet::refine(const FrameView& view) {
         was_refined_[i] = is_refined(aircraft) ? 1 : 0;
         if (is_refined(aircraft)) {
             const refine::RefinedFrame frame =
-                refined_[i]->update(aircraft.parts[0], look, !before);
+                refined_[i]->update(aircraft.parts[0], view, !before);
             splits_ += static_cast<int>(frame.splits);
             collapses_ += static_cast<int>(frame.collapses);
             aircraft.polygon_count = refined_[i]->triangles();

@@ -31,7 +31,7 @@ scene::OverlayDraw FrameOverlay::draw(
 scene::OverlayDraw
 FrameOverlay::path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m) {
     marks_.begin(camera, settings_.view.size_px, aircraft_m - camera.eye_m);
-    for (const FlownPath::Leg& leg : scene_.path->legs) {
+    for (const DrawnPath::Leg& leg : scene_.path->legs) {
         marks_.add({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
     }
     return marks_.finish();

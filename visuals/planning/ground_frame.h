@@ -10,15 +10,19 @@ namespace octant::visuals::planning {
 
 /// Indices of one triangle's shadow pieces, numbered as FramePlan::repaint_indices are.
 struct ShadowPieces {
-    std::uint32_t triangle = 0; ///< its number in GroundMesher::triangles()
-    std::uint32_t first = 0;    ///< place of the first index among the pieces' indices
+    /// The number of the triangle in GroundMesher::triangles().
+    std::uint32_t triangle = 0;
+    /// The place of the first index among the pieces' indices.
+    std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
 /// The ground of one frame before facing, with the shadows on it.
 struct GroundFrame {
-    scene::TriangleDraw all;               ///< GroundMesher::triangles(), in painting order
-    std::span<const ShadowPieces> shadows; ///< ascending
+    /// What GroundMesher::triangles() gave, in painting order.
+    scene::TriangleDraw all;
+    /// Shadow pieces, by ascending triangle.
+    std::span<const ShadowPieces> shadows;
     std::span<const std::uint32_t> shadow_indices;
 };
 

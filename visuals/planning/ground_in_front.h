@@ -31,8 +31,10 @@ ConvexRoom sight_lines_to(const HullBox& box);
 
 /// A triangle of the ground that hides part of a box or meets it.
 struct NearTriangle {
-    std::uint32_t triangle = 0; ///< number in GroundMesher::triangles
-    bool meets = false;         ///< it may lie before, inside and behind the box
+    /// Its number in GroundMesher::triangles().
+    std::uint32_t triangle = 0;
+    /// Whether it may lie before, inside and behind the box.
+    bool meets = false;
 };
 
 /// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.

@@ -30,14 +30,18 @@ public:
 private:
     void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices);
 
-    std::vector<scene::ModelBuffers> models_;  ///< one or two for each aircraft, then the cockpit
-    std::vector<std::uint32_t> model_of_part_; ///< by AircraftDraw::first_part
+    /// One or two for each aircraft, then the cockpit.
+    std::vector<scene::ModelBuffers> models_;
+    /// By AircraftDraw::first_part.
+    std::vector<std::uint32_t> model_of_part_;
 
     /// An aircraft that a plan may draw as another model of the scene, which has numbers too.
     struct FarNumbers {
         std::uint32_t first_part = 0;
-        std::uint32_t far_model = 0; ///< index into Scene::models
-        std::uint32_t numbered = 0;  ///< index into models_
+        /// Index into Scene::models.
+        std::uint32_t far_model = 0;
+        /// Index into models_.
+        std::uint32_t numbered = 0;
     };
 
     std::vector<FarNumbers> far_of_part_;

@@ -109,8 +109,10 @@ private:
     scene::ModelBuffers& buffers_;
     const models::TriangleMesh& mesh_;
     std::uint32_t first_ = static_cast<std::uint32_t>(buffers_.vertices.size());
-    std::vector<std::uint32_t> newest_; ///< drawn vertex of each of the mesh's
-    std::vector<std::uint32_t> older_;  ///< another one of the same, by drawn vertex
+    /// The drawn vertex of each of the mesh's.
+    std::vector<std::uint32_t> newest_;
+    /// Another drawn vertex of the same one, by drawn vertex.
+    std::vector<std::uint32_t> older_;
     std::vector<std::uint8_t> is_first_;
 };
 

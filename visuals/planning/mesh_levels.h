@@ -12,15 +12,18 @@ namespace octant::visuals::planning {
 
 /// A level of detail before it is made ready to be drawn.
 struct MeshSource {
-    const models::TriangleMesh* mesh = nullptr; ///< body axes; its polygons for drawing: triangles
-    double error_m = 0.0; ///< at most so far from the original surface, both ways
+    /// Triangles to be drawn, in body axes.
+    const models::TriangleMesh* mesh = nullptr;
+    /// No point of it is farther than this from the original surface, nor the other way round.
+    double error_m = 0.0;
 };
 
 /// A level of detail as drawn: a range of its model's index buffer.
 struct MeshLevel {
     scene::IndexRange range;
     double error_m = 0.0;
-    shading::ShadedPolygons shaded; ///< its triangles
+    /// How its triangles are shaded.
+    shading::ShadedPolygons shaded;
 };
 
 /// Appends a mesh to a model's buffers: corners that look the same share a vertex, but each

@@ -12,10 +12,12 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr std::size_t most_dashes = 80;
-constexpr double dash_s = 1.0; ///< where that are not too many
+/// Where that are not too many dashes.
+constexpr double dash_s = 1.0;
 constexpr double box_margin_m = 0.2;
 constexpr double farthest_m = 40000.0;
-constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U}; ///< amber, cyan
+/// Amber and cyan.
+constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U};
 constexpr std::uint32_t flown_alpha = 0xd0U;
 constexpr std::uint32_t coming_alpha = 0x68U;
 
@@ -42,7 +44,7 @@ HullBox box_around(std::span<const models::ColourVertex> corners, const glm::dve
 
 } // namespace
 
-PathRibbon::PathRibbon(const FlownPath& path)
+PathRibbon::PathRibbon(const DrawnPath& path)
     : path_(path) {
     const auto usual = static_cast<std::size_t>(std::lround(dash_s / path.step_s));
     points_a_dash_ = std::max({usual, path.points.size() / most_dashes, std::size_t{2}});
@@ -112,12 +114,12 @@ void PathRibbon::add_piece(
     }
     const double now = own_place(view.time_s).now;
     const auto next_leg =
-        std::ranges::upper_bound(path_.legs, first, {}, &FlownPath::Leg::first_point);
+        std::ranges::upper_bound(path_.legs, first, {}, &DrawnPath::Leg::first_point);
     const auto leg = static_cast<std::size_t>(next_leg - path_.legs.begin());
     vertices_.clear();
     indices_.clear();
     for (std::size_t i = first; i <= last; ++i) {
-        const FlownPath::Point& point = path_.points[i];
+        const DrawnPath::Point& point = path_.points[i];
         const bool flown = static_cast<double>(i) <= now;
         const std::uint32_t colour =
             leg_colours[leg % leg_colours.size()] | (flown ? flown_alpha : coming_alpha) << 24U;

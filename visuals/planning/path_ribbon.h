@@ -2,7 +2,7 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/planning/aircraft_hull.h"
-#include "visuals/planning/flown_path.h"
+#include "visuals/planning/drawn_path.h"
 #include "visuals/planning/veils.h"
 
 #include <cstddef>
@@ -15,10 +15,13 @@ namespace octant::visuals::planning {
 /// What a ribbon is made by.
 struct RibbonView {
     glm::dvec3 eye_m{0.0};
-    double earth_radius_m = 0.0; ///< what is far sinks; 0 = flat
-    double time_s = 0.0;         ///< what has been flown by then is stronger
+    /// What is far sinks by this radius; 0 = the earth is flat.
+    double earth_radius_m = 0.0;
+    /// What has been flown by then is stronger.
+    double time_s = 0.0;
     double half_width_m = 3.0;
-    double gap_m = 15.0; ///< before and behind the aircraft, which is not covered
+    /// The way before and behind the aircraft that is not covered.
+    double gap_m = 15.0;
 };
 
 /// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so
@@ -27,10 +30,11 @@ struct RibbonView {
 class PathRibbon {
 public:
     /// The path must outlive the ribbon.
-    explicit PathRibbon(const FlownPath& path);
+    explicit PathRibbon(const DrawnPath& path);
 
     struct Dash {
-        HullBox box; ///< holds it; eye at the origin
+        /// Holds the dash; the eye is at the origin.
+        HullBox box;
         VeilRange range;
     };
 
@@ -40,8 +44,10 @@ public:
 private:
     /// Where the aircraft is: past `point`, before the next one.
     struct Own {
-        double now;        ///< in points
-        std::size_t point; ///< the last one that it has passed
+        /// The time as a number of points.
+        double now;
+        /// The last point that it has passed.
+        std::size_t point;
         glm::dvec3 place_m;
     };
 
@@ -49,7 +55,7 @@ private:
     void add_dash(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
     void add_piece(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
 
-    const FlownPath& path_;
+    const DrawnPath& path_;
     std::size_t points_a_dash_ = 1;
     std::vector<Dash> dashes_;
     std::vector<models::ColourVertex> vertices_;

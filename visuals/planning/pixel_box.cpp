@@ -10,7 +10,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double nearest = 1e-6; ///< share of the box's size that must lie before the eye
+/// The share of the box's size that must lie before the eye.
+constexpr double nearest = 1e-6;
 
 } // namespace
 

@@ -31,14 +31,21 @@ struct PlacedAircraft {
     std::span<const std::uint32_t> list;
     /// Of the index buffer: what is drawn of it, one range after the other. Keeps its memory.
     std::vector<scene::IndexRange> ranges;
-    int polygon_count = 0;       ///< of all ranges; of a refined mesh its triangles
-    int cell = 0;                ///< of the draw order, in which the eye is; 0 where it has parts
-    bool is_represented = false; ///< in the last frame, in view
-    bool is_hidden = false;      ///< it is not there: nothing of it is drawn
-    std::size_t representation = 0; ///< index into AircraftModel::errors_m
-    std::uint32_t first_smooth = 0; ///< as AircraftDraw::first_smooth
+    /// The polygons of all ranges; of a refined mesh its triangles.
+    int polygon_count = 0;
+    /// The cell of the draw order in which the eye is; 0 where the order has parts.
+    int cell = 0;
+    /// Whether it was in view in the last frame, and so had a representation to go on from.
+    bool is_represented = false;
+    /// Whether it is not there: nothing of it is drawn.
+    bool is_hidden = false;
+    /// Index into AircraftModel::errors_m.
+    std::size_t representation = 0;
+    /// As AircraftDraw::first_smooth.
+    std::uint32_t first_smooth = 0;
     scene::Tints tints{};
-    std::uint32_t first_part = 0; ///< index into FramePlan::parts
+    /// Index into FramePlan::parts.
+    std::uint32_t first_part = 0;
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
     std::span<const glm::dmat4> parts;
 };

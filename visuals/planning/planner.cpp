@@ -148,10 +148,9 @@ void Planner::begin_plan(const FrameView& view) {
 void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {
     shadows_.begin(ground.all, plan_.shadow_vertices);
     if (settings_.surface.shadows) {
-        const ShadowView seen{view.camera.eye_m, view.frustum, view.pixel_rad};
         const auto hulls = fleet_.hulls();
         for (std::size_t i = 0; i < hulls.size(); ++i) {
-            shadows_.cast(fleet_.placed()[i], hulls[i], *mesher_, seen);
+            shadows_.cast(fleet_.placed()[i], hulls[i], *mesher_, view);
         }
         shadows_.sort_pieces();
     }

@@ -42,10 +42,14 @@ private:
 
     /// Something painted: a part of a polygon or of a triangle.
     struct Painted {
-        std::uint32_t owner = is_ground; ///< index of the aircraft
-        std::uint32_t item = 0;        ///< number of the triangle; else first index of the polygon
-        std::uint32_t index_count = 0; ///< of the polygon
-        std::size_t first_corner = 0;  ///< of its part, in corners_
+        /// Index of the aircraft, or is_ground.
+        std::uint32_t owner = is_ground;
+        /// The number of the triangle; else the first index of the polygon.
+        std::uint32_t item = 0;
+        /// How many indices the polygon has; 0 for a triangle of the ground.
+        std::uint32_t index_count = 0;
+        /// Where the corners of its part begin in corners_.
+        std::size_t first_corner = 0;
         std::size_t corner_count = 0;
     };
 

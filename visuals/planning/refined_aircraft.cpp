@@ -14,7 +14,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr std::uint32_t flat_polygon = 1; ///< RefinedDraw::first_smooth
+/// The bit of RefinedDraw::first_smooth that flat triangles have.
+constexpr std::uint32_t flat_polygon = 1;
 
 float part_of(std::uint32_t colour, unsigned shift) {
     return static_cast<float>(colour >> shift & 0xffU);
@@ -45,19 +46,19 @@ RefinedAircraft::RefinedAircraft(
     , shows_levels_(shading.show_model == scene::ModelLook::Levels) {}
 
 refine::RefinedFrame
-RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first) {
+RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
     const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
-    refine::RefineView view;
-    view.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
-    view.ahead = look.ahead * turn;
-    for (std::size_t i = 0; i < look.frustum.size(); ++i) {
-        view.side_normals[i] = look.frustum[i] * turn;
+    refine::RefineView in_body;
+    in_body.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
+    in_body.ahead = ahead_of(view.camera) * turn;
+    for (std::size_t i = 0; i < view.frustum.size(); ++i) {
+        in_body.side_normals[i] = view.frustum[i] * turn;
     }
-    view.focal_px = 1.0 / look.pixel_rad;
+    in_body.focal_px = 1.0 / view.pixel_rad;
     if (first) {
-        refiner_.settle(view);
+        refiner_.settle(in_body);
     }
-    const refine::RefinedFrame frame = refiner_.update(view);
+    const refine::RefinedFrame frame = refiner_.update(in_body);
     const bool changed = first || frame.splits + frame.collapses > 0;
     front_changed_ = front_changed_ || changed;
     drawn_changed_ = drawn_changed_ || changed || frame.moving > 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/planning/frame_view.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -7,7 +8,6 @@
 
 #include <glm/mat4x4.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,6 @@
 #include <vector>
 
 namespace octant::visuals::planning {
-
-/// What an aircraft is refined for. World axes with the eye at the origin.
-struct RefineLook {
-    std::array<glm::dvec3, 4> frustum{}; ///< frustum_normals
-    glm::dvec3 ahead{0.0, 1.0, 0.0};     ///< unit vector
-    double pixel_rad = 0.001;
-};
 
 /// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its
 /// memory; what stays from frame to frame is not worked out again.
@@ -36,7 +29,7 @@ public:
     /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame
     /// before, so it is made fit at once.
     refine::RefinedFrame
-    update(const glm::dmat4& body_to_eye_world, const RefineLook& look, bool first);
+    update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
 
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 
@@ -59,14 +52,21 @@ private:
     refine::ViewRefiner refiner_;
     shading::ChangingMeshSelector selector_;
     bool shows_levels_;
-    bool choosing_ = false;      ///< some triangles are smooth and some are not
-    bool all_flat_ = false;      ///< whether all are flat, where none is chosen
-    bool front_changed_ = true;  ///< since the selector has seen it
-    bool drawn_changed_ = true;  ///< since draw()
-    std::size_t slot_count_ = 0; ///< of vertices_; those of flat triangles lie behind
+    /// Whether some triangles are smooth and some are not.
+    bool choosing_ = false;
+    /// Whether all are flat, where none is chosen.
+    bool all_flat_ = false;
+    /// Whether the front has changed since the selector has seen it.
+    bool front_changed_ = true;
+    /// Whether anything has changed since draw().
+    bool drawn_changed_ = true;
+    /// How many of vertices_ are slots of the front; those of flat triangles lie behind them.
+    std::size_t slot_count_ = 0;
     std::vector<scene::ModelVertex> vertices_;
-    std::vector<shading::LitPoint> points_; ///< one a slot
-    std::vector<std::uint32_t> labels_;     ///< one a place of the front's indices
+    /// One for each slot.
+    std::vector<shading::LitPoint> points_;
+    /// One for each place of the front's indices.
+    std::vector<std::uint32_t> labels_;
     std::vector<std::uint32_t> indices_;
     std::vector<refine::PlaceRange> ranges_;
 };

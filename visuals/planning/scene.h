@@ -3,7 +3,7 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
-#include "visuals/planning/flown_path.h"
+#include "visuals/planning/drawn_path.h"
 #include "visuals/scene/ground_texture.h"
 
 #include <cstddef>
@@ -17,9 +17,12 @@ namespace octant::visuals::planning {
 
 /// What a model is drawn as from where nobody sees the difference: both are painted in order.
 struct FarModel {
-    std::uint32_t model = 0;     ///< index into Scene::models
-    std::uint32_t far_model = 0; ///< index into Scene::models; without levels of detail
-    double error_m = 0.0;        ///< no point of one is farther from the other
+    /// Index into Scene::models.
+    std::uint32_t model = 0;
+    /// Index into Scene::models, of one without levels of detail.
+    std::uint32_t far_model = 0;
+    /// No point of one model is farther than this from the other.
+    double error_m = 0.0;
 };
 
 /// Everything that is loaded once and looked at in every frame, by one view or by several. What is
@@ -31,11 +34,16 @@ struct Scene {
     std::shared_ptr<const scene::GroundTexture> ground_texture;
     /// Each once, however many aircraft fly it.
     std::vector<std::shared_ptr<const AircraftModel>> models;
-    std::vector<std::uint32_t> aircraft;  ///< model of each aircraft
-    std::vector<FarModel> far_models;     ///< for some of the models
-    std::optional<std::uint32_t> cockpit; ///< model of what the first pilot sees around the eye
-    overlay::InstrumentLayout dials;      ///< of that cockpit
-    std::shared_ptr<const FlownPath> path = nullptr; ///< the first aircraft's, where one is known
+    /// The model of each aircraft.
+    std::vector<std::uint32_t> aircraft;
+    /// What stands in for some of the models from afar.
+    std::vector<FarModel> far_models;
+    /// The model of what the first pilot sees around the eye.
+    std::optional<std::uint32_t> cockpit;
+    /// The working dials of that cockpit.
+    overlay::InstrumentLayout dials;
+    /// The first aircraft's path, where one is known.
+    std::shared_ptr<const DrawnPath> path = nullptr;
 
     const AircraftModel& model_of(std::size_t number) const { return *models[aircraft[number]]; }
 

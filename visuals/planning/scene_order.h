@@ -12,9 +12,11 @@ namespace octant::visuals::planning {
 
 /// Aircraft that are painted as one: nearly always a single one.
 struct Knot {
-    HullBox box; ///< of a single member; else holds the boxes of all, and may meet other knots
+    /// The box of a single member; else it holds the boxes of all, and may meet other knots.
+    HullBox box;
     std::uint32_t first = 0;
-    std::uint32_t count = 0; ///< members first .. first + count - 1
+    /// Its members are first to first + count - 1.
+    std::uint32_t count = 0;
 };
 
 /// Painting order of aircraft by the boxes that stand in for them. Keeps its memory.
@@ -47,18 +49,25 @@ private:
         HullBox box;
         double radius_m = 0.0;
         double power_m2 = 0.0;
-        glm::dvec3 towards{0.0}; ///< unit vector
-        double sine = 0.0;       ///< of half the angle over which the sphere is seen
+        /// A unit vector.
+        glm::dvec3 towards{0.0};
+        /// Of half the angle over which the sphere is seen.
+        double sine = 0.0;
         double cosine = 0.0;
-        bool around_eye = false; ///< the sphere holds the eye
-        std::uint32_t index = 0; ///< of the box
+        /// Whether the sphere holds the eye.
+        bool around_eye = false;
+        /// The index of the box.
+        std::uint32_t index = 0;
     };
 
     /// Where the search for rings has come with a body of a window.
     struct Visit {
-        std::uint32_t number = 0; ///< in order of first visits, from 1; 0: not yet seen
-        std::uint32_t least = 0;  ///< least number known to be reached from here
-        std::uint32_t next = 0;   ///< in waits_
+        /// In order of first visits, from 1; 0 = not yet seen.
+        std::uint32_t number = 0;
+        /// The least number known to be reached from here.
+        std::uint32_t least = 0;
+        /// A place in waits_.
+        std::uint32_t next = 0;
         std::uint32_t end = 0;
         bool in_knot = false;
     };
@@ -73,13 +82,18 @@ private:
     void begin_visit(std::uint32_t body);
     void add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first);
 
-    std::vector<Body> bodies_; ///< by descending power
+    /// By descending power.
+    std::vector<Body> bodies_;
     std::vector<std::uint32_t> by_x_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> windows_; ///< first and last body
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> waits_;   ///< a body, one it waits for
+    /// The first and the last body of each.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> windows_;
+    /// A body, and one that it waits for.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> waits_;
     std::vector<Visit> visits_;
-    std::vector<std::uint32_t> path_; ///< each waits for the next
-    std::vector<std::uint32_t> open_; ///< seen and not yet in a knot, by number
+    /// Bodies of which each waits for the next.
+    std::vector<std::uint32_t> path_;
+    /// Bodies that were seen and are not yet in a knot, by number.
+    std::vector<std::uint32_t> open_;
     std::uint32_t visited_ = 0;
     std::vector<Knot> knots_;
     std::vector<std::uint32_t> members_;

@@ -14,7 +14,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Renderers round screen positions to 1/256 pixel. What is painted again is cut this much too wide
+/// A little more than two of scene::screen_step_px. What is painted again is cut this much too wide
 /// where only that rounding could tell, so that no line of the covered thing shows along the cut.
 constexpr double rounding_px = 0.01;
 

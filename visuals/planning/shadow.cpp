@@ -73,11 +73,11 @@ void ShadowCaster::cast(
     const PlacedAircraft& aircraft,
     const HullBox& hull,
     const landscape::GroundMesher& ground,
-    const ShadowView& view) {
+    const FrameView& view) {
     if (!high_enough_ || ground_.indices.empty()) {
         return;
     }
-    const double path_m = light_path_m(hull, ground.ground(), view.eye_m);
+    const double path_m = light_path_m(hull, ground.ground(), view.camera.eye_m);
     if (path_m < 0.0) {
         return;
     }
@@ -87,7 +87,7 @@ void ShadowCaster::cast(
     // On a slope that falls away from the sun a shadow is longer than on the level.
     const double reach_m = 2.0 * size_m / to_sun_.z;
     if (2.0 * size_m < least_shadow_px * view.pixel_rad * glm::length(place_m) ||
-        !scene::in_view(place_m, reach_m, view.frustum_normals)) {
+        !scene::in_view(place_m, reach_m, view.frustum)) {
         return;
     }
     const ConvexRoom room = lit_room(hull, to_sun_, path_m, reach_m);
@@ -95,7 +95,7 @@ void ShadowCaster::cast(
     struct Look {
         const ConvexRoom& room;
         const glm::dvec3& eye_m;
-    } const look{room, view.eye_m};
+    } const look{room, view.camera.eye_m};
 
     candidates_.clear();
     ground.triangles_in(

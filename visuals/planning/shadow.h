@@ -3,14 +3,13 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/sight.h"
-#include "visuals/scene/camera.h"
 
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,13 +21,6 @@ inline constexpr float shadow_share = 0.55F;
 
 /// Below this elevation of the sun there are no shadows: they would be longer than 19 heights.
 inline constexpr double least_sun_elevation_deg = 3.0;
-
-/// What decides whether a shadow is seen. World axes, eye at the origin.
-struct ShadowView {
-    glm::dvec3 eye_m{0.0}; ///< world
-    std::array<glm::dvec3, 4> frustum_normals{};
-    double pixel_rad = 0.0;
-};
 
 /// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each
 /// triangle of the ground below and cut off at the triangle's sides. The pieces are opaque and have
@@ -48,7 +40,7 @@ public:
         const PlacedAircraft& aircraft,
         const HullBox& hull,
         const landscape::GroundMesher& ground,
-        const ShadowView& view);
+        const FrameView& view);
 
     /// To be called after the last cast().
     void sort_pieces();

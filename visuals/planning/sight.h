@@ -14,10 +14,12 @@ namespace octant::visuals::planning {
 /// A corner of a convex polygon and how the edge from it to the next corner came about.
 struct SightCorner {
     glm::dvec3 at_m{0.0};
-    bool cut = false; ///< the edge is a cut, not one of the polygon's own
+    /// Whether the edge is a cut, and not one of the polygon's own.
+    bool cut = false;
 };
 
-using SightPolygon = std::vector<SightCorner>; ///< empty = nothing of it is left
+/// Without corners nothing of it is left.
+using SightPolygon = std::vector<SightCorner>;
 
 /// Cuts a convex polygon down to the front of a plane. Corners within `tolerance_m` of the plane
 /// lie on it: they are not cut off, but a polygon of which no corner lies farther in front is

@@ -18,7 +18,8 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr int spokes = 36;
-constexpr double dome_radius_m = 1000.0; ///< only its direction shows: the sky has no depth
+/// Only the direction shows: the sky has no depth.
+constexpr double dome_radius_m = 1000.0;
 
 /// Elevations of the rings above the horizon, degrees, from the zenith down.
 constexpr std::array rings_above_deg = {

@@ -16,10 +16,14 @@ glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const
 
 /// What the sky shows below the horizon, where the map has ended: an endless plain.
 struct Plain {
-    double height_below_eye_m = 0.0; ///< zero, less or not finite = no plain, only haze
-    double map_edge_m = 0.0;         ///< level distance from the eye to the nearest edge of the map
-    glm::vec3 colour{0.4F};          ///< mean colour of the ground, display values 0..1
-    double earth_radius_m = 0.0;     ///< the plain sinks with the square of the distance; 0 = flat
+    /// Zero, less or not finite = there is no plain, only haze.
+    double height_below_eye_m = 0.0;
+    /// The level distance from the eye to the nearest edge of the map.
+    double map_edge_m = 0.0;
+    /// The mean colour of the ground, display values 0..1.
+    glm::vec3 colour{0.4F};
+    /// The plain sinks with the square of the distance by this radius; 0 = it is flat.
+    double earth_radius_m = 0.0;
 };
 
 /// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the
@@ -41,11 +45,14 @@ private:
     void add_sun(const nature::Daylight& day);
     void place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m);
 
-    double first_azimuth_rad_; ///< of each ring of the dome: the sun's
+    /// The azimuth at which each ring of the dome begins: the sun's.
+    double first_azimuth_rad_;
     nature::Backdrop land_;
-    std::vector<models::ColourVertex> vertices_; ///< of dome and sun, then of the land
+    /// The vertices of dome and sun, then those of the land.
+    std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
-    std::size_t sky_vertices_ = 0; ///< of dome and sun
+    /// How many vertices and indices dome and sun have.
+    std::size_t sky_vertices_ = 0;
     std::size_t sky_indices_ = 0;
 };
 

@@ -20,7 +20,8 @@ namespace octant::visuals::planning {
 /// Polygons of one aircraft, and how much of the picture it takes.
 struct SmoothShare {
     int polygons = 0;
-    double weight = 0.0; ///< at least 0
+    /// At least 0.
+    double weight = 0.0;
 };
 
 /// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has;
@@ -79,7 +80,8 @@ private:
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
     scene::ShadingSettings settings_;
-    bool chooses_; ///< some polygons may be smooth while others are not
+    /// Whether some polygons may be smooth while others are not.
+    bool chooses_;
     std::vector<Choosers> choosers_;
     std::vector<std::uint32_t> bits_;
     std::vector<SmoothShare> shares_;

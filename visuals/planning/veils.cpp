@@ -14,7 +14,8 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr float nearest_m = 0.3F;
-constexpr float margin = 1.05F; ///< of the view's sides
+/// How far beyond the view's sides triangles are cut.
+constexpr float margin = 1.05F;
 
 /// Distances to the planes in clip space, below zero outside.
 constexpr int planes = 5;

@@ -20,8 +20,8 @@ struct VeilRange {
     std::size_t count = 0;
 };
 
-/// Clear triangles of a frame on their way into the picture: seen through the haze, cut at the
-/// view's edges and placed. Keeps its memory.
+/// Transparent triangles of a frame on their way into the picture: seen through the haze, cut at
+/// the view's edges and placed. Keeps its memory.
 class Veils {
 public:
     /// Forgets the last frame. The haze must outlive the frame.
@@ -38,8 +38,10 @@ public:
 private:
     struct Corner {
         glm::vec4 clip{0.0F};
-        glm::vec4 colour{-1.0F};   ///< display values and alpha; below 0 until it is asked for
-        std::uint32_t outside = 0; ///< a bit for each plane that it is behind
+        /// Display values and alpha; below 0 until it is asked for.
+        glm::vec4 colour{-1.0F};
+        /// A bit for each plane that it is behind.
+        std::uint32_t outside = 0;
     };
 
     Corner placed(const models::ColourVertex& vertex) const;

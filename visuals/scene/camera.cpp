@@ -14,7 +14,8 @@ namespace {
 /// The picture's plane at distance 1 from the eye: right and up.
 struct Plane {
     glm::dvec2 middle{0.0};
-    glm::dvec2 half{1.0}; ///< of its sides
+    /// Half of its sides.
+    glm::dvec2 half{1.0};
 };
 
 Plane plane_of(const Camera& camera, double aspect) {
@@ -59,6 +60,11 @@ glm::mat4 view_to_clip(const Camera& camera, double aspect) {
 double focal_px(const Camera& camera, int picture_height_px) {
     const double up_px = picture_height_px / (2.0 * std::tan(camera.vertical_fov_rad / 2.0));
     return up_px / std::min(camera.pixel_aspect, 1.0);
+}
+
+glm::dquat body_from_view() {
+    return glm::quat_cast(glm::dmat3(
+        glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0)));
 }
 
 glm::dvec3 ahead_of(const Camera& camera) {

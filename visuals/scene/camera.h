@@ -14,7 +14,8 @@ struct Camera {
     glm::dvec3 eye_m{0.0};
     /// View axes are as in OpenGL: x right, y up, -z ahead.
     glm::dquat view_to_world{1.0, 0.0, 0.0, 0.0};
-    double vertical_fov_rad = 0.785398163397448; ///< 45 degrees
+    /// Usually 45 degrees.
+    double vertical_fov_rad = 0.785398163397448;
     double near_m = 0.5;
     /// Where the middle of the picture's plane lies right of and above straight ahead, in units of
     /// its distance; the plane stays square to straight ahead. The field of view is that of a
@@ -27,6 +28,10 @@ struct Camera {
 /// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up;
 /// at itself, it looks north.
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
+
+/// Rotation from the view axes of a camera that looks ahead in a body (right, up, back) to that
+/// body's own (ahead, right, down).
+glm::dquat body_from_view();
 
 /// Rotation part of the view: eye-relative world vectors to view axes.
 glm::mat4 world_to_view(const Camera& camera);

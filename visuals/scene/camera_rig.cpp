@@ -17,17 +17,21 @@ namespace {
 constexpr double usual_fov_deg = 45.0;
 constexpr double chase_lag_s = 0.45;
 constexpr double chase_distance_radii = 3.0;
-constexpr double chase_rise = 0.27; ///< share of the distance by which the eye stands higher
+/// The share of the distance by which the eye stands higher.
+constexpr double chase_rise = 0.27;
 constexpr double orbit_distance_radii = 3.4;
 constexpr double orbit_turn_s = 16.0;
 constexpr double orbit_swing_s = 22.0;
 constexpr double orbit_swing_rad = rad_from_deg(55.0);
-constexpr double steepest_rad = rad_from_deg(89.0); ///< of an eye or a look that is turned
-constexpr double widest_rad = rad_from_deg(160.0);  ///< field of view
+/// The steepest that an eye or a look is turned.
+constexpr double steepest_rad = rad_from_deg(89.0);
+/// The widest field of view.
+constexpr double widest_rad = rad_from_deg(160.0);
 
 /// How far a view is turned and how near it is; 0, 0, 1 = the view itself.
 struct Turn {
-    double azimuth_rad = 0.0; ///< clockwise seen from above
+    /// Clockwise seen from above.
+    double azimuth_rad = 0.0;
     double elevation_rad = 0.0;
     double zoom = 1.0;
 };
@@ -95,10 +99,7 @@ cockpit(const sim::AircraftState& state, const Subject& subject, const GroundHei
     Camera camera;
     camera.eye_m = state.position_m + state.body_to_world * subject.pilot_eye_m;
     lift_above_ground(camera.eye_m, ground);
-    // View axes x right, y up, -z ahead in body axes x forward, y right, z down.
-    static const glm::dquat view_to_body =
-        glm::quat_cast(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)));
-    camera.view_to_world = glm::normalize(state.body_to_world * view_to_body);
+    camera.view_to_world = glm::normalize(state.body_to_world * body_from_view());
     camera.near_m = 0.15;
     return camera;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "visuals/scene/above_ground.h"
 #include "visuals/scene/camera.h"
-#include "visuals/scene/ground_height.h"
 #include "visuals/scene/settings.h"
 #include "visuals/scene/tower.h"
 
@@ -12,8 +12,10 @@ namespace octant::visuals::scene {
 
 /// What a view must know of the aircraft it shows.
 struct Subject {
-    double radius_m = 10.0;      ///< of the sphere around the reference point
-    glm::dvec3 pilot_eye_m{0.0}; ///< body axes
+    /// The radius of the sphere around the reference point that holds the aircraft.
+    double radius_m = 10.0;
+    /// The pilot's eye in body axes.
+    glm::dvec3 pilot_eye_m{0.0};
 };
 
 /// Where the views stand that do not follow the aircraft.
@@ -25,7 +27,8 @@ struct FixedPoints {
 
 /// What a view remembers from one simulation step to the next: a value, so that a run repeats.
 struct RigMemory {
-    glm::dvec3 lagging_forward{0.0}; ///< unit vector; zero before the first step
+    /// A unit vector, ahead as the camera follows it; zero before the first step.
+    glm::dvec3 lagging_forward{0.0};
 };
 
 /// Memory after one simulation step of the aircraft that is followed.

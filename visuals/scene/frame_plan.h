@@ -29,11 +29,14 @@ struct Tints {
 
 /// One aircraft of one frame: one range of its model's index buffer, or several.
 struct AircraftDraw {
-    std::uint32_t model = 0; ///< index into the models that the renderer has loaded
+    /// Index into the models that the renderer has loaded.
+    std::uint32_t model = 0;
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
-    std::uint32_t first_part = 0;   ///< index into FramePlan::parts
-    std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bit 0 is polygon 0
+    /// Index into FramePlan::parts.
+    std::uint32_t first_part = 0;
+    /// The word of FramePlan::smooth whose bit 0 is polygon 0.
+    std::uint32_t first_smooth = 0;
     Tints tints{};
     /// Drawn one after the other in place of the range above, if there are any. Memory as
     /// TriangleDraw.
@@ -48,8 +51,10 @@ struct RefinedDraw {
     /// Triangles. A flat one's first corner belongs to it alone; a place without a triangle has
     /// three equal ones.
     std::span<const std::uint32_t> indices;
-    std::uint32_t first_part = 0;   ///< index into FramePlan::parts
-    std::uint32_t first_smooth = 0; ///< word of FramePlan::smooth whose bits 0 and 1 are 1 and 0
+    /// Index into FramePlan::parts.
+    std::uint32_t first_part = 0;
+    /// The word of FramePlan::smooth whose bits 0 and 1 are 1 and 0.
+    std::uint32_t first_smooth = 0;
     Tints tints{};
 };
 
@@ -57,12 +62,14 @@ struct RefinedDraw {
 /// plan until the next plan.
 struct TriangleDraw {
     std::span<const models::ColourVertex> vertices;
-    std::span<const std::uint32_t> indices; ///< triangles, counter-clockwise seen from above
+    /// Triangles, counter-clockwise seen from above.
+    std::span<const std::uint32_t> indices;
 };
 
 /// A corner of what is drawn over the picture.
 struct OverlayVertex {
-    glm::vec2 at_px{0.0F}; ///< from the picture's upper left corner
+    /// Pixels from the picture's upper left corner.
+    glm::vec2 at_px{0.0F};
     /// As ColourVertex::colour; alpha says how much of the picture it covers.
     std::uint32_t colour = 0;
 };
@@ -92,18 +99,24 @@ struct TexturePlaces {
 /// Density falls with exp(-height * falloff). The haze's colour is mix(colour, sunward, c^2), where
 /// c is the cosine of the way to the level direction of the sun, at least 0.
 struct Haze {
-    glm::vec3 colour{0.0F};       ///< display values 0..1
-    float visibility_m = 0.0F;    ///< at the eye's height; 0 = no haze
-    float falloff_per_m = 0.0F;   ///< 0 = as dense at all heights
-    glm::vec2 to_sun_level{0.0F}; ///< unit, east and north; 0 = one colour all around
-    glm::vec3 sunward{0.0F};      ///< display values 0..1
+    /// The colour of the haze away from the sun, display values 0..1.
+    glm::vec3 colour{0.0F};
+    /// The visibility at the eye's height; 0 = no haze.
+    float visibility_m = 0.0F;
+    /// How fast the air gets thinner with height; 0 = it is as dense at all heights.
+    float falloff_per_m = 0.0F;
+    /// The level direction of the sun, a unit vector east and north; 0 = one colour all around.
+    glm::vec2 to_sun_level{0.0F};
+    /// The colour of the haze towards the sun, display values 0..1.
+    glm::vec3 sunward{0.0F};
 };
 
 /// The fine pattern (grain_pattern.h) on ground that its vertices colour. A vertex has it by its
 /// alpha, times what the haze leaves of the vertex, times a share that falls from 1 to 0 on the way
 /// from `fades_from_m` to `reach_m`.
 struct Grain {
-    glm::vec2 at_eye{0.0F}; ///< where the eye stands, in tiles, 0..1
+    /// Where the eye stands in the pattern, in tiles, 0..1.
+    glm::vec2 at_eye{0.0F};
     float fades_from_m = 0.0F;
     float reach_m = 0.0F;
 };
@@ -119,20 +132,26 @@ struct Highlight {
 /// What the ground shows of its mesh.
 enum class MeshLook {
     None,
-    Edges, ///< lines along the edges of the triangles that are seen
-    Levels ///< the lines, and a colour for each halving of the triangles' size
+    /// Lines are drawn along the edges of the triangles that are seen.
+    Edges,
+    /// Lines, and a colour for each halving of the triangles' size.
+    Levels
 };
 
 /// Everything a renderer needs for one picture, and nothing of any graphics library. The picture
 /// begins as `background`; then each of `steps` is drawn over what is there, in their order. What
 /// no step names is not drawn: the other members say with what and under which light.
 struct FramePlan {
-    glm::mat4 world_to_view{1.0F}; ///< rotation only: positions are relative to the eye
-    glm::mat4 view_to_clip{1.0F};  ///< reversed depth 1..0, infinite far plane
-    glm::vec3 background{0.0F};    ///< display values 0..1
+    /// A rotation only: positions are relative to the eye.
+    glm::mat4 world_to_view{1.0F};
+    /// Depth is reversed, 1 at the near plane and 0 infinitely far.
+    glm::mat4 view_to_clip{1.0F};
+    /// The colour that the picture begins with, display values 0..1.
+    glm::vec3 background{0.0F};
     std::vector<PaintStep> steps;
     std::vector<Clip> clips;
-    std::vector<PixelBox> depth_boxes; ///< empty: no step uses depth
+    /// The boxes that ClearDepth steps name; empty where no step uses depth.
+    std::vector<PixelBox> depth_boxes;
 
     TriangleDraw sky;
     /// Triangles that face the eye or are seen edge-on, in the order in which they are drawn, with
@@ -143,15 +162,19 @@ struct FramePlan {
     std::vector<std::uint32_t> repaint_indices;
     std::vector<models::ColourVertex> shadow_vertices;
     MeshLook mesh_look = MeshLook::None;
-    float sample_spacing_m = 1.0F; ///< of the ground: what levels are counted from
+    /// The spacing of the ground's samples, from which levels are counted.
+    float sample_spacing_m = 1.0F;
     /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and
     /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours.
     std::optional<TexturePlaces> ground_texture;
-    std::optional<Grain> grain; ///< of ground and shadows without a texture; nothing = none
+    /// The fine pattern on ground and shadows without a texture; nothing = none.
+    std::optional<Grain> grain;
 
-    std::vector<AircraftDraw> aircraft; ///< in the order in which `steps` first names them
+    /// Aircraft, in the order in which `steps` first names them.
+    std::vector<AircraftDraw> aircraft;
     std::vector<RefinedDraw> refined;
-    std::vector<glm::mat4> parts; ///< AircraftDraw::first_part: body, then each pivot of the model
+    /// What AircraftDraw::first_part counts in: the body, then each pivot of the model.
+    std::vector<glm::mat4> parts;
     /// A bit for each polygon of each aircraft: 1 = lit smoothly (Gouraud), 0 = flat; and a word
     /// for all that is refined.
     std::vector<std::uint32_t> smooth;
@@ -162,7 +185,8 @@ struct FramePlan {
     OverlayDraw overlay;
 
     Haze haze;
-    glm::vec3 to_sun{0.0F, 0.0F, 1.0F}; ///< unit vector, world axes
+    /// The direction to the sun: a unit vector, world axes.
+    glm::vec3 to_sun{0.0F, 0.0F, 1.0F};
     /// Light on what is lit here: a colour's display values times ambient + sunlight * cosine to
     /// the sun, cut at 1.
     glm::vec3 ambient{0.45F};

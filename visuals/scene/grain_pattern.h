@@ -18,7 +18,8 @@ struct GrainPattern {
     static constexpr glm::vec2 lean{0.6F, -0.8F};
 
     int size = texels_a_side;
-    std::vector<std::uint8_t> texels; ///< rows from the south
+    /// Texels row by row from the south.
+    std::vector<std::uint8_t> texels;
 };
 
 /// Noise of features between a quarter of a metre and sixteen metres, none of them stronger than

@@ -13,8 +13,10 @@ struct GroundImage {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> texels;
-    glm::dvec2 first_m{0.0}; ///< world place of the first texel's middle
-    glm::dvec2 step_m{1.0};  ///< from one texel's middle to the next
+    /// The world place of the first texel's middle.
+    glm::dvec2 first_m{0.0};
+    /// The way from one texel's middle to the next.
+    glm::dvec2 step_m{1.0};
 };
 
 /// What the ground is lit and coloured with at each pixel instead of at each vertex.
@@ -23,7 +25,8 @@ struct GroundTexture {
     GroundImage albedo;
     /// 2 bytes a texel: x and y of the unit normal, each 128 + 127 x.
     GroundImage normal;
-    glm::vec3 mean_colour{0.0F}; ///< of the lit ground, display values 0..1
+    /// The mean colour of the lit ground, display values 0..1.
+    glm::vec3 mean_colour{0.0F};
 };
 
 } // namespace octant::visuals::scene

@@ -14,8 +14,10 @@ struct ModelVertex {
     glm::vec3 position_m{0.0F};
     glm::vec3 normal{0.0F};
     glm::vec3 face_normal{0.0F};
-    std::uint32_t colour = 0;      ///< as ColourVertex::colour
-    std::uint32_t face_colour = 0; ///< as ColourVertex::colour
+    /// The colour where the polygon is smooth, as ColourVertex::colour.
+    std::uint32_t colour = 0;
+    /// The colour where the polygon is flat, as ColourVertex::colour.
+    std::uint32_t face_colour = 0;
     /// 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts.
     std::uint32_t part = 0;
     /// Polygon that begins here: a bit of FramePlan::smooth, counted on from the draw's

@@ -8,9 +8,12 @@ namespace octant::visuals::scene {
 
 /// What colours show of models.
 enum class ModelLook {
-    None,    ///< their own colours
-    Shading, ///< smooth polygons in one colour, flat ones in another
-    Levels   ///< a colour for each halving of what the surface is wrong by there; white = exact
+    /// Aircraft have their own colours.
+    None,
+    /// Smooth polygons have one colour, flat ones another.
+    Shading,
+    /// A colour for each halving of what the surface is wrong by there; white where it is exact.
+    Levels
 };
 
 /// Of smooth and of flat polygons where the look is at shading.

@@ -10,12 +10,18 @@ namespace octant::visuals::scene {
 
 /// How a step uses the depth buffer. Depth is reversed: greater is nearer.
 enum class DepthUse {
-    None,         ///< drawn over whatever is there; depth is neither tested nor written
-    Nearest,      ///< drawn where it is nearer than what is there; written
-    DepthOnly,    ///< as Nearest, but writes depth alone: colours stay as they are
-    EdgeOn,       ///< drawn where there is nothing but what lies well behind it; written
-    OnGround,     ///< drawn where it lies on what is there, a little towards the eye; written
-    InfinitelyFar ///< drawn where nothing is; not written
+    /// Drawn over whatever is there; depth is neither tested nor written.
+    None,
+    /// Drawn where it is nearer than what is there; depth is written.
+    Nearest,
+    /// As Nearest, but depth alone is written: colours stay as they are.
+    DepthOnly,
+    /// Drawn where there is nothing but what lies well behind it; depth is written.
+    EdgeOn,
+    /// Drawn where it lies on what is there, a little towards the eye; depth is written.
+    OnGround,
+    /// Drawn where nothing is; depth is not written.
+    InfinitelyFar
 };
 
 /// Pixels of the picture from its upper left corner: columns least.x to most.x - 1, rows alike.
@@ -35,20 +41,31 @@ struct Clip {
 /// One step of painting: a range of one of the plan's lists, and how it is drawn.
 struct PaintStep {
     enum class What {
-        ClearDepth,  ///< depth becomes infinitely far in FramePlan::depth_boxes first
-        Sky,         ///< indices of FramePlan::sky, without haze
-        Ground,      ///< indices of FramePlan::ground
-        GroundAgain, ///< FramePlan::repaint_indices
-        Aircraft,    ///< FramePlan::aircraft; back faces are not drawn
-        Refined,     ///< FramePlan::refined; back faces are not drawn
-        Veil,   ///< indices of FramePlan::overlay, as Overlay; what comes later is drawn over it
-        Overlay ///< indices of FramePlan::overlay, blended by their alpha, after all others
+        /// Depth becomes infinitely far in a box of FramePlan::depth_boxes.
+        ClearDepth,
+        /// Indices of FramePlan::sky are drawn without haze.
+        Sky,
+        /// Indices of FramePlan::ground are drawn.
+        Ground,
+        /// Indices of FramePlan::repaint_indices are drawn.
+        GroundAgain,
+        /// Aircraft of FramePlan::aircraft are drawn without their back faces.
+        Aircraft,
+        /// Meshes of FramePlan::refined are drawn without their back faces.
+        Refined,
+        /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn
+        /// over it.
+        Veil,
+        /// Indices of FramePlan::overlay are blended by their alpha, after all others.
+        Overlay
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
     What what = What::Aircraft;
-    std::uint32_t first = 0; ///< place in the list that `what` names
+    /// A place in the list that `what` names.
+    std::uint32_t first = 0;
     std::uint32_t count = 0;
-    std::uint32_t clip = whole; ///< index into FramePlan::clips; whole = not cut
+    /// Index into FramePlan::clips; `whole` = what is drawn is not cut.
+    std::uint32_t clip = whole;
     DepthUse depth = DepthUse::None;
     /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where
     /// their depth, which is Nearest, says so, and depth is not written: clear surfaces, drawn

@@ -34,7 +34,8 @@ using PictureBytes = std::vector<std::uint8_t, LineAllocator<std::uint8_t>>;
 struct Picture {
     int width = 0;
     int height = 0;
-    PictureBytes rgba; ///< 4 bytes a pixel, rows from the top, no gaps
+    /// Four bytes a pixel, rows from the top, without gaps.
+    PictureBytes rgba;
 };
 
 /// A part of a picture, pixels from its upper left corner.

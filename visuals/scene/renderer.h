@@ -16,9 +16,12 @@ namespace octant::visuals::scene {
 
 /// What draws, for reports.
 struct RendererInfo {
-    std::string description;   ///< how it draws, and by what: "osmesa, OpenGL 4.5 (...)"
-    std::string device;        ///< the GPU, or the driver's name for what stands in for one
-    bool on_processor = false; ///< a processor draws, not a GPU
+    /// How it draws, and by what: "osmesa, OpenGL 4.5 (...)".
+    std::string description;
+    /// The GPU, or the driver's name for what stands in for one.
+    std::string device;
+    /// Whether a processor draws and not a GPU.
+    bool on_processor = false;
 };
 
 /// Makes pictures of frame plans: draws their steps in their order and decides nothing. Belongs to

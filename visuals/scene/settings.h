@@ -14,9 +14,12 @@ namespace octant::visuals::scene {
 
 /// How hidden surfaces of aircraft are removed.
 enum class HiddenSurface {
-    Octant,      ///< polygons painted in precomputed order, no depth anywhere
-    DepthBuffer, ///< 32-bit float, reversed
-    BackFace     ///< back faces removed, polygons in file order: the 1989 paper's fast, wrong way
+    /// Polygons are painted in precomputed order, without depth anywhere.
+    Octant,
+    /// A depth buffer of 32-bit floats, reversed.
+    DepthBuffer,
+    /// Back faces are removed and polygons painted in file order: the 1989 paper's fast, wrong way.
+    BackFace
 };
 
 enum class View { Chase, Cockpit, Tower, Orbit, Free };
@@ -31,8 +34,10 @@ enum class HybridRule { Error, Paper };
 
 /// What follows the clock: each frame's choice then depends on how long the frames before it took.
 struct Adaptation {
-    bool terrain = false; ///< triangles of ground, exact control only
-    bool shading = false; ///< share of smooth polygons, hybrid shading only
+    /// Whether the triangles of the ground follow the clock; for exact control only.
+    bool terrain = false;
+    /// Whether the share of smooth polygons does; for hybrid shading only.
+    bool shading = false;
 
     bool operator==(const Adaptation&) const = default;
 };
@@ -40,20 +45,28 @@ struct Adaptation {
 /// From where a picture is seen, and how large it is.
 struct ViewSettings {
     View kind = View::Chase;
-    std::optional<glm::dvec3> eye_m;  ///< of the tower and free views
-    std::optional<glm::dvec3> look_m; ///< of the free view
+    /// The eye of the tower and free views.
+    std::optional<glm::dvec3> eye_m;
+    /// What the free view looks at.
+    std::optional<glm::dvec3> look_m;
     /// Vertical. Nothing: 45, and the tower zooms in on the aircraft.
     std::optional<double> fov_deg;
     /// Chase and orbit: the eye turned around the aircraft, clockwise from above and upwards; else
     /// the look turned right and up.
     double azimuth_deg = 0.0;
     double elevation_deg = 0.0;
-    double zoom = 1.0;         ///< chase, orbit: how many times nearer; else how many times larger
-    std::optional<View> inset; ///< a second view, drawn small into a corner of the picture
-    bool head_up_display = true; ///< of the cockpit view
-    bool path_ribbon = false;    ///< the first aircraft's path, its legs, a scale and a north mark
+    /// In chase and orbit views, how many times nearer the eye is; in others, how many times larger
+    /// things look.
+    double zoom = 1.0;
+    /// A second view, drawn small into a corner of the picture.
+    std::optional<View> inset;
+    /// Whether the cockpit view has a head-up display.
+    bool head_up_display = true;
+    /// Whether the first aircraft's path is shown, with its legs, a scale and a north mark.
+    bool path_ribbon = false;
     glm::ivec2 size_px{1280, 720};
-    std::optional<int> samples; ///< a pixel; nothing: the renderer's own
+    /// Samples a pixel; nothing = the renderer's own number.
+    std::optional<int> samples;
 
     bool operator==(const ViewSettings&) const = default;
 };
@@ -66,9 +79,12 @@ struct SurfaceSettings {
     double order_seconds = 20.0;
     /// A folder where orders are kept; the pictures are the same without it.
     std::optional<std::string> order_cache;
-    bool shadows = true;            ///< of aircraft on the ground
-    bool effects = false;           ///< rotor discs, exhaust, afterburners, vapour
-    double aircraft_error_px = 1.0; ///< of meshes: what a level of detail may be wrong by
+    /// Whether aircraft cast shadows on the ground.
+    bool shadows = true;
+    /// Whether rotor discs, exhaust, afterburners and vapour are shown.
+    bool effects = false;
+    /// What a level of detail of a mesh may be wrong by on the screen.
+    double aircraft_error_px = 1.0;
 
     bool operator==(const SurfaceSettings&) const = default;
 };
@@ -77,10 +93,14 @@ struct SurfaceSettings {
 struct ShadingSettings {
     AircraftShading kind = AircraftShading::Hybrid;
     HybridRule rule = HybridRule::Error;
-    double smooth_share = 1.0;          ///< of the polygons, hybrid only
-    std::optional<double> device_ratio; ///< the paper's device speed, in place of smooth_share
-    double near_m = 0.0;                ///< the paper's rule: all smooth to here ...
-    double far_m = 1000.0;              ///< ... and all flat from here
+    /// The share of polygons that are smooth; for hybrid shading only.
+    double smooth_share = 1.0;
+    /// The paper's device speed, in place of smooth_share.
+    std::optional<double> device_ratio;
+    /// By the paper's rule all polygons are smooth up to this distance.
+    double near_m = 0.0;
+    /// By the paper's rule all polygons are flat from this distance on.
+    double far_m = 1000.0;
     ModelLook show_model = ModelLook::None;
 
     bool operator==(const ShadingSettings&) const = default;
@@ -88,22 +108,33 @@ struct ShadingSettings {
 
 /// How the ground is refined.
 struct GroundSettings {
-    std::optional<GroundMetric> mesh; ///< nothing: as ground_metric says
+    /// How the ground is meshed; nothing = as ground_metric says.
+    std::optional<GroundMetric> mesh;
     Propagation propagation = Propagation::CrackFree;
     GroundFans fans = GroundFans::Partial;
     DetailControl detail = DetailControl::Exact;
-    std::optional<int> triangles;   ///< nothing: 20,000, or without end where error_px is given
-    std::optional<double> error_px; ///< screen error: refined no further than this; nothing: 0.25
-    bool geomorphs = true;          ///< screen error: vertices move into place instead of jumping
-    bool mesh_ahead = true;         ///< the next frame's ground is meshed while this one is drawn
-    bool earth_curvature = true;    ///< screen error: distant ground and aircraft sink
-    double resolution_c = 0.0; ///< C of the first frame; 0 = the one that meets the triangle target
+    /// The triangles aimed at; nothing = 20,000, or without end where error_px is given.
+    std::optional<int> triangles;
+    /// By screen error: the ground is refined no further than this; nothing = 0.25.
+    std::optional<double> error_px;
+    /// By screen error: vertices move into place instead of jumping.
+    bool geomorphs = true;
+    /// Whether the next frame's ground is meshed while this one is drawn.
+    bool mesh_ahead = true;
+    /// By screen error: distant ground and aircraft sink.
+    bool earth_curvature = true;
+    /// C of the first frame; 0 = the one that meets the triangle target.
+    double resolution_c = 0.0;
     /// c, the weight of roughness. Nothing: 20 for midpoint, 5 for printed.
     std::optional<double> roughness_c;
-    double control_a = 0.0;  ///< a, triangles per unit of C; 0 = from the terrain's own gain
-    int control_r = 4;       ///< r, earlier frames that the damping looks back at
-    bool near_detail = true; ///< screen error: ground between the samples, near the eye
-    bool scenery = true;     ///< screen error: trees and houses near the eye
+    /// The paper's a, triangles per unit of C; 0 = from the terrain's own gain.
+    double control_a = 0.0;
+    /// The paper's r, the number of earlier frames that the damping looks back at.
+    int control_r = 4;
+    /// By screen error: near the eye the ground has detail between its samples.
+    bool near_detail = true;
+    /// By screen error: trees and houses stand near the eye.
+    bool scenery = true;
     MeshLook show_mesh = MeshLook::None;
 
     bool operator==(const GroundSettings&) const = default;
@@ -112,7 +143,8 @@ struct GroundSettings {
 /// Sky, haze, sun and the colours of the ground.
 struct AirSettings {
     bool sky = true;
-    double visibility_m = 30000.0; ///< at the mean height of the ground; 0 = no haze
+    /// The visibility at the mean height of the ground; 0 = no haze.
+    double visibility_m = 30000.0;
     /// The haze is 1/e as dense so much higher up; 0 = as dense at all heights.
     double haze_height_m = 2500.0;
     /// Of the haze under a sun of 35 degrees, too.
@@ -120,17 +152,23 @@ struct AirSettings {
     /// "YYYY-MM-DDTHH:MM" by the sun itself: whoever loads the scene sets the sun by it and the
     /// place.
     std::optional<std::string> time;
-    double sun_azimuth_deg = 225.0; ///< clockwise from north
+    /// The direction of the sun, clockwise from north.
+    double sun_azimuth_deg = 225.0;
     double sun_elevation_deg = 35.0;
-    bool relief_shadows = true; ///< of the ground on itself, and less light in its hollows
-    double clouds = 0.0;        ///< share of the sky that a layer of clouds covers
+    /// Whether the ground shadows itself, and has less light in its hollows.
+    bool relief_shadows = true;
+    /// The share of the sky that a layer of clouds covers.
+    double clouds = 0.0;
     /// Above datum. Nothing: well above the highest ground.
     std::optional<double> cloud_height_m;
-    double water_level_m = 0.0;     ///< ground at or below it is drawn as water
-    std::optional<Palette> palette; ///< nothing: arid for the canyon, else temperate
+    /// Ground at or below this height is drawn as water.
+    double water_level_m = 0.0;
+    /// The colours of the ground; nothing = arid for the canyon, else temperate.
+    std::optional<Palette> palette;
     /// Auto: texture under a drape or on a GPU, else vertex.
     GroundShading ground_shading = GroundShading::Auto;
-    std::optional<std::string> drape; ///< image file that is laid over the ground
+    /// An image file that is laid over the ground.
+    std::optional<std::string> drape;
 
     bool operator==(const AirSettings&) const = default;
 };

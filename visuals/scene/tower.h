@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "visuals/scene/above_ground.h"
 #include "visuals/scene/camera.h"
-#include "visuals/scene/ground_height.h"
 
 #include <glm/vec3.hpp>
 
@@ -30,10 +30,14 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
 
 /// What a place for the tower is chosen by.
 struct TowerWish {
-    std::span<const sim::AircraftState> flight; ///< at even times
-    double radius_m = 10.0;                     ///< of the sphere around the aircraft
-    double spacing_m = 0.0;   ///< of the ground's samples; 0 = as fine as one likes
-    glm::dvec2 around_m{0.0}; ///< where it stands if nothing is known of the flight
+    /// States of the flight at even times.
+    std::span<const sim::AircraftState> flight;
+    /// The radius of the sphere around the aircraft.
+    double radius_m = 10.0;
+    /// The spacing of the ground's samples; 0 = as fine as one likes.
+    double spacing_m = 0.0;
+    /// Where the tower stands if nothing is known of the flight.
+    glm::dvec2 around_m{0.0};
 };
 
 /// A tower at an eye point, lifted out of the ground, for flights as in the wish.

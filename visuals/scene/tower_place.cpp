@@ -19,17 +19,22 @@ namespace octant::visuals::scene {
 
 namespace {
 
-constexpr double farthest_m = 30000.0; ///< that relief is looked for
-constexpr int headings = 360;          ///< of the skyline
+/// The farthest that relief is looked for.
+constexpr double farthest_m = 30000.0;
+/// The number of directions in which the skyline is known.
+constexpr int headings = 360;
 /// Samples of the ground that the height of a picture should span, where few show and many do.
 constexpr double few_samples = 6.0;
 constexpr double many_samples = 30.0;
 /// Turning rates that an operator follows well, and not at all.
 constexpr double calm_radps = 0.35;
 constexpr double hectic_radps = 1.1;
-constexpr double steep_rad = rad_from_deg(35.0);   ///< of a look up at the aircraft
-constexpr double upright_rad = rad_from_deg(65.0); ///< of one that shows nothing but sky
-constexpr double spare_m = 1.0; ///< between a line of sight and the ground below it
+/// The steepest that a tower should look up at the aircraft.
+constexpr double steep_rad = rad_from_deg(35.0);
+/// The elevation of a look that shows nothing but sky.
+constexpr double upright_rad = rad_from_deg(65.0);
+/// The room between a line of sight and the ground below it.
+constexpr double spare_m = 1.0;
 
 /// How finely a line of sight is walked: each step is longer than the one before by this factor.
 constexpr double coarse_walk = 1.12;
@@ -38,9 +43,12 @@ constexpr double fine_walk = 1.03;
 /// Beside the flight, in radii of the aircraft, and above the ground, metres.
 constexpr std::array sideways_radii = {7.0, 14.0, 28.0, 56.0, 112.0, 224.0};
 constexpr std::array heights_m = {4.0, 25.0, 90.0};
-constexpr std::size_t most_stations = 24;    ///< of the flight, beside which spots lie
-constexpr std::size_t coarse_looks = 32;     ///< at the flight
-constexpr std::size_t looked_at_finely = 16; ///< spots
+/// The most places of the flight beside which spots are looked for.
+constexpr std::size_t most_stations = 24;
+/// The number of looks at the flight by which all spots are compared.
+constexpr std::size_t coarse_looks = 32;
+/// The number of spots that are then compared finely.
+constexpr std::size_t looked_at_finely = 16;
 
 double rising(double low, double high, double value) {
     return glm::smoothstep(low, high, value);
@@ -48,10 +56,14 @@ double rising(double low, double high, double value) {
 
 /// What lies along a look at the aircraft and on beyond it.
 struct Look {
-    bool free = true;              ///< of ground before the aircraft
-    double skyline_rad = 0.0;      ///< beyond it
-    double behind_m = farthest_m;  ///< distance of the ground that the aircraft is seen before
-    double skyline_m = farthest_m; ///< distance of the skyline
+    /// Whether no ground stands before the aircraft.
+    bool free = true;
+    /// The elevation of the skyline beyond it.
+    double skyline_rad = 0.0;
+    /// The distance of the ground that the aircraft is seen before.
+    double behind_m = farthest_m;
+    /// The distance of the skyline.
+    double skyline_m = farthest_m;
 };
 
 /// Walks from an eye at a heading; the aircraft is `aircraft_m` off, level, under this slope.

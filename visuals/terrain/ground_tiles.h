@@ -21,7 +21,7 @@ namespace octant::visuals::terrain {
 /// What is known of a ground besides its numbers.
 struct GroundFacts {
     std::string name;
-    std::optional<models::heights::GeoPlace> place;   ///< Nothing for made ground.
+    std::optional<GeoPlace> place;                    ///< Nothing for made ground.
     std::optional<models::heights::MapSystem> system; ///< As HeightField::system.
     std::int64_t filled_voids = 0;                    ///< Samples without data that were filled.
     float lowest_m = 0.0F;

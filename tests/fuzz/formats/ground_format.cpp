@@ -23,7 +23,7 @@ std::string imported(int columns, int rows, bool placed) {
     }
     models::heights::HeightField field(columns, rows, 30.0, heights_m);
     if (placed) {
-        field.place = models::heights::GeoPlace{49.3, -123.1};
+        field.place = GeoPlace{49.3, -123.1};
     }
     const std::filesystem::path map = input_folder() / "map.tif";
     models::heights::write_height_field(map, field);

@@ -4,16 +4,12 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <thread>
 
 using namespace octant::sim;
 using namespace octant::sim::links;
-using octant::tests::attack;
+using octant::tests::growth_under_attack;
 using octant::tests::Receiver;
-using octant::tests::resident_bytes;
 
 namespace {
 
@@ -26,38 +22,17 @@ TEST_CASE("floods of hostile packets on any port cost bounded memory and move no
     for (const Protocol protocol :
          {Protocol::Fdm, Protocol::MavLink, Protocol::Dis, Protocol::Cigi}) {
         Receiver receiver(protocol);
-        receiver.work();
-        const double before = resident_bytes();
-        double most = before;
-        std::atomic<bool> done = false;
-        std::thread attacker([&] {
-            attack(protocol, receiver.port(), hostile_packets, 0.0);
-            done = true;
-        });
-        while (!done) {
-            receiver.work();
-            most = std::max(most, resident_bytes());
-        }
-        attacker.join();
-        receiver.work();
+        const double growth = growth_under_attack(receiver, protocol, hostile_packets, 0.0);
         CAPTURE(static_cast<int>(protocol));
         CHECK(receiver.counts().accepted == 0);
         CHECK(receiver.counts().wrong > 100);
-        CHECK(most - before < 16.0 * 1024.0 * 1024.0);
+        CHECK(growth < 16.0 * 1024.0 * 1024.0);
     }
 }
 
 TEST_CASE("a good sender is heard again as soon as a flood ends") {
     Receiver receiver(Protocol::Fdm);
-    std::atomic<bool> done = false;
-    std::thread attacker([&] {
-        attack(Protocol::Fdm, receiver.port(), hostile_packets, 0.0);
-        done = true;
-    });
-    while (!done) {
-        receiver.work();
-    }
-    attacker.join();
+    growth_under_attack(receiver, Protocol::Fdm, hostile_packets, 0.0);
     UdpPort good(loopback, 0);
     Fix fix;
     fix.velocity_ned_mps = glm::dvec3(10.0, 0.0, 0.0);

@@ -69,6 +69,24 @@ void Receiver::work() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
+double growth_under_attack(Receiver& receiver, Protocol protocol, int packets, double per_s) {
+    receiver.work();
+    const double before = resident_bytes();
+    double most = before;
+    std::atomic<bool> done = false;
+    std::thread attacker([&] {
+        attack(protocol, receiver.port(), packets, per_s);
+        done = true;
+    });
+    while (!done) {
+        receiver.work();
+        most = std::max(most, resident_bytes());
+    }
+    attacker.join();
+    receiver.work();
+    return most - before;
+}
+
 ValidFlood flood_validly(int packets) {
     constexpr int senders = 20; // of which each is a vehicle
     Receiver receiver(Protocol::Fdm);

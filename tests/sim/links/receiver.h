@@ -44,6 +44,10 @@ private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// Attacks a receiver, which works meanwhile. Returns by how many bytes this process grew at most.
+double
+growth_under_attack(Receiver& receiver, sim::links::Protocol protocol, int packets, double per_s);
+
 /// How a flood of packets that are all right was received.
 struct ValidFlood {
     sim::links::TrafficCounts counts;

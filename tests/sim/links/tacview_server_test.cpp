@@ -1,63 +1,25 @@
 #include "sim/links/tacview_server.h"
+#include "tests/sim/links/tcp_client.h"
 
 #include <catch2/catch.hpp>
 
-#include <arpa/inet.h>
-#include <array>
 #include <chrono>
-#include <cstring>
 #include <memory>
-#include <netinet/in.h>
 #include <string>
-#include <sys/socket.h>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 using namespace octant::sim::links;
+using octant::tests::TcpClient;
 
 namespace {
 
-constexpr std::uint32_t loopback = 0x7f000001;
+constexpr std::uint32_t loopback = TcpClient::loopback;
 
-/// A reader of the other side.
-class Reader {
-public:
-    explicit Reader(std::uint16_t port)
-        : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(port);
-        to.sin_addr.s_addr = htonl(loopback);
-        sockaddr generic{};
-        std::memcpy(&generic, &to, sizeof(generic));
-        REQUIRE(::connect(socket_, &generic, sizeof(to)) == 0);
-    }
-
-    ~Reader() { ::close(socket_); }
-
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-
-    void answer() const {
-        const std::string text("XtraLib.Stream.0\nTacview.RealTimeTelemetry.0\nme\n0\0", 50);
-        REQUIRE(::send(socket_, text.data(), text.size(), 0) == 50);
-    }
-
-    /// All that is there now.
-    std::string read() const {
-        std::string text;
-        std::array<char, 4096> bytes{};
-        ssize_t count = 0;
-        while ((count = ::recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0) {
-            text.append(bytes.data(), static_cast<std::size_t>(count));
-        }
-        return text;
-    }
-
-private:
-    int socket_;
-};
+/// Answers the server's greeting as Tacview does.
+void answer(const TcpClient& reader) {
+    REQUIRE(reader.say({"XtraLib.Stream.0\nTacview.RealTimeTelemetry.0\nme\n0\0", 50}) == 50);
+}
 
 /// Lets the server work until so many readers are ready, at most two seconds.
 void settle(TacviewServer& server, std::size_t readers) {
@@ -68,7 +30,7 @@ void settle(TacviewServer& server, std::size_t readers) {
     REQUIRE(server.readers() == readers);
 }
 
-std::string wait_for(TacviewServer& server, const Reader& reader, const std::string& end) {
+std::string wait_for(TacviewServer& server, const TcpClient& reader, const std::string& end) {
     std::string text;
     for (int i = 0; i < 2000 && !text.ends_with(end); ++i) {
         server.send("");
@@ -83,10 +45,10 @@ std::string wait_for(TacviewServer& server, const Reader& reader, const std::str
 TEST_CASE("Tacview's server speaks first, and sends what there is once it is answered") {
     TacviewServer server(loopback, 0, "us");
     server.set_head("HEAD\n");
-    const Reader reader(server.port());
+    const TcpClient reader(server.port());
     const std::string greeting("XtraLib.Stream.0\nTacview.RealTimeTelemetry.0\nus\n\0", 49);
     CHECK(wait_for(server, reader, std::string(1, '\0')) == greeting);
-    reader.answer();
+    answer(reader);
     settle(server, 1);
     server.send("#1\n");
     CHECK(wait_for(server, reader, "#1\n") == "HEAD\n#1\n");
@@ -96,8 +58,8 @@ TEST_CASE("late joiners get the head, and not what was before them") {
     TacviewServer server(loopback, 0, "us");
     server.set_head("HEAD\n");
     server.send("#1\n");
-    const Reader late(server.port());
-    late.answer();
+    const TcpClient late(server.port());
+    answer(late);
     settle(server, 1);
     server.send("#2\n");
     const std::string text = wait_for(server, late, "#2\n");
@@ -107,13 +69,13 @@ TEST_CASE("late joiners get the head, and not what was before them") {
 
 TEST_CASE("readers that do not read are let go and hold up nobody") {
     TacviewServer server(loopback, 0, "us");
-    std::vector<std::unique_ptr<Reader>> stuck;
+    std::vector<std::unique_ptr<TcpClient>> stuck;
     for (int i = 0; i < 4; ++i) {
-        stuck.push_back(std::make_unique<Reader>(server.port()));
-        stuck.back()->answer();
+        stuck.push_back(std::make_unique<TcpClient>(server.port()));
+        answer(*stuck.back());
     }
-    const Reader good(server.port());
-    good.answer();
+    const TcpClient good(server.port());
+    answer(good);
     settle(server, 5);
     good.read();
     const std::string line(100000, 'x');
@@ -131,20 +93,20 @@ TEST_CASE("readers that do not read are let go and hold up nobody") {
 TEST_CASE("stuck readers and a thousand half-open connections delay a live reader by no sending") {
     TacviewServer server(loopback, 0, "us");
     server.set_head("HEAD\n");
-    std::vector<std::unique_ptr<Reader>> stuck;
+    std::vector<std::unique_ptr<TcpClient>> stuck;
     for (int i = 0; i < 4; ++i) {
-        stuck.push_back(std::make_unique<Reader>(server.port()));
-        stuck.back()->answer();
+        stuck.push_back(std::make_unique<TcpClient>(server.port()));
+        answer(*stuck.back());
     }
-    const Reader live(server.port());
-    live.answer();
+    const TcpClient live(server.port());
+    answer(live);
     settle(server, 5);
     wait_for(server, live, "HEAD\n");
-    std::vector<std::unique_ptr<Reader>> half_open;
+    std::vector<std::unique_ptr<TcpClient>> half_open;
     const std::string state(2000, 'x');
     for (int frame = 0; frame < 100; ++frame) {
         for (int i = 0; i < 10; ++i) {
-            half_open.push_back(std::make_unique<Reader>(server.port()));
+            half_open.push_back(std::make_unique<TcpClient>(server.port()));
         }
         const std::string mark = "#" + std::to_string(frame) + "\n";
         server.send(state + mark);
@@ -157,8 +119,8 @@ TEST_CASE("stuck readers and a thousand half-open connections delay a live reade
     }
     CHECK(half_open.size() == 1000);
 
-    const Reader late(server.port());
-    late.answer();
+    const TcpClient late(server.port());
+    answer(late);
     int sendings = 0;
     for (std::string text; text.find("HEAD") == std::string::npos && sendings < 60; ++sendings) {
         server.send("#100\n");
@@ -170,10 +132,10 @@ TEST_CASE("stuck readers and a thousand half-open connections delay a live reade
 
 TEST_CASE("Tacview's server has a place for so many readers and no more") {
     TacviewServer server(loopback, 0, "us");
-    std::vector<std::unique_ptr<Reader>> readers;
+    std::vector<std::unique_ptr<TcpClient>> readers;
     for (std::size_t i = 0; i < TacviewServer::most_readers + 3; ++i) {
-        readers.push_back(std::make_unique<Reader>(server.port()));
-        readers.back()->answer();
+        readers.push_back(std::make_unique<TcpClient>(server.port()));
+        answer(*readers.back());
     }
     settle(server, TacviewServer::most_readers);
     for (int i = 0; i < 50; ++i) {
@@ -185,12 +147,12 @@ TEST_CASE("Tacview's server has a place for so many readers and no more") {
 
 TEST_CASE("connections that never shake hands keep no reader out") {
     TacviewServer server(loopback, 0, "us");
-    std::vector<std::unique_ptr<Reader>> half_open;
+    std::vector<std::unique_ptr<TcpClient>> half_open;
     for (int i = 0; i < 60; ++i) {
-        half_open.push_back(std::make_unique<Reader>(server.port()));
+        half_open.push_back(std::make_unique<TcpClient>(server.port()));
         server.send("");
     }
-    const Reader good(server.port());
-    good.answer();
+    const TcpClient good(server.port());
+    answer(good);
     settle(server, 1);
 }

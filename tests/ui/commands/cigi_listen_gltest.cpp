@@ -5,6 +5,7 @@
 #include "sim/links/cigi_begin.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
+#include "tests/ui/commands/cigi_bench.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/png_file.h"
@@ -25,6 +26,9 @@
 
 using namespace octant;
 using Catch::Contains;
+using tests::CigiBench;
+using tests::generate_for;
+using tests::StartOfFrame;
 using ui::report::FrameRecord;
 
 namespace {
@@ -32,85 +36,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace links = sim::links;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::uint32_t loopback = 0x7f000001;
-
-/// A Start of Frame as it came.
-struct Heard {
-    std::uint32_t ig_frame = 0;
-    std::uint32_t timestamp = 0; ///< 10 microseconds each
-    std::uint32_t host_frame = 0;
-};
-
-/// A host at a port of its own. Messages go to the image generator's port.
-class Host {
-public:
-    std::uint16_t port() const { return socket_.port(); }
-
-    std::uint16_t generator() const { return generator_; }
-
-    void send(const links::WireWriter& message) {
-        socket_.send({loopback, generator_}, message.bytes());
-    }
-
-    /// Waits for a Start of Frame that says this, half a minute at most.
-    bool await(const std::function<bool(const Heard&)>& says) {
-        const Clock::time_point end = Clock::now() + std::chrono::seconds(30);
-        while (Clock::now() < end) {
-            listen();
-            if (std::ranges::any_of(heard_, says)) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return false;
-    }
-
-    void listen() {
-        std::vector<links::Datagram> packets;
-        socket_.drain(links::Protocol::Cigi, 0.0, packets);
-        for (const links::Datagram& packet : packets) {
-            const links::WireReader reader(packet.bytes, links::ByteOrder::Big);
-            if (reader.at<std::uint8_t>(0) == 101) {
-                heard_.push_back(
-                    {reader.at<std::uint32_t>(8),
-                     reader.at<std::uint32_t>(12),
-                     reader.at<std::uint32_t>(16)});
-            }
-        }
-    }
-
-    const std::vector<Heard>& heard() const { return heard_; }
-
-private:
-    links::UdpPort socket_{loopback, 0};
-    std::uint16_t generator_ = links::UdpPort(loopback, 0).port();
-    std::vector<Heard> heard_;
-};
-
-/// Runs the program as the host's image generator beside what the host does.
-tests::ProgramRun generate_for(
-    Host& host, std::vector<std::string> arguments, const std::function<void()>& host_works) {
-    const std::vector<std::string> first{
-        "listen",
-        "--headless",
-        "--fdm-port",
-        "-1",
-        "--mavlink-port",
-        "-1",
-        "--dis-port",
-        "-1",
-        "--cigi-port",
-        std::to_string(host.generator()),
-        "--cigi-host",
-        "127.0.0.1:" + std::to_string(host.port())};
-    arguments.insert(arguments.begin(), first.begin(), first.end());
-    tests::ProgramRun run;
-    std::thread generator([&] { run = tests::run_octant(arguments); });
-    host_works();
-    generator.join();
-    return run;
-}
 
 constexpr std::uint16_t helicopter = 9;
 constexpr std::uint16_t jet = 1;
@@ -191,7 +116,7 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     set_hour(next(helicopter, 30.0F), 17);
     next(jet, 30.0F);
     look_back(next(jet, 30.0F));
-    Host host;
+    CigiBench host;
     const tests::ProgramRun run = generate_for(
         host,
         {"--step",
@@ -206,10 +131,11 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
          "--record",
          (folder / "seen").string()},
         [&] {
-            CHECK(host.await([](const Heard&) { return true; }));
+            CHECK(host.await([](const StartOfFrame&) { return true; }));
             for (std::size_t i = 0; i < script.size(); ++i) {
                 host.send(script[i]);
-                CHECK(host.await([i](const Heard& heard) { return heard.host_frame == i + 1; }));
+                CHECK(host.await(
+                    [i](const StartOfFrame& heard) { return heard.host_frame == i + 1; }));
             }
         });
     INFO(run.err);
@@ -245,7 +171,7 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
     const fs::path folder = tests::empty_folder("cigi-frusta");
     const auto picture_of = [&](double left_deg, double right_deg, const std::string& size) {
         const fs::path record = folder / size;
-        Host host;
+        CigiBench host;
         const tests::ProgramRun run = generate_for(
             host,
             {"--step",
@@ -264,9 +190,9 @@ TEST_CASE("a frustum beside straight ahead shows that part of the whole picture"
              "--record",
              record.string()},
             [&] {
-                CHECK(host.await([](const Heard&) { return true; }));
+                CHECK(host.await([](const StartOfFrame&) { return true; }));
                 host.send(frame_of(1, jet, left_deg, right_deg));
-                CHECK(host.await([](const Heard& heard) { return heard.host_frame == 1; }));
+                CHECK(host.await([](const StartOfFrame& heard) { return heard.host_frame == 1; }));
             });
         INFO(run.err);
         REQUIRE(run.exit_code == 0);
@@ -313,10 +239,10 @@ TEST_CASE("an entity table says how many aircraft there are: --vehicles is refus
 
 TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silent") {
     constexpr double rate_hz = 60.0;
-    Host host;
+    CigiBench host;
     const tests::ProgramRun run = generate_for(
         host, {"--size", "64x36", "--pictures", "0", "--rate", "60", "--seconds", "8"}, [&] {
-            CHECK(host.await([](const Heard&) { return true; }));
+            CHECK(host.await([](const StartOfFrame&) { return true; }));
             for (std::uint32_t frame = 1; frame <= 30; ++frame) {
                 host.send(frame_of(frame, jet));
                 std::this_thread::sleep_for(std::chrono::milliseconds(16));
@@ -330,7 +256,7 @@ TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silen
         });
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const std::vector<Heard>& heard = host.heard();
+    const std::vector<StartOfFrame>& heard = host.heard();
     REQUIRE(heard.size() > 60);
     CHECK(heard.back().host_frame == 30);
     int missing = 0;

@@ -42,6 +42,14 @@ ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int 
     return ui::flight::compare_with_depth_buffer(settings, every, [](int, int) {});
 }
 
+/// Compares more frames than `fewest`, each of which must show what the depth buffer shows.
+void check_as_by_depth(const ui::settings::RunSettings& settings, int every, int fewest) {
+    const ui::flight::IdComparison result = compare(settings, every);
+    CHECK(result.frames > fewest);
+    CHECK(result.unordered == 0);
+    CHECK(result.wrong == 0);
+}
+
 } // namespace
 
 TEST_CASE("a polygon number is apart only when no neighbour in the reference has it") {
@@ -76,10 +84,7 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
                 settings.path.terrain = terrain;
                 settings.ground.near_detail = detail;
                 settings.ground.scenery = scenery;
-                const ui::flight::IdComparison result = compare(settings, 240);
-                CHECK(result.frames > 5);
-                CHECK(result.unordered == 0);
-                CHECK(result.wrong == 0);
+                check_as_by_depth(settings, 240, 5);
             }
         }
     }
@@ -95,9 +100,7 @@ TEST_CASE("cockpits, with detail beyond them, are painted as the depth buffer sh
             settings.view.azimuth_deg = azimuth_deg;
             settings.ground.near_detail = true;
             settings.ground.scenery = true;
-            const ui::flight::IdComparison result = compare(settings, 480);
-            CHECK(result.frames > 3);
-            CHECK(result.wrong == 0);
+            check_as_by_depth(settings, 480, 3);
         }
     }
 }
@@ -112,10 +115,7 @@ TEST_CASE("with clouds, a ribbon and effects the polygons are those that the dep
             settings.air.clouds = 0.5;
             settings.surface.effects = true;
             settings.view.path_ribbon = true;
-            const ui::flight::IdComparison result = compare(settings, 240);
-            CHECK(result.frames > 5);
-            CHECK(result.unordered == 0);
-            CHECK(result.wrong == 0);
+            check_as_by_depth(settings, 240, 5);
         }
     }
 }
@@ -126,11 +126,7 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
     for (const View view : {View::Chase, View::Tower, View::Orbit}) {
         for (const char* aircraft : {"f15", "500md"}) {
             INFO(aircraft << " view " << static_cast<int>(view));
-            const ui::flight::IdComparison result =
-                compare(canyon_flight("pop-up", aircraft, view), every);
-            CHECK(result.frames > 5);
-            CHECK(result.unordered == 0);
-            CHECK(result.wrong == 0);
+            check_as_by_depth(canyon_flight("pop-up", aircraft, view), every, 5);
         }
     }
 }

@@ -36,7 +36,7 @@ constexpr std::uint32_t loopback = 0x7f000001;
 constexpr double speed_mps = 150.0;
 constexpr double rate_hz = 60.0;
 constexpr double flown_s = 12.0;
-constexpr flightpaths::GeoOrigin origin{47.0, 8.0};
+constexpr GeoPlace origin{47.0, 8.0};
 
 /// How a network treats packets.
 struct Network {

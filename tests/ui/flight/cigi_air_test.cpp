@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 using namespace octant;
-using models::heights::GeoPlace;
 using sim::links::CigiAtmosphere;
 using sim::links::CigiCelestial;
 using ui::flight::air_of_host;

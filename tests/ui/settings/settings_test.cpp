@@ -28,7 +28,7 @@ TEST_CASE("settings survive the way to a file and back") {
     settings.view.size_px = {320, 200};
     settings.air.sky = false;
     settings.adapt.terrain = true;
-    settings.path.height_mode = ui::settings::HeightMode::Follow;
+    settings.path.height_mode = sim::HeightMode::Follow;
     settings.air.background = {0.0F, 1.0F, 128.0F / 255.0F};
     const auto json = ui::settings::settings_json(settings);
     CHECK(

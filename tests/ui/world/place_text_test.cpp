@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using octant::models::heights::GeoPlace;
+using octant::GeoPlace;
 using octant::ui::world::place_from_text;
 
 TEST_CASE("a place in metres is taken as it is") {

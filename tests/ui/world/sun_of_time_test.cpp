@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 using namespace octant;
-using models::heights::GeoPlace;
 using ui::settings::RunSettings;
 
 TEST_CASE("a time sets the sun by the map's latitude, a night on the horizon with a note") {

@@ -124,7 +124,7 @@ TEST_CASE("fractions of a metre are imported as the field has them") {
 
 TEST_CASE("an imported map keeps its coordinate system as the field does") {
     Made made;
-    made.field.place = models::heights::GeoPlace{36.0, -112.0};
+    made.field.place = GeoPlace{36.0, -112.0};
     const path file = scratch("placed.tif");
     models::heights::write_height_field(file, made.field);
     const models::heights::HeightField field = models::heights::read_height_field(file);

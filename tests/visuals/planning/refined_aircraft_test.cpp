@@ -70,11 +70,10 @@ glm::dmat4 below(double away_m) {
     return body;
 }
 
-planning::RefineLook looking_down() {
-    planning::RefineLook look;
-    look.ahead = {0.0, 0.0, -1.0};
-    look.frustum.fill(glm::dvec3(0.0, 0.0, -1.0)); // everything below is inside
-    return look;
+planning::FrameView looking_down() {
+    planning::FrameView view;
+    view.frustum.fill(glm::dvec3(0.0, 0.0, -1.0)); // everything below is inside
+    return view;
 }
 
 refine::ViewRefinerOptions refining() {

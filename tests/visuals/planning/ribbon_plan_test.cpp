@@ -16,7 +16,7 @@ using namespace octant::visuals::scene;
 namespace {
 
 /// East at 50 m/s, 200 m up, from 500 m west to 500 m east, in two legs.
-FlownPath eastward() {
+DrawnPath eastward() {
     std::vector<sim::AircraftState> samples;
     for (int i = 0; i <= 20; ++i) {
         samples.push_back(state_at({-500.0 + 50.0 * i, 0.0, 200.0}));
@@ -24,7 +24,7 @@ FlownPath eastward() {
         samples.back().velocity_mps = {50.0, 0.0, 0.0};
     }
     const std::vector<NamedTime> legs{{0.0, "out"}, {12.0, "on"}};
-    return flown_path(sim::Trajectory(samples), legs);
+    return drawn_path(sim::Trajectory(samples), legs);
 }
 
 constexpr glm::dvec3 view_eye_m(0.0, -600.0, 260.0);
@@ -32,7 +32,7 @@ constexpr double ribbon_time_s = 10.0; ///< the aircraft is in the middle
 
 /// The dashes and their veils as that eye sees them.
 struct SeenRibbon {
-    FlownPath path = eastward();
+    DrawnPath path = eastward();
     PathRibbon ribbon{path};
     Haze haze{};
     Veils veils;
@@ -49,7 +49,7 @@ struct SeenRibbon {
 } // namespace
 
 TEST_CASE("a path has points at even times, and its legs begin at them") {
-    const FlownPath path = eastward();
+    const DrawnPath path = eastward();
     REQUIRE(path.points.size() == 201);
     CHECK(path.time_s(200) == Approx(20.0));
     CHECK(path.points[100].position_m.x == Approx(0.0).margin(1e-6));
@@ -102,7 +102,7 @@ TEST_CASE("with a ribbon among them ground and aircraft are painted in the right
     });
     scene.add_model(convex_aircraft(box_model({10.0, 3.0, 2.0})));
     scene.aircraft = {0, 0, 0};
-    scene.path = std::make_shared<const FlownPath>(eastward());
+    scene.path = std::make_shared<const DrawnPath>(eastward());
     Settings settings = plain_settings();
     settings.view.path_ribbon = true;
     Planner planner(scene, settings);

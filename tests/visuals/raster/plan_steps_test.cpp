@@ -40,6 +40,29 @@ void clear_depth(FlatPlan& plan) {
          1});
 }
 
+/// Even light on a model that stands at the eye.
+void light_evenly(scene::FramePlan& frame, std::uint32_t smooth) {
+    frame.ambient = glm::vec3(1.0F);
+    frame.parts = {glm::mat4(1.0F)};
+    frame.smooth = {smooth};
+}
+
+/// Draws three indices of a model alone.
+void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
+    frame.aircraft = {{.model = 0, .first_index = first_index, .index_count = 3}};
+    frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
+}
+
+scene::Picture
+drawn_with(const scene::ModelBuffers& model, const scene::FramePlan& frame, int samples) {
+    Renderer renderer(std::make_shared<Workers>(1), size_px, samples);
+    renderer.load_models(std::span(&model, 1));
+    renderer.draw(frame);
+    scene::Picture picture;
+    renderer.finish_and_read(picture);
+    return picture;
+}
+
 } // namespace
 
 TEST_CASE("the nearer one is seen where steps ask for depth, whatever their order") {
@@ -143,16 +166,9 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     }
     FlatPlan plan(size_px);
     scene::FramePlan& frame = plan.plan();
-    frame.ambient = glm::vec3(1.0F);
-    frame.parts = {glm::mat4(1.0F)};
-    frame.smooth = {GENERATE(0U, 2U)};
-    frame.aircraft = {{.model = 0, .first_index = 3, .index_count = 3}}; // the second one alone
-    frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
-    Renderer renderer(std::make_shared<Workers>(1), size_px, 16);
-    renderer.load_models(std::span(&model, 1));
-    renderer.draw(frame);
-    scene::Picture picture;
-    renderer.finish_and_read(picture);
+    light_evenly(frame, GENERATE(0U, 2U));
+    paint_triangle(frame, 3); // the second one
+    const scene::Picture picture = drawn_with(model, frame, 16);
     CHECK(pixel(picture, 36, 60) == (frame.smooth[0] == 0 ? red_px : green_px));
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
 }
@@ -174,16 +190,9 @@ TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding tur
         }
         FlatPlan plan(size_px);
         scene::FramePlan& frame = plan.plan();
-        frame.ambient = glm::vec3(1.0F);
-        frame.parts = {glm::mat4(1.0F)};
-        frame.smooth = {0U};
-        frame.aircraft = {{.model = 0, .first_index = 0, .index_count = 3}};
-        frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
-        Renderer renderer(std::make_shared<Workers>(1), size_px, 1);
-        renderer.load_models(std::span(&model, 1));
-        renderer.draw(frame);
-        scene::Picture picture;
-        renderer.finish_and_read(picture);
+        light_evenly(frame, 0U);
+        paint_triangle(frame, 0);
+        const scene::Picture picture = drawn_with(model, frame, 1);
         int drawn_px = 0;
         for (int y = 0; y < size_px.y; ++y) {
             for (int x = 0; x < size_px.x; ++x) {
@@ -194,7 +203,8 @@ TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding tur
     }
 }
 
-TEST_CASE("a clear surface is blended over what is seen behind it, none over what is nearer") {
+TEST_CASE(
+    "a transparent surface is blended over what is seen behind it, none over what is nearer") {
     scene::ModelBuffers model;
     for (const std::uint32_t colour : {red, green, 0xffff0000U}) {
         const auto first = static_cast<std::uint32_t>(model.vertices.size());
@@ -218,8 +228,7 @@ TEST_CASE("a clear surface is blended over what is seen behind it, none over wha
     const int samples = GENERATE(1, 4, 16);
     FlatPlan plan(size_px);
     scene::FramePlan& frame = plan.plan();
-    frame.ambient = glm::vec3(1.0F);
-    frame.smooth = {~0U};
+    light_evenly(frame, ~0U);
     frame.parts = {ahead(4.0F, 4.0F), ahead(2.0F, 1.0F), ahead(1.0F, 0.25F)};
     for (std::uint32_t i = 0; i < 3; ++i) {
         frame.aircraft.push_back(
@@ -236,11 +245,7 @@ TEST_CASE("a clear surface is blended over what is seen behind it, none over wha
     if (!shares_depth) { // painted over all
         frame.steps.push_back({What::Aircraft, 2, 1});
     }
-    Renderer renderer(std::make_shared<Workers>(1), size_px, samples);
-    renderer.load_models(std::span(&model, 1));
-    renderer.draw(frame);
-    scene::Picture picture;
-    renderer.finish_and_read(picture);
+    const scene::Picture picture = drawn_with(model, frame, samples);
     CAPTURE(samples, shares_depth);
     CHECK(pixel(picture, 4, 4) == red_px);
     CHECK(pixel(picture, 18, 20) == glm::ivec3(191, 64, 0));

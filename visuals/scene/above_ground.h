@@ -1,15 +1,12 @@
 #pragma once
 
+#include "sim/base/ground_height.h"
+
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 
 namespace octant::visuals::scene {
-
-/// Height of the ground below a world position, metres; nothing outside the map.
-using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)>;
 
 /// Lifts an eye point that is below the ground or within 2 m of it.
 inline void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_limits.h"
+#include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 
@@ -12,13 +12,15 @@
 
 namespace octant::ui::world {
 
-/// A path before it is laid over ground.
-struct FlightScript {
+/// A path or a recorded track as its file gives it, before it is laid over ground.
+struct LoadedPath {
     sim::Trajectory trajectory;
     double rate_hz = 0.0;
     double min_clearance_m = 0.0;
-    std::optional<sim::AircraftLimits> limits;    ///< of what flies, where they are known
-    std::optional<flightpaths::GeoOrigin> origin; ///< of a track that knows where it was flown
+    /// Those of what flies, where they are known.
+    std::optional<sim::AircraftLimits> limits;
+    /// That of a track which knows where it was flown.
+    std::optional<GeoPlace> origin;
     std::vector<flightpaths::LegBegin> legs;
     std::vector<std::string> notes;
     /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its
@@ -29,6 +31,6 @@ struct FlightScript {
 };
 
 /// What an aircraft of this shape flies by a path's name or file. Throws Error.
-FlightScript load_script(const std::string& path, const std::string& shape, bool lenient);
+LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
 
 } // namespace octant::ui::world

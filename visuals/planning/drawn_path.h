@@ -13,10 +13,11 @@ namespace octant::visuals::planning {
 
 /// The path of an aircraft as it is drawn: points at even times, and where its legs begin. World
 /// axes.
-struct FlownPath {
+struct DrawnPath {
     struct Point {
         glm::dvec3 position_m{0.0};
-        glm::dvec3 right{1.0, 0.0, 0.0}; ///< unit vector along the wings
+        /// A unit vector along the wings.
+        glm::dvec3 right{1.0, 0.0, 0.0};
     };
 
     struct Leg {
@@ -24,10 +25,12 @@ struct FlownPath {
         std::string name;
     };
 
-    double first_s = 0.0; ///< of the first point
-    double step_s = 0.1;  ///< from one point to the next
+    /// The time of the first point, and from one point to the next.
+    double first_s = 0.0;
+    double step_s = 0.1;
     std::vector<Point> points;
-    std::vector<Leg> legs; ///< by time
+    /// By the times at which they begin.
+    std::vector<Leg> legs;
 
     /// Time of a point.
     double time_s(std::size_t point) const { return first_s + step_s * static_cast<double>(point); }
@@ -40,6 +43,6 @@ struct NamedTime {
 };
 
 /// The path of a trajectory. Long ones have fewer points a second.
-FlownPath flown_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs);
+DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs);
 
 } // namespace octant::visuals::planning

@@ -1,4 +1,4 @@
-#include "ui/world/flight_script.h"
+#include "ui/world/loaded_path.h"
 
 #include "flightpaths/acmi_tape.h"
 #include "flightpaths/path_script.h"
@@ -53,7 +53,7 @@ double mean_rate_hz(const sim::Trajectory& trajectory) {
     return 1.0 / ((trajectory.end_s() - trajectory.start_s()) / steps);
 }
 
-FlightScript from_track(flightpaths::RecordedTrack track, const std::string& shape) {
+LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape) {
     const double rate_hz = mean_rate_hz(track.trajectory);
     const sim::AircraftKind* kind = sim::find_aircraft_kind(shape);
     return {
@@ -71,8 +71,8 @@ FlightScript from_track(flightpaths::RecordedTrack track, const std::string& sha
 
 /// A tape as it is, or the first one in a zip file.
 std::string tape_text(const fs::path& file) {
-    constexpr std::size_t largest_bytes = std::size_t{256} << 20;
-    const std::string bytes = read_file(file, largest_bytes);
+    constexpr std::size_t largest_tape = std::size_t{256} << 20;
+    const std::string bytes = read_file(file, largest_tape);
     if (!bytes.starts_with("PK")) {
         return bytes;
     }
@@ -80,10 +80,10 @@ std::string tape_text(const fs::path& file) {
     const auto tape = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
         return ending_of(entry.name) == ".acmi" || ending_of(entry.name) == ".txt";
     });
-    if (tape == entries.end() || tape->bytes > largest_bytes) {
+    if (tape == entries.end() || tape->bytes > largest_tape) {
         error_in(file, "expected a tape of at most 256 MiB in it (.acmi), got none");
     }
-    return report::zip_text(file, tape->name, largest_bytes);
+    return report::zip_text(file, tape->name, largest_tape);
 }
 
 /// The known aircraft that has this type in Tacview, the first one for any other.
@@ -111,23 +111,23 @@ std::string note_of(const flightpaths::TapedAircraft& first, const std::string& 
         shape == usual ? "" : fmt::format("; --aircraft {} is of its type", usual));
 }
 
-FlightScript from_tape(const fs::path& file, const std::string& shape) {
+LoadedPath from_tape(const fs::path& file, const std::string& shape) {
     flightpaths::AcmiTape tape = flightpaths::acmi_tape(tape_text(file), file);
-    FlightScript script =
+    LoadedPath loaded =
         from_track({std::move(tape.aircraft.front().trajectory), tape.origin}, shape);
-    script.is_tape = true;
-    script.notes = std::move(tape.notes);
-    script.notes.push_back(note_of(tape.aircraft.front(), shape));
+    loaded.is_tape = true;
+    loaded.notes = std::move(tape.notes);
+    loaded.notes.push_back(note_of(tape.aircraft.front(), shape));
     for (std::size_t i = 1; i < tape.aircraft.size(); ++i) {
-        script.others.push_back(std::move(tape.aircraft[i].trajectory));
-        script.other_shapes.emplace_back(shown_as(tape.aircraft[i].type).name);
+        loaded.others.push_back(std::move(tape.aircraft[i].trajectory));
+        loaded.other_shapes.emplace_back(shown_as(tape.aircraft[i].type).name);
     }
-    return script;
+    return loaded;
 }
 
 } // namespace
 
-FlightScript load_script(const std::string& path, const std::string& shape, bool lenient) {
+LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient) {
     const fs::path file = base::path_file(path, shape);
     if (ending_of(file) == ".acmi") {
         return from_tape(file, shape);

@@ -1,4 +1,4 @@
-#include "visuals/planning/flown_path.h"
+#include "visuals/planning/drawn_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ constexpr double most_points = 4000.0;
 
 } // namespace
 
-FlownPath flown_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs) {
-    FlownPath path;
+DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs) {
+    DrawnPath path;
     const double length_s = trajectory.end_s() - trajectory.start_s();
     path.first_s = trajectory.start_s();
     path.step_s = std::max(usual_step_s, length_s / most_points);
