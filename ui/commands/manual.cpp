@@ -119,8 +119,13 @@ std::string man_page(const Program& program) {
 std::string bash_completion(const Program& program) {
     std::string cases;
     std::string names = "--help --help-all --version";
+    std::string with_commands;
     for (const Command& command : program.commands) {
         names += " " + command.name;
+        if (!command.commands.empty()) {
+            with_commands +=
+                fmt::format("{}'{} '*", with_commands.empty() ? "" : "|", command.name);
+        }
         add_case(command, "", cases);
     }
     return fmt::format(
@@ -131,7 +136,7 @@ _octant() {{
     [[ ${{COMP_WORDS[i]}} == -* ]] && break
     case "$command ${{COMP_WORDS[i]}}" in
       ' '*) command=${{COMP_WORDS[i]}} ;;
-      'terrain '*|'study '*) [[ $command == *' '* ]] || command="$command ${{COMP_WORDS[i]}}" ;;
+      {2}) [[ $command == *' '* ]] || command="$command ${{COMP_WORDS[i]}}" ;;
     esac
   done
   case "$command" in
@@ -147,7 +152,8 @@ _octant() {{
 complete -o filenames -F _octant octant
 )",
         names,
-        cases);
+        cases,
+        with_commands);
 }
 
 std::string zsh_completion(const Program& program) {

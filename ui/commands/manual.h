@@ -10,8 +10,8 @@ namespace octant::ui::commands {
 /// their units and defaults, and its examples.
 std::string man_page(const Program& program);
 
-/// What completes command lines in bash, zsh too (by its bashcompinit): commands, options, and the
-/// words that an option's form lists; files for everything else.
+/// What completes command lines in bash, zsh too (by its bashcompinit): commands and options;
+/// files for everything else.
 std::string bash_completion(const Program& program);
 std::string zsh_completion(const Program& program);
 

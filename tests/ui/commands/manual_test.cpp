@@ -33,6 +33,11 @@ TEST_CASE("completions offer the options of the command that stands there") {
     const std::string line = text.substr(report, text.find('\n', report) - report);
     CHECK_THAT(line, Contains(" --gate") && Contains(" --out") && !Contains("--order-method"));
     CHECK_THAT(text, Contains("    'terrain query') words=\"--help"));
+    for (const commands::Command& command : program.commands) {
+        CAPTURE(command.name);
+        const bool is_followed = text.find("'" + command.name + " '*") != std::string::npos;
+        CHECK(is_followed == !command.commands.empty());
+    }
     CHECK_THAT(text, Contains(" --vsync --no-vsync"));
     CHECK_THAT(commands::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
 }
