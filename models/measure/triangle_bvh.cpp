@@ -211,8 +211,7 @@ struct TriangleBvh::Search {
     Probe probe;
 };
 
-void TriangleBvh::search_leaf(
-    std::uint32_t leaf, const glm::dvec3& point_m, Search& search) const {
+void TriangleBvh::search_leaf(std::uint32_t leaf, const glm::dvec3& point_m, Search& search) const {
     const std::uint32_t first = firsts_[leaf];
     const std::size_t count = firsts_[leaf + 1] - first;
     Floats distances2;

@@ -89,6 +89,16 @@ double SampleAims::cost(std::uint32_t face, const std::array<glm::dvec3, 3>& cor
     return 0.5 * size * sum;
 }
 
+double SampleAims::most2(std::uint32_t face, const std::array<glm::dvec3, 3>& corners) const {
+    double most2 = 0.0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const glm::dvec3 off =
+            aims_[face * samples_.size() + i].place - place_of(corners, samples_[i]);
+        most2 = std::max(most2, glm::dot(off, off));
+    }
+    return most2;
+}
+
 void SampleAims::add_to(
     VertexFit& fit,
     std::uint32_t face,

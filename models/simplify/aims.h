@@ -37,6 +37,9 @@ public:
     /// triangle count by `sideways` only.
     double cost(std::uint32_t face, const std::array<glm::dvec3, 3>& corners) const;
 
+    /// The largest squared distance from a sample of a triangle with the given corners to its aim.
+    double most2(std::uint32_t face, const std::array<glm::dvec3, 3>& corners) const;
+
     /// Adds the samples of a triangle to the least-squares fit of the vertex at one of its corners.
     void add_to(
         VertexFit& fit,

@@ -1,7 +1,7 @@
 // Rounds of collapses by quadrics (M. Garland, P. Heckbert, "Surface Simplification Using Quadric
-// Error Metrics", 1997). Instead of always the cheapest edge, a round takes the cheapest part of all
-// edges, in the order of memory, and of those only ones neither end of which has moved in the same
-// round: their costs are still right.
+// Error Metrics", 1997). Instead of always the cheapest edge, a round takes the cheapest part of
+// all edges, in the order of memory, and of those only ones neither end of which has moved in the
+// same round: their costs are still right.
 #include "models/simplify/collapse_rounds.h"
 
 #include "models/simplify/aims.h"

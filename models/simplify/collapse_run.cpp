@@ -34,20 +34,27 @@ constexpr double least_error = 1e-5;
 /// For Chooser::Peaks: a distance beyond so many root mean squares is a peak.
 constexpr double peak_height = 2.0;
 
+double squared(double x) {
+    return x * x;
+}
+
 } // namespace
 
-Strictness first_strictness(const WorkingSurface& surface, Chooser chooser, bool low_may_turn) {
+Strictness
+first_strictness(const WorkingSurface& surface, Chooser chooser, const SimplifyOptions& options) {
     if (chooser == Chooser::Peaks) {
         return surface.coloured() ? Strictness::Normal : Strictness::Strips;
     }
-    return chooser == Chooser::Distances || !low_may_turn ? strictness_for(surface)
-                                                          : Strictness::Loose;
+    const bool keeps_out_slivers =
+        chooser == Chooser::Distances && (surface.coloured() || !options.slivers_too);
+    return keeps_out_slivers || !options.low_may_turn ? strictness_for(surface) : Strictness::Loose;
 }
 
 CollapseRun::CollapseRun(
     CollapsingSurface& collapsing,
     Chooser chooser,
     TrackedPoints* points,
+    const measure::TriangleBvh* tree,
     const SimplifyOptions& options)
     : collapsing_(collapsing)
     , surface_(collapsing.surface())
@@ -58,7 +65,11 @@ CollapseRun::CollapseRun(
     , heap_(surface_.mesh.face_slots() * 3)
     , has_parked_(surface_.mesh.vertex_slots(), false)
     , checked_(surface_.mesh.face_slots() * 3, false)
-    , strictness_(first_strictness(surface_, chooser, options.low_may_turn))
+    , looked_back_(surface_.mesh.face_slots() * 3, false)
+    , tree_(tree)
+    , back_samples_(sample_grid(3))
+    , strictness_(first_strictness(surface_, chooser, options))
+    , avoided2_(squared(options.avoided_m / collapsing.units().diagonal_m))
     , filled_at_(least_error) {
     assert(measures_distances(chooser) == (points != nullptr));
     for (std::uint32_t face = 0; face < surface_.mesh.face_slots(); ++face) {
@@ -144,6 +155,9 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             continue;
         }
         if (measures_distances(chooser_)) {
+            if (leads_too_far(h)) {
+                continue;
+            }
             return true;
         }
         if (is_allowed(h, placed(h))) {
@@ -178,6 +192,7 @@ bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
 /// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
 void CollapseRun::update_cost(HalfEdge edge) {
     checked_[edge] = true;
+    looked_back_[edge] = false;
     const Placement placement = placed(edge);
     if (!measures_distances(chooser_)) {
         heap_.set(edge, static_cast<float>(placement.cost + length_cost(edge, placement)));
@@ -193,7 +208,7 @@ void CollapseRun::update_cost(HalfEdge edge) {
 /// How much squared distances grow by a collapse, both ways, whose ring must be in ring_.
 double CollapseRun::surface_cost(HalfEdge h, const Placement& placement) {
     const double there = surface_increase(h, placement);
-    return there + peak_cost() + cost_.way_back(surface_, ring_, placement.place);
+    return there + peak_cost() + avoided_cost() + cost_.way_back(surface_, ring_, placement.place);
 }
 
 /// What the largest distance of the collapse that was measured last adds to its cost: as if all
@@ -204,6 +219,39 @@ double CollapseRun::peak_cost() const {
     }
     const double usual2 = peak_height * peak_height * squares_ / area_;
     return std::max(0.0, cost_.most2() - usual2) * cost_.area();
+}
+
+/// What a collapse that was measured last costs more because it leads too far away: more than any
+/// other one could, the least far first.
+double CollapseRun::avoided_cost() const {
+    return cost_.most2() > avoided2_ ? area_ * cost_.most2() : 0.0;
+}
+
+/// Looks back from the triangles that a collapse would leave to the original, once for each time
+/// that its cost was found. Where one of them is too far away, the cost rises; true then.
+bool CollapseRun::leads_too_far(HalfEdge h) {
+    if (std::isinf(avoided2_) || looked_back_[h]) {
+        return false;
+    }
+    looked_back_[h] = true;
+    const glm::dvec3 place = placed(h).place;
+    surface_.mesh.ring_of(h, ring_);
+    double most2 = 0.0;
+    for (const RingFace& face : ring_) {
+        const std::array<glm::dvec3, 3> corners = moved_corners(surface_, face, place);
+        for (const TriangleSample& sample : back_samples_) {
+            if (sample.weights.x > 0.0) { // The others do not move.
+                const glm::dvec3 at = sample.weights.x * corners[0] +
+                                      sample.weights.y * corners[1] + sample.weights.z * corners[2];
+                most2 = std::max(most2, tree_->nearest(at).distance2);
+            }
+        }
+    }
+    if (!(most2 > avoided2_) || heap_.cost(h) >= static_cast<float>(area_ * most2)) {
+        return false;
+    }
+    heap_.set(h, static_cast<float>(area_ * most2));
+    return true;
 }
 
 /// The cost that length_share adds, so that short edges go first and regions stay round.

@@ -66,8 +66,8 @@ points_on(const WorkingSurface& surface, const TargetMesh& target, std::size_t w
     return points;
 }
 
-TrackedPoints points_carried(
-    const CollapsingSurface& collapsing, const TargetMesh& target, std::size_t wanted) {
+TrackedPoints
+points_carried(const CollapsingSurface& collapsing, const TargetMesh& target, std::size_t wanted) {
     const std::vector<std::uint32_t> slots = slots_became(collapsing, target.places.size());
     const CollapsibleMesh& mesh = collapsing.surface().mesh;
     TrackedPoints points(target, wanted);

@@ -16,8 +16,8 @@ points_on(const WorkingSurface& surface, const TargetMesh& target, std::size_t w
 
 /// About `wanted` points of the target in the lists of triangles near them of what became of it,
 /// found by following the collapses of the vertices: near enough for list_nearer to start from.
-TrackedPoints points_carried(
-    const CollapsingSurface& collapsing, const TargetMesh& target, std::size_t wanted);
+TrackedPoints
+points_carried(const CollapsingSurface& collapsing, const TargetMesh& target, std::size_t wanted);
 
 /// Moves each tracked point to the list of the nearest triangle among those that share a vertex
 /// with its present one. `threads` does not change the result.

@@ -36,6 +36,7 @@ public:
         , points_(points)
         , target_(target)
         , threads_(options.threads)
+        , avoided2_(options.avoided2)
         , aims_(options.fields) {}
 
     void round() {
@@ -49,6 +50,7 @@ public:
     }
 
     std::size_t flip_edges();
+
     void list_again() { list_nearer(surface_, points_, threads_); }
 
 private:
@@ -62,7 +64,9 @@ private:
     TrackedPoints& points_;
     PolishTarget target_;
     int threads_;
+    double avoided2_;
     SampleAims aims_;
+    double most2_ = 0.0; ///< The largest squared distance that cost_at saw last.
     SurfaceCost cost_;
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
@@ -94,10 +98,12 @@ VertexFit Polishing::fitted() {
 double Polishing::cost_at(const glm::dvec3& place, const glm::dvec3& colour) {
     cost_.set_triangles(surface_, ring_, place, colour);
     double sum = cost_.total();
+    most2_ = cost_.most2();
     for (const RingFace& face : ring_) {
         std::array<glm::dvec3, 3> corners = surface_.corner_places(face.face);
         corners[face.half_edge % 3] = place;
         sum += aims_.cost(face.face, corners);
+        most2_ = std::max(most2_, aims_.most2(face.face, corners));
     }
     return sum;
 }
@@ -111,6 +117,7 @@ void Polishing::fit(std::uint32_t vertex) {
     if (before <= cost_.negligible()) {
         return;
     }
+    const double most2 = std::max(most2_, avoided2_);
     const VertexFit fit = fitted();
     const glm::dvec3 way = fit.way();
     const glm::dvec3 colour_change = fit.colour_change();
@@ -120,7 +127,7 @@ void Polishing::fit(std::uint32_t vertex) {
         if (!may_move(surface_, ring_, there, Strictness::Normal)) {
             continue;
         }
-        if (cost_at(there, new_colour) < before) {
+        if (cost_at(there, new_colour) < before && most2_ <= most2) {
             surface_.places[vertex] = there;
             if (surface_.coloured()) {
                 surface_.colours[vertex] = new_colour;
@@ -164,10 +171,11 @@ bool Polishing::try_flip(HalfEdge h) {
     if (before <= cost_.negligible()) {
         return false;
     }
+    const double most2 = std::max(cost_.most2(), avoided2_);
     cost_.triangles = {triangle(new_first, {y, x, u}), triangle(new_second, {x, y, w})};
     const double after = cost_.total();
     constexpr double enough = 0.98;
-    if (!(after < enough * before)) {
+    if (!(after < enough * before) || cost_.most2() > most2) {
         return false;
     }
     const double aim_before = aims_.true_cost(target_, first) + aims_.true_cost(target_, second);

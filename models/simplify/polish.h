@@ -4,6 +4,8 @@
 #include "models/simplify/tracked_points.h"
 #include "models/simplify/working_surface.h"
 
+#include <limits>
+
 namespace octant::models::simplify {
 
 /// How thoroughly a surface is fitted.
@@ -11,7 +13,9 @@ struct PolishOptions {
     int rounds = 7;
     int fields = 3;       ///< The number of grid fields along a triangle's side, for samples.
     bool extremes = true; ///< Calls lower_peaks and turn_back at the end.
-    int threads = 1;      ///< The number of threads; it does not change the result.
+    /// No squared distance that is seen rises beyond this, in working units.
+    double avoided2 = std::numeric_limits<double>::infinity();
+    int threads = 1; ///< The number of threads; it does not change the result.
 };
 
 /// Fits a simplified surface to the target: moves vertices, changes their colours and flips edges

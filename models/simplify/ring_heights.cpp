@@ -46,8 +46,7 @@ RingHeights::RingHeights(
             samples_on_.push_back({spread_weights(i), 0.0});
         }
     } else {
-        samples_on_ =
-            sample_grid(grid_fields(target.mesh.face_count(), surface.mesh.face_count()));
+        samples_on_ = sample_grid(grid_fields(target.mesh.face_count(), surface.mesh.face_count()));
     }
 }
 

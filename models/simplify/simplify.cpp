@@ -20,6 +20,7 @@
 #include "models/simplify/polish.h"
 
 #include <cassert>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -33,8 +34,7 @@ constexpr std::size_t least_points = 24'000;
 /// error back.
 constexpr double beyond_goal = 2.0;
 
-/// Whether each triangle that is left of a large mesh stands for so many that a quick polish has
-/// points enough and goes on for another round.
+/// Whether each triangle that is left of a large mesh stands for many.
 bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
     constexpr std::size_t large = 100'000;
     constexpr std::size_t many = 30;
@@ -43,11 +43,15 @@ bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
 
 /// How thoroughly to polish.
 PolishOptions polish_options(
-    const WorkingSurface& surface, const TargetMesh& target, const SimplifyOptions& options) {
+    const WorkingSurface& surface,
+    const TargetMesh& target,
+    double diagonal_m,
+    const SimplifyOptions& options) {
     constexpr std::size_t many = 9;    // Triangles of the target for each one of the surface.
     constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
     PolishOptions polish;
     polish.threads = options.threads;
+    polish.avoided2 = std::pow(options.avoided_m / diagonal_m, 2.0);
     if (options.quality == Quality::Fast) {
         polish.rounds = stands_for_many(target, surface.mesh.face_count()) ? 2 : 1;
         polish.fields = 2;
@@ -70,7 +74,8 @@ TriangleMesh polished_in(
     const WorkingUnits& units,
     const SimplifyOptions& options) {
     const measure::TriangleBvh bvh(target.places, target.triangles);
-    polish(surface, points, {target, bvh}, polish_options(surface, target, options));
+    polish(
+        surface, points, {target, bvh}, polish_options(surface, target, units.diagonal_m, options));
     return surface.to_mesh(names, units);
 }
 
@@ -90,14 +95,16 @@ finished(const CollapseSequence& sequence, std::size_t collapses, const Simplify
                          : with_normals(std::move(mesh), sequence.original);
 }
 
-/// How many points track the original in the polish. Where there are colours there must be enough
-/// to show their borders; where a triangle stands for many, vertices are enough for a quick one.
-std::size_t wanted_points(
-    const TargetMesh& target, std::size_t faces_left, const SimplifyOptions& options) {
-    if (options.quality == Quality::Surface || target.coloured()) {
-        return least_points;
+/// How many points track the original. Where there are colours there must be enough to show their
+/// borders; where a triangle stands for many, some dozens for each are enough.
+std::size_t
+wanted_points(const TargetMesh& target, std::size_t faces_left, const SimplifyOptions& options) {
+    constexpr std::size_t points_a_face = 32;
+    if (!target.coloured() && stands_for_many(target, faces_left)) {
+        return std::min(target.places.size(), points_a_face * faces_left);
     }
-    return stands_for_many(target, faces_left) ? 0 : target.places.size() + 1;
+    return options.quality == Quality::Surface || target.coloured() ? least_points
+                                                                    : target.places.size() + 1;
 }
 
 CollapseSequence
@@ -110,7 +117,7 @@ sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& opti
     }
     CollapsingSurface collapsing(surface, units, points ? EdgeWeights{} : cost_weights);
     const Chooser chooser = points ? Chooser::Distances : Chooser::Quadrics;
-    CollapseRun run(collapsing, chooser, points ? &*points : nullptr, options);
+    CollapseRun run(collapsing, chooser, points ? &*points : nullptr, nullptr, options);
     run.run(goal, options.show_progress);
     return {std::move(original), std::move(collapsing.collapses())};
 }
@@ -143,8 +150,7 @@ void begin_in_rounds(
     if (collapsing.first_faces() < 2 * rounds.faces) {
         return;
     }
-    rounds.strictness =
-        first_strictness(collapsing.surface(), chooser, options.low_may_turn);
+    rounds.strictness = first_strictness(collapsing.surface(), chooser, options);
     rounds.low_may_turn = options.low_may_turn;
     rounds.threads = options.threads;
     collapsing.collapses().reserve((collapsing.first_faces() - wanted_faces(options.goal)) / 2 + 1);
@@ -153,14 +159,17 @@ void begin_in_rounds(
 
 /// The tracked points of a surface that is about to collapse on.
 TrackedPoints points_of(
-    const CollapsingSurface& collapsing, const TriangleMesh& original, int threads) {
+    const CollapsingSurface& collapsing,
+    const TriangleMesh& original,
+    const SimplifyOptions& options) {
     const TargetMesh target(original, collapsing.units());
+    const std::size_t wanted = wanted_points(target, wanted_faces(options.goal), options);
     if (collapsing.collapses().empty()) {
-        return {target, least_points};
+        return {target, wanted};
     }
-    TrackedPoints points = points_carried(collapsing, target, least_points);
+    TrackedPoints points = points_carried(collapsing, target, wanted);
     for (int time = 0; time < 2; ++time) {
-        list_nearer(collapsing.surface(), points, threads);
+        list_nearer(collapsing.surface(), points, options.threads);
     }
     measure_lists(collapsing.surface(), points);
     return points;
@@ -176,9 +185,14 @@ simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Choos
     begin_in_rounds(collapsing, chosen_by, options);
     std::optional<TrackedPoints> points;
     if (measures) {
-        points.emplace(points_of(collapsing, original, options.threads));
+        points.emplace(points_of(collapsing, original, options));
     }
-    CollapseRun(collapsing, chosen_by, points ? &*points : nullptr, options)
+    std::optional<measure::TriangleBvh> tree;
+    if (measures && std::isfinite(options.avoided_m)) {
+        tree.emplace(surface.places, original.triangles);
+    }
+    CollapseRun(
+        collapsing, chosen_by, points ? &*points : nullptr, tree ? &*tree : nullptr, options)
         .run(options.goal, options.show_progress);
     Simplified result;
     result.chosen_by = chosen_by;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace octant::models::simplify {
@@ -56,6 +57,11 @@ struct SimplifyOptions {
     /// Triangles that are no higher than the error so far may turn over (collapse_guard.h).
     /// fast_sequence lets none: selective refinement shows every state between.
     bool low_may_turn = true;
+    /// Choosers that measure distances, and the polish, keep distances to the original below this
+    /// where they can; best_of_passes tries it out (passes.h).
+    double avoided_m = std::numeric_limits<double>::infinity();
+    /// Chooser::Distances may make slivers of uncoloured triangles, as the plain choosers may.
+    bool slivers_too = false;
     int threads = 1;            ///< The number of threads; it does not change the result.
     ShowProgress show_progress; ///< May be empty.
 };

@@ -34,21 +34,43 @@ TrackedPoints::TrackedPoints(const TargetMesh& original, std::size_t wanted) {
             faces_at[vertex] = std::min(face, faces_at[vertex]);
         }
     }
-    const bool vertices_alone = wanted <= original.places.size();
-    const std::size_t least = original.places.size() + original.face_count();
-    make_room(vertices_alone ? original.places.size() : std::max(wanted, least));
     make_face_room(original.face_count());
-    for (std::uint32_t vertex = 0; vertex < original.places.size(); ++vertex) {
-        assert(faces_at[vertex] != none);
-        add(original.places[vertex],
-            original.coloured() ? &original.colours[vertex] : nullptr,
-            (vertices_alone ? 1.0 : corner_share) * vertex_areas[vertex],
-            faces_at[vertex]);
+    const std::size_t vertices = original.places.size();
+    if (wanted <= vertices) {
+        add_vertices(original, vertex_areas, faces_at, vertices / std::max<std::size_t>(wanted, 1));
+        return;
     }
+    const std::size_t least = vertices + original.face_count();
+    make_room(std::max(wanted, least));
+    for (double& area : vertex_areas) {
+        area *= corner_share;
+    }
+    add_vertices(original, vertex_areas, faces_at, 1);
     const double more = wanted > least ? static_cast<double>(wanted - least) : 0.0;
-    for (std::uint32_t face = 0; !vertices_alone && face < original.face_count(); ++face) {
+    for (std::uint32_t face = 0; face < original.face_count(); ++face) {
         const double share = total > 0.0 ? areas[face] / total : 0.0;
         add_on(original, face, 1 + static_cast<std::size_t>(share * more), areas[face]);
+    }
+}
+
+/// Adds every stride-th vertex, which stands for those before it too: neighbours mostly follow each
+/// other.
+void TrackedPoints::add_vertices(
+    const TargetMesh& original,
+    const std::vector<double>& areas,
+    const std::vector<std::uint32_t>& faces,
+    std::size_t stride) {
+    double area = 0.0;
+    for (std::uint32_t vertex = 0; vertex < areas.size(); ++vertex) {
+        assert(faces[vertex] != none);
+        area += areas[vertex];
+        if ((vertex + 1) % stride == 0 || vertex + 1 == areas.size()) {
+            add(original.places[vertex],
+                original.coloured() ? &original.colours[vertex] : nullptr,
+                area,
+                faces[vertex]);
+            area = 0.0;
+        }
     }
 }
 

@@ -23,8 +23,9 @@ inline constexpr double peak_rounding2 = 100.0 * point_rounding * point_rounding
 class TrackedPoints {
 public:
     /// Makes a point of every vertex and one or more points on each triangle: about `wanted` in
-    /// all, or more if vertices and triangles alone are more; none on triangles where `wanted` is
-    /// at most the number of vertices. Every vertex must lie in a triangle (asserted).
+    /// all, or more if vertices and triangles alone are more. Where `wanted` is at most the number
+    /// of vertices there are none on triangles, and vertices are left out evenly. Every vertex must
+    /// lie in a triangle (asserted).
     TrackedPoints(const TargetMesh& original, std::size_t wanted);
 
     std::size_t size() const { return places_.size(); }
@@ -63,8 +64,12 @@ public:
 
 private:
     void add(const glm::dvec3& place, const glm::dvec3* colour, double weight, std::uint32_t face);
-    void
-    add_on(const TargetMesh& original, std::uint32_t face, std::size_t count, double area);
+    void add_on(const TargetMesh& original, std::uint32_t face, std::size_t count, double area);
+    void add_vertices(
+        const TargetMesh& original,
+        const std::vector<double>& areas,
+        const std::vector<std::uint32_t>& faces,
+        std::size_t stride);
     void make_room(std::size_t points);
 
     std::vector<std::array<float, 3>> places_;

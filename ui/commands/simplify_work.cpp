@@ -96,7 +96,9 @@ void add_distance(
     int threads) {
     const double diagonal_m = models::diagonal_m(original);
     const models::measure::MeshDistance distance = models::measure::distance(
-        original, mesh, {.negligible_m = 1e-6 * diagonal_m, .threads = threads, .larger_alone = true});
+        original,
+        mesh,
+        {.negligible_m = 1e-6 * diagonal_m, .threads = threads, .larger_alone = true});
     figures["error"] = distance.most_hausdorff_m();
     figures["error_of_diagonal"] = distance.most_hausdorff_m() / diagonal_m;
     figures["rms"] = distance.rms_m();

@@ -42,8 +42,7 @@ TEST_CASE("rounds of collapses keep the kind of surface and are recorded in the 
         CHECK(left.mesh.triangles.size() >= 499);
         CHECK(is_manifold(left.mesh));
         CHECK(euler_number(left.mesh) == euler_number(fine));
-        const TriangleMesh replayed =
-            mesh_after(left.sequence, left.sequence.collapses.size());
+        const TriangleMesh replayed = mesh_after(left.sequence, left.sequence.collapses.size());
         CHECK(replayed.triangles.size() == left.mesh.triangles.size());
         CHECK(is_manifold(replayed));
         CHECK(rms_m(replayed, left.mesh) < 1e-12);
@@ -66,7 +65,7 @@ TEST_CASE("what rounds begin is not much worse at the end than the cheapest edge
         if (in_rounds) {
             collapse_in_rounds(collapsing, {.faces = fine.triangles.size() / 4});
         }
-        CollapseRun run(collapsing, Chooser::Quadrics, nullptr, {});
+        CollapseRun run(collapsing, Chooser::Quadrics, nullptr, nullptr, {});
         run.run({.vertices = {}, .faces = 200, .error_m = {}}, nullptr);
         return surface.to_mesh(fine, units);
     };
