@@ -115,8 +115,9 @@ public:
     }
 
     /// Options of the command that the line names, read; then what is to be done.
-    std::function<void()> action() const {
+    std::function<void()> action(const Words& line) const {
         const Parsed& parsed = *named();
+        refuse_flag_values(parsed, line);
         std::vector<std::pair<const Option*, Words>> readings;
         for (std::size_t i = 0; i < parsed.options.size(); ++i) {
             if (parsed.options[i]->count() > 0) {
@@ -223,6 +224,25 @@ private:
             "expected one of its options, got {}{}", printable(got), perhaps_meant(name, names));
     }
 
+    /// Throws Error for a flag with a value, which the library takes where that is a number or a
+    /// truth: what --no-near-detail=0 should mean nobody can say.
+    static void refuse_flag_values(const Parsed& parsed, const Words& line) {
+        for (const std::string& word : line) {
+            const std::size_t equals = word.find('=');
+            if (!word.starts_with("--") || equals == std::string::npos) {
+                continue;
+            }
+            const std::string name = word.substr(0, equals);
+            for (std::size_t i = 0; i < parsed.options.size(); ++i) {
+                if (parsed.command->options[i].takes == Takes::Nothing &&
+                    parsed.options[i]->check_name(name)) {
+                    const std::string value = printable(word.substr(equals + 1));
+                    throw Error(fmt::format("{}: expected nothing after it, got {}", name, value));
+                }
+            }
+        }
+    }
+
     /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
     static void refuse_empty_words(const Option& row, const Words& words) {
         const bool may_be_empty = row.takes == Takes::Nothing || row.takes == Takes::PerhapsOneWord;
@@ -266,7 +286,7 @@ action_of(const Program& program, int argument_count, const char* const* argumen
     Parser parser(program);
     try {
         parser.parse(argument_count, arguments);
-        return parser.action();
+        return parser.action(Words(arguments + 1, arguments + argument_count));
     } catch (const CLI::CallForHelp&) {
         return printing(parser.help());
     } catch (const CLI::CallForAllHelp&) {

@@ -171,7 +171,7 @@ public:
             return;
         }
         const std::size_t first = triangles.size();
-        const double moved_m = nature::FineGround::most_moved * ground_->spacing_m();
+        const double moved_m = nature::most_fine_move * ground_->spacing_m();
         const glm::dvec3 below_m(0.0, 0.0, moved_m);
         const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
         mesher_.triangles_in(
@@ -199,10 +199,10 @@ private:
         const bool unlimited = triangles >= scene::unlimited_triangles;
         if (has_detail()) {
             const double over_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
-            const double target = unlimited ? usual_triangles : triangles;
             nature::share_out_detail(
-                {target / usual_triangles,
+                {unlimited ? std::nullopt : std::optional(triangles / usual_triangles),
                  request.camera.vertical_fov_rad * request.aspect,
+                 focal_px(request.camera, picture_height_px_),
                  std::max(over_m, 0.0)},
                 detail_,
                 near_view_);

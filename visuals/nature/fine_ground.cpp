@@ -2,6 +2,7 @@
 
 #include "sim/base/flat_area.h"
 #include "sim/base/hash.h"
+#include "visuals/nature/fine_edges.h"
 #include "visuals/nature/scenery.h"
 
 #include <glm/common.hpp>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -16,26 +18,12 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr std::size_t table_places = std::size_t{1} << 15U;
+constexpr std::size_t least_places = std::size_t{1} << 15U;
 constexpr float full_at = 1.8F; ///< times as long: the middle is where it belongs
-constexpr int most_depth = 14;
 constexpr float moved_a_slope = 0.3F;
 constexpr float shade = 0.16F;
 constexpr float level_slope = 0.1F;  ///< edges more level than this have fewer shades
 constexpr float quarter_edge = 1.2F; ///< over the sample distance: quarters of cells are shorter
-
-/// The ground below the eye, and places no nearer than this, metres.
-constexpr float nearest_m = 3.0F;
-
-float squared(const glm::vec3& v) {
-    return v.x * v.x + v.y * v.y + v.z * v.z;
-}
-
-float level_length2(const glm::vec3& a, const glm::vec3& b) {
-    const float x = b.x - a.x;
-    const float y = b.y - a.y;
-    return x * x + y * y;
-}
 
 /// In [-1, 1) by a place in the world.
 float noise_at(std::int64_t column, std::int64_t row, std::uint32_t salt) {
@@ -69,7 +57,7 @@ void FineGround::begin(
     scenery_ = scenery;
     colour_ = colour;
     vertices_.assign(vertices.begin(), vertices.end());
-    middles_.resize(table_places);
+    middles_.resize(std::max({least_places, std::bit_ceil(2 * view.most_splits), middles_.size()}));
     ++frame_;
     added_ = 0;
 }
@@ -77,10 +65,7 @@ void FineGround::begin(
 bool FineGround::looks_long(std::uint32_t a, std::uint32_t b) const {
     const glm::vec3& from = vertices_[a].position_m;
     const glm::vec3& to = vertices_[b].position_m;
-    const float length2 = level_length2(from, to);
-    const float distance2 = std::max(squared(0.5F * (from + to)), nearest_m * nearest_m);
-    const float least = least_fine_edge * static_cast<float>(view_.spacing_m);
-    return length2 > view_.long_rad * view_.long_rad * distance2 && length2 > least * least;
+    return look2(from, to) > view_.long_rad * view_.long_rad && may_be_halved(view_, from, to);
 }
 
 /// The vertex in the middle of an edge that is halved; the edge's first end where it stays whole.
@@ -92,13 +77,14 @@ std::uint32_t FineGround::middle_of(std::uint32_t a, std::uint32_t b) {
         return a;
     }
     const std::uint64_t edge = (std::uint64_t{a} << 32U | b) + 1;
-    std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & (table_places - 1);
+    const std::size_t mask = middles_.size() - 1;
+    std::size_t at = scrambled(a * 0x9e3779b1U ^ b) & mask;
     while (middles_[at].frame == frame_ && middles_[at].edge != edge) {
-        at = (at + 1) & (table_places - 1);
+        at = (at + 1) & mask;
     }
     Middle& middle = middles_[at];
     if (middle.frame != frame_) {
-        if (added_ >= std::min(view_.most_splits, table_places / 2)) {
+        if (added_ >= view_.most_splits) {
             return a;
         }
         middle = {edge, make_middle(a, b), frame_};
@@ -115,7 +101,8 @@ float FineGround::moved_m(
     }
     const auto spacing_m = static_cast<float>(view_.spacing_m);
     const float most_m = std::min(
-        moved_a_slope * std::abs(to_m.z - from_m.z), static_cast<float>(most_moved) * spacing_m);
+        moved_a_slope * std::abs(to_m.z - from_m.z),
+        static_cast<float>(most_fine_move) * spacing_m);
     const double cell_m = view_.spacing_m / 64.0;
     return 0.5F * most_m *
            noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
@@ -127,7 +114,7 @@ std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
     glm::vec3 at_m = 0.5F * (from.position_m + to.position_m);
     const glm::dvec2 place_m = glm::dvec2(at_m) + glm::dvec2(view_.eye_m);
     const float length_m = std::sqrt(level_length2(from.position_m, to.position_m));
-    const float distance_m = std::max(std::sqrt(squared(at_m)), nearest_m);
+    const float distance_m = std::max(std::sqrt(squared(at_m)), nearest_fine_m);
     const float grown = std::clamp(
         (length_m / (view_.long_rad * distance_m) - 1.0F) / (full_at - 1.0F), 0.0F, 1.0F);
     std::uint32_t colour = blended(from.colour, to.colour, 0.5F, 1.0F);
@@ -149,36 +136,15 @@ std::uint32_t FineGround::make_middle(std::uint32_t a, std::uint32_t b) {
 
 void FineGround::add(
     const std::uint32_t* corners, bool bears, std::vector<std::uint32_t>& indices) {
-    const Corners triangle{corners[0], corners[1], corners[2]};
-    if (!is_far(triangle)) {
-        add_parts(triangle, 0, bears, indices);
-        return;
-    }
-    if (bears) {
-        add_things(triangle, indices);
-    }
-    indices.insert(indices.end(), corners, corners + 3);
+    add_parts({corners[0], corners[1], corners[2]}, 0, bears, indices);
 }
 
-/// Whether a triangle is so far off that none of its edges looks long: most are.
-bool FineGround::is_far(const Corners& triangle) const {
-    const glm::vec3& a = vertices_[triangle.a].position_m;
-    const glm::vec3& b = vertices_[triangle.b].position_m;
-    const glm::vec3& c = vertices_[triangle.c].position_m;
-    const float longest2 = std::max({squared(b - a), squared(c - b), squared(a - c)});
-    const float over_longest = 1.0F + 1.0F / view_.long_rad;
-    return squared(a) >= over_longest * over_longest * longest2;
-}
-
-/// Whether a triangle, and all that may be made of it, lies outside the frustum.
 bool FineGround::is_outside(const Corners& triangle) const {
-    const auto moved_m = static_cast<float>(most_moved * view_.spacing_m);
-    return std::ranges::any_of(view_.frustum_normals, [&](const glm::vec3& normal) {
-        return normal != glm::vec3(0.0F) &&
-               glm::dot(normal, vertices_[triangle.a].position_m) < -moved_m &&
-               glm::dot(normal, vertices_[triangle.b].position_m) < -moved_m &&
-               glm::dot(normal, vertices_[triangle.c].position_m) < -moved_m;
-    });
+    return octant::visuals::nature::is_outside(
+        view_,
+        {vertices_[triangle.a].position_m,
+         vertices_[triangle.b].position_m,
+         vertices_[triangle.c].position_m});
 }
 
 /// Things stand within quarters of cells, which are even where anything stands.
@@ -201,7 +167,9 @@ void FineGround::add_things(const Corners& triangle, std::vector<std::uint32_t>&
 }
 
 /// Halves a triangle by its longest edge that looks long, and its parts likewise. The plane through
-/// the cut stands upright, so that the part on the eye's side hides nothing of the other.
+/// the cut stands upright, so that the part on the eye's side hides nothing of the other. What
+/// stands on the triangle goes with its parts down to quarters of cells, unless a cut goes through
+/// quarters, as it does where a longer edge stays whole.
 void FineGround::add_parts(
     const Corners& triangle, int depth, bool bears, std::vector<std::uint32_t>& indices) {
     const Corners turns[3] = {
@@ -209,10 +177,12 @@ void FineGround::add_parts(
     const Corners* longest = nullptr;
     std::uint32_t middle = 0;
     float length2 = 0.0F;
-    const bool whole = depth >= most_depth || (depth > 0 && is_outside(triangle));
+    float most2 = 0.0F;
+    const bool whole = depth >= most_halvings || (depth > 0 && is_outside(triangle));
     for (const Corners& turn : turns) {
         const float own2 =
             level_length2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);
+        most2 = std::max(most2, own2);
         if (own2 <= length2 || whole) {
             continue;
         }
@@ -223,7 +193,8 @@ void FineGround::add_parts(
             length2 = own2;
         }
     }
-    if (bears && (longest == nullptr || is_quarter_of_cell(triangle))) {
+    const bool cuts_quarters = length2 < most2;
+    if (bears && (longest == nullptr || cuts_quarters || is_quarter_of_cell(triangle))) {
         add_things(triangle, indices);
         bears = false;
     }

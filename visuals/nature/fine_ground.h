@@ -35,15 +35,12 @@ public:
         Scenery* scenery,
         const PlaceColour* colour);
 
-    /// Appends a triangle, in parts if it is near, to `indices`; each part after what stands on it
-    /// where `bears` says that anything does.
+    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on
+    /// it where `bears` says that anything does.
     void add(const std::uint32_t* corners, bool bears, std::vector<std::uint32_t>& indices);
 
     /// Those of the mesh, then new ones.
     std::vector<models::ColourVertex>& vertices() { return vertices_; }
-
-    /// The most by which a middle is moved, over the sample distance.
-    static constexpr double most_moved = 0.06;
 
 private:
     struct Middle {
@@ -62,7 +59,6 @@ private:
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b);
     std::uint32_t make_middle(std::uint32_t a, std::uint32_t b);
     float moved_m(const glm::vec3& from_m, const glm::vec3& to_m, const glm::dvec2& place_m) const;
-    bool is_far(const Corners& triangle) const;
     bool is_outside(const Corners& triangle) const;
     bool is_quarter_of_cell(const Corners& triangle) const;
     void add_things(const Corners& triangle, std::vector<std::uint32_t>& indices);

@@ -6,11 +6,15 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace octant::visuals::nature {
 
 /// Edges of the ground that are shorter stay whole; over the distance of samples.
 inline constexpr float least_fine_edge = 1.0F / 24.0F;
+
+/// The most by which the middle of an edge is moved, over the distance of samples.
+inline constexpr double most_fine_move = 0.06;
 
 /// From where ground is looked at, and how finely it is sampled.
 struct FineView {
@@ -37,13 +41,17 @@ struct NearDetail {
 
 /// For how much detail there is room, and how much there is to see.
 struct DetailRoom {
-    double share = 1.0;     ///< of the usual number of triangles, which is 20,000
-    double width_rad = 1.4; ///< of the picture
-    double over_m = 0.0;    ///< the eye over the ground
+    /// Of the usual number of triangles, which is 20,000. Nothing: there is no limit.
+    std::optional<double> share = 1.0;
+    double width_rad = 1.4;  ///< of the picture
+    double focal_px = 869.0; ///< pixels that a metre covers straight ahead, one metre off
+    double over_m = 0.0;     ///< the eye over the ground
 };
 
 /// Sets how long edges look that are halved, how far things stand, and the numbers of both, so that
-/// these limits are hardly ever met: what they cut off would appear in a step.
+/// these limits are hardly ever met: what they cut off would appear in a step. Without a limit of
+/// triangles the width of the picture counts for nothing: pictures from one eye through lenses of
+/// one `focal_px` show the same ground wherever they overlap or meet.
 void share_out_detail(const DetailRoom& room, const NearDetail& detail, FineView& view);
 
 } // namespace octant::visuals::nature

@@ -32,9 +32,13 @@ void reverse_triangles(std::vector<std::uint32_t>& indices) {
 /// Goes from near to far, so that what there is no room for is far off.
 NearGround::Triangles NearGround::made(
     const terrain::GroundMesh& mesh,
-    const FineView& view,
+    const FineView& wanted,
     const NearDetail& detail,
     const PlaceColour* colour) {
+    FineView view = wanted;
+    if (detail.fine_ground) {
+        view.long_rad = survey_.long_rad_within(mesh, wanted);
+    }
     frame_ = 1 - frame_;
     Frame& frame = frames_[frame_];
     std::swap(fine_.vertices(), frame.vertices); // memory of the frame before the last
@@ -55,7 +59,7 @@ NearGround::Triangles NearGround::made(
             mesh.vertices[corners[1]].position_m,
             mesh.vertices[corners[2]].position_m};
         const bool bears = is_nearer(corners_m, reach_m);
-        if (detail.fine_ground) {
+        if (detail.fine_ground && survey_.is_near(triangle)) {
             fine_.add(corners, bears, frame.indices);
         } else {
             if (bears) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/nature/fine_ground.h"
+#include "visuals/nature/fine_survey.h"
 #include "visuals/nature/fine_view.h"
 #include "visuals/nature/scenery.h"
 #include "visuals/terrain/ground_mesh.h"
@@ -41,6 +42,7 @@ public:
     void replace(std::vector<std::uint32_t>& triangles, std::size_t first) const;
 
 private:
+    FineSurvey survey_;
     FineGround fine_;
     Scenery scenery_;
 

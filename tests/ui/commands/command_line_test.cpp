@@ -22,6 +22,7 @@ Program small_program() {
         .together = 3};
     const Option quiet{
         .name = "--quiet", .takes = Takes::Nothing, .read = read, .shown_default = {}};
+    const Option vsync{.name = "--vsync,!--no-vsync", .takes = Takes::Nothing, .read = read};
     const Option input{.name = "in", .form = "FILE", .read = read, .required = true};
     const auto run = [] {};
     return {
@@ -29,7 +30,10 @@ Program small_program() {
         .version = "1",
         .footer = {},
         .commands = {
-            {.name = "fly", .summary = "flies", .options = {frames, quiet, region}, .run = run},
+            {.name = "fly",
+             .summary = "flies",
+             .options = {frames, quiet, vsync, region},
+             .run = run},
             {.name = "terrain",
              .summary = "ground",
              .commands = {
@@ -80,6 +84,14 @@ TEST_CASE("what is wrong with a command line is said as what was expected and wh
     CHECK(
         refusal_of({"fly", "--quiet=perhaps"}) ==
         "--quiet: expected nothing after it, got perhaps");
+    for (const char* const value : {"3", "0", "1", "true", "false", "-1"}) {
+        CHECK(
+            refusal_of({"fly", std::string("--quiet=") + value}) ==
+            std::string("--quiet: expected nothing after it, got ") + value);
+    }
+    CHECK(
+        refusal_of({"fly", "--no-vsync=false"}) ==
+        "--no-vsync: expected nothing after it, got false");
     CHECK(refusal_of({"terrain", "make"}) == "IN: expected FILE, got none");
     CHECK(refusal_of({"terrain", "make", "a.tif"}) == "--out: expected FILE, got none");
 }

@@ -207,6 +207,61 @@ TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex fa
     CHECK(most_rad < 0.25 / 869.0 * 4.0);
 }
 
+TEST_CASE("a number of halvings is held by longer edges, and none is cut off") {
+    const Field field(low_eye_m, 1, 20.0);
+    FineView view = view_from(low_eye_m);
+    const auto triangles_of = [&](const FineView& own) {
+        NearGround near(scenery_of({}));
+        return near.made(field.mesh(), own, fine_only).indices.size() / 3;
+    };
+    const std::size_t given = field.indices.size() / 3;
+    const std::size_t asked = triangles_of(view) - given;
+    REQUIRE(asked > 2000);
+    for (const double share : {0.9, 0.5, 0.25, 0.1}) {
+        view.most_splits = static_cast<std::size_t>(share * static_cast<double>(asked));
+        const double made = static_cast<double>(triangles_of(view) - given);
+        CHECK(made < 0.98 * static_cast<double>(view.most_splits));
+        CHECK(made > 0.7 * static_cast<double>(view.most_splits));
+        FineView free = view;
+        free.most_splits = asked;
+        FineSurvey survey;
+        free.long_rad = survey.long_rad_within(field.mesh(), view);
+        CHECK(static_cast<double>(triangles_of(free) - given) == made);
+    }
+}
+
+TEST_CASE("what must look long to be halved changes steadily as the eye moves") {
+    FineSurvey survey;
+    double last_rad = 0.0;
+    for (int step = 0; step < 200; ++step) {
+        const glm::dvec3 eye_m = low_eye_m + glm::dvec3(0.2, 0.1, 0.05) * static_cast<double>(step);
+        FineView view = view_from(eye_m);
+        view.most_splits = 600;
+        const Field field(eye_m, 1, 20.0);
+        const auto long_rad = static_cast<double>(survey.long_rad_within(field.mesh(), view));
+        CHECK(long_rad > static_cast<double>(view.long_rad));
+        if (step > 0) {
+            CHECK(std::abs(long_rad / last_rad - 1.0) < 0.02);
+        }
+        last_rad = long_rad;
+    }
+}
+
+TEST_CASE("without a limit of triangles the width of the picture counts for nothing") {
+    const auto view_of = [](double width_rad, double focal_px) {
+        FineView view = view_from(low_eye_m);
+        share_out_detail({std::nullopt, width_rad, focal_px, 14.0}, {}, view);
+        return view;
+    };
+    const FineView narrow = view_of(0.2, 869.0);
+    const FineView wide = view_of(2.0, 869.0);
+    CHECK(narrow.long_rad == wide.long_rad);
+    CHECK(narrow.reach_share == wide.reach_share);
+    CHECK(narrow.most_splits == wide.most_splits);
+    CHECK(narrow.most_things == wide.most_things);
+    CHECK(view_of(1.4, 2.0 * 869.0).long_rad == Approx(0.5F * narrow.long_rad));
+}
+
 TEST_CASE("what stands on the ground stands within its triangle, whichever mesh it is") {
     const Growth forest{0.5F, 0.3F, 0.0F, 0.05F, 1.0F};
     const auto places_of = [&](int block) {
