@@ -99,6 +99,7 @@ TEST_CASE("the orders of models that are hard to order are proved") {
           "crash-t-junctions-15",
           "eighteen-polygons-far-away",
           "certificate-far-7001",
+          "certificate-bent-104",
           "order-tiny-34"}) {
         check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), Method::Tree);
         check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), Method::Bsp);
