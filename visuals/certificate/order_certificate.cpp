@@ -11,11 +11,9 @@ OrderCertificate order_certificate(
     const draworder::DrawOrder& order,
     const models::polygons::FileAxes& axes,
     const std::function<void(std::size_t, std::size_t)>& progress) {
-    using separation::tolerance_sizes;
     const std::size_t parts = order.nodes().size() + static_cast<std::size_t>(order.cell_count());
     OrderCertificate best;
-    for (const double tolerance :
-         {tolerance_sizes, 5.0 * tolerance_sizes, 25.0 * tolerance_sizes}) {
+    for (const double tolerance : separation::proof_tolerances_sizes) {
         const separation::LocalModel local = separation::local_model(model, axes, tolerance);
         CertificateText text(local.size_m, [&, done = std::size_t{0}]() mutable {
             if (progress) {

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -34,10 +33,13 @@ const std::array<TreeSearch, 4> tree_searches{
 const TreeSearch quick_search{
     .forks = {.edge_planes = 300, .closer = 48, .exact = 2}, .keeps_part = true};
 
+TreeCost cost_of(const FoundCells& orders) {
+    return {orders.work.twins.size(), orders.cells.size()};
+}
+
 /// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
 bool fewer(const FoundCells& a, const FoundCells& b) {
-    return std::tuple(!a.open.empty(), a.work.twins.size(), a.cells.size()) <
-           std::tuple(!b.open.empty(), b.work.twins.size(), b.cells.size());
+    return std::pair(!a.open.empty(), cost_of(a)) < std::pair(!b.open.empty(), cost_of(b));
 }
 
 void keep_better(std::optional<FoundCells>& best, FoundCells orders) {
@@ -80,9 +82,13 @@ FoundCells best_tree(const models::polygons::PolygonModel& model, SearchBudget& 
         return tree_orders(work, root, quick_search);
     }
     std::optional<FoundCells> best;
-    for (const TreeSearch& search : tree_searches) {
+    for (TreeSearch search : tree_searches) {
         if (best && best->work.twins.empty() && search.planes_first) {
             break;
+        }
+        if (best && best->open.empty()) {
+            search.keeps_part = false;
+            search.less_than = cost_of(*best);
         }
         try {
             keep_better(best, tree_orders(work, root, search));

@@ -71,7 +71,6 @@ private:
 
 OrderProof
 order_proof(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
-    using separation::tolerance_sizes;
     SearchBudget budget(seconds);
     OrderProof best;
     if (model.corner_vertices.empty()) {
@@ -79,8 +78,7 @@ order_proof(const models::polygons::PolygonModel& model, const DrawOrder& order,
         return best;
     }
     const models::polygons::FileAxes axes;
-    for (const double tolerance :
-         {tolerance_sizes, 5.0 * tolerance_sizes, 25.0 * tolerance_sizes}) {
+    for (const double tolerance : separation::proof_tolerances_sizes) {
         const separation::LocalModel local = separation::local_model(model, axes, tolerance);
         Counting counting(budget);
         try {

@@ -47,13 +47,22 @@ private:
     std::unique_ptr<Branch> open_leaf(EyeNode& node);
     std::unique_ptr<Branch> leaf(const EyeNode& node);
     std::optional<Fork> settle(EyeNode& node);
+    void check_cost() const;
 
     WorkingModel& work_;
     RegionGraphs graphs_;
     const TreeSearch& search_;
     std::size_t entries_ = 0;
+    std::size_t cells_ = 1; ///< Finished ones, and one for each branch that is still to grow.
     std::string why_open_;
 };
+
+/// Throws SearchGivenUp where the tree, which only grows, costs too much already.
+void TreeBuilder::check_cost() const {
+    if (search_.less_than && TreeCost{work_.twins.size(), cells_} >= *search_.less_than) {
+        throw SearchGivenUp{"another tree costs less"};
+    }
+}
 
 /// The finished cell of a node without cycles.
 std::unique_ptr<Branch> TreeBuilder::leaf(const EyeNode& node) {
@@ -86,6 +95,7 @@ std::optional<Fork> TreeBuilder::settle(EyeNode& node) {
         }
         work_.spend(search_units(node));
         work_.resolve(*deadlock);
+        check_cost();
         work_.catch_up(node);
         node = part_of(graphs_, node, node.region);
     }
@@ -129,6 +139,8 @@ std::unique_ptr<Branch> TreeBuilder::found(EyeNode& node, std::size_t depth) {
     if (!fork) {
         return leaf(node);
     }
+    ++cells_;
+    check_cost();
     auto out = std::make_unique<Branch>();
     out->plane = fork->plane;
     out->front = grow(std::move(fork->front), depth + 1);

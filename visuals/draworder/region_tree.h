@@ -5,8 +5,10 @@
 #include "visuals/draworder/fork_choice.h"
 #include "visuals/draworder/working_model.h"
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,14 @@ struct RegionTree {
     std::string why_open; ///< Why the search was given up first; empty if it was not.
 };
 
+/// What a tree costs: fewer splits are better, and of as many fewer cells.
+struct TreeCost {
+    std::size_t splits = 0;
+    std::size_t cells = 0;
+
+    std::strong_ordering operator<=>(const TreeCost&) const = default;
+};
+
 /// How thoroughly a tree is searched for.
 struct TreeSearch {
     ForkSearch forks = {};
@@ -34,6 +44,8 @@ struct TreeSearch {
     bool planes_first = false;
     /// Whether what was found is kept where the search is given up (RegionTree::open).
     bool keeps_part = false;
+    /// The search is given up as soon as its tree is sure to cost as much as this.
+    std::optional<TreeCost> less_than = {};
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there

@@ -136,7 +136,8 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
         return;
     }
     state_.use_depth(step.depth);
-    state_.cull_back_faces(true);
+    // Where nothing else tells what hides what, the shader leaves out back faces (aircraft.frag).
+    state_.cull_back_faces(step.depth != scene::DepthUse::None);
     state_.use_program(programs(), clip);
     if (step.opacity < 1.0F) {
         state_.blend_by(step.opacity);

@@ -52,6 +52,7 @@ void DrawState::begin_picture(Rows rows) {
 }
 
 void DrawState::use_depth(DepthUse use) {
+    gl_.disable(GL_POLYGON_OFFSET_FILL);
     if (use == DepthUse::None) {
         gl_.disable(GL_DEPTH_TEST);
         return;
@@ -66,8 +67,6 @@ void DrawState::use_depth(DepthUse use) {
     } else if (use == DepthUse::EdgeOn) {
         gl_.enable(GL_POLYGON_OFFSET_FILL);
         gl_.polygon_offset(0.0F, edge_on_steps);
-    } else {
-        gl_.disable(GL_POLYGON_OFFSET_FILL);
     }
 }
 

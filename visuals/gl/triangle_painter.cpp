@@ -70,6 +70,11 @@ void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
 
 void TrianglePainter::upload(const scene::FramePlan& plan) {
     use_mesh_look(plan);
+    has_numbers_ = plan.ground_has_numbers;
+    if (has_numbers_ && !number_programs_) {
+        number_programs_ =
+            make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
+    }
     gl_.bind_texture_unit(grain_unit, grain_.name());
     textured_ = plan.ground_texture.has_value();
     if (textured_) {

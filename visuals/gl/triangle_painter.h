@@ -42,7 +42,10 @@ private:
     };
 
     const ProgramPair& ground_programs() const {
-        return shows_mesh_ ? *mesh_programs_ : textured_ ? texture_->programs : ground_programs_;
+        return shows_mesh_    ? *mesh_programs_
+               : textured_    ? texture_->programs
+               : has_numbers_ ? *number_programs_
+                              : ground_programs_;
     }
 
     void use_mesh_look(const scene::FramePlan& plan);
@@ -54,10 +57,12 @@ private:
     Object grain_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
-    bool shows_mesh_ = false; ///< as the plan says
-    bool textured_ = false;   ///< as the plan says
-    StreamBuffer vertices_;   ///< ground, shadows, sky
-    StreamBuffer indices_;    ///< ground, what is painted again, sky
+    std::optional<ProgramPair> number_programs_;
+    bool shows_mesh_ = false;  ///< as the plan says
+    bool textured_ = false;    ///< as the plan says
+    bool has_numbers_ = false; ///< as the plan says
+    StreamBuffer vertices_;    ///< ground, shadows, sky
+    StreamBuffer indices_;     ///< ground, what is painted again, sky
     Object array_;
     Range ground_;
     Range repainted_;

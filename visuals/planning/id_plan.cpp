@@ -137,6 +137,7 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     plan_.haze = {};
     plan_.ground_texture.reset();
     plan_.grain.reset();
+    plan_.ground_has_numbers = true;
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     std::erase_if(plan_.steps, [](const scene::PaintStep& step) {

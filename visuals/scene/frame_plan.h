@@ -160,6 +160,9 @@ struct FramePlan {
     /// Triangles of ground and shadows that are drawn after the ground: indices of
     /// ground.vertices, then of shadow_vertices, as those of `ground` itself.
     std::vector<std::uint32_t> repaint_indices;
+    /// The corners of each triangle of the ground have one colour, which has to reach the picture
+    /// to the last bit: polygon numbers.
+    bool ground_has_numbers = false;
     std::vector<models::ColourVertex> shadow_vertices;
     MeshLook mesh_look = MeshLook::None;
     /// The spacing of the ground's samples, from which levels are counted.

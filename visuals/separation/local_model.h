@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,6 +16,12 @@ namespace octant::visuals::separation {
 /// Lengths up to this are taken for none, in longest sides of the model's bounding box: builders
 /// decide by 1e-9 of its radius, a point from a plane and a polygon's own width alike.
 inline constexpr double tolerance_sizes = 2e-9;
+
+/// The tolerances with which a proof is sought, one after the other. Larger ones are for bent
+/// polygons, whose parts meet at a hair; those beyond 5e-8, still less than the last of six digits,
+/// for planes that are parallel but for such a digit: some eyes 1e5 sizes away are before two of
+/// them that face away from one another.
+inline constexpr std::array proof_tolerances_sizes = {tolerance_sizes, 1e-8, 5e-8, 2.5e-7, 8e-7};
 
 /// A line about which polygons turn; `along` is a unit vector.
 struct LocalAxis {

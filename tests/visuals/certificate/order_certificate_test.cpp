@@ -105,6 +105,16 @@ TEST_CASE("the orders of models that are hard to order are proved") {
     }
 }
 
+TEST_CASE("sides that are parallel but for the last digits of a file are proved, and say so") {
+    const OrderCertificate certificate =
+        certificate_of("tests/visuals/certificate/parallel-but-for-a-digit.obj");
+    const Verdict verdict = verdict_of(certificate.text);
+    CHECK(certificate.unproved == 0);
+    CHECK(verdict.proved());
+    CHECK(verdict.tolerance_sizes > 5e-8);
+    CHECK(verdict.tolerance_sizes < 1e-6);
+}
+
 TEST_CASE("the same order gives the same certificate") {
     CHECK(certificate_of("models/concave.obj").text == certificate_of("models/concave.obj").text);
 }

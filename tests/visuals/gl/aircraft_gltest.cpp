@@ -45,6 +45,27 @@ TEST_CASE("a polygon whose back is seen by its plane is not drawn, however its c
     }
 }
 
+TEST_CASE("which way a sliver of an aircraft faces is told by its corners as they are rounded") {
+    // From the middle of a pixel, in 1/256 of it. As they are the corners go round clockwise, when
+    // they are rounded the other way, and the triangle covers the middle.
+    Studio studio;
+    const glm::vec2 middle_px(40.5F, 30.5F);
+    scene::ModelBuffers model;
+    for (const glm::vec2 at : {glm::vec2(-56.4F, -1.6F), {-49.28F, -1.46F}, {94.6F, 2.0F}}) {
+        const glm::vec2 shares = (middle_px + at / 256.0F) / (0.5F * side_px) - 1.0F;
+        model.vertices.push_back(square_model(red).vertices.front());
+        model.vertices.back().position_m = glm::vec3(shares.x, -shares.y, 0.0F);
+    }
+    model.indices = {0, 1, 2};
+    studio.renderer().load_models({&model, 1});
+    scene::FramePlan plan = empty_plan();
+    set_square(plan, 0, ahead(1.0F));
+    plan.aircraft.front().index_count = 3;
+    const auto picture = studio.picture(plan);
+    CHECK(pixel(picture, 40, 30) == red_px);
+    CHECK(count_of(picture, red_px) == 1);
+}
+
 TEST_CASE("with depth an aircraft behind a wall of ground is hidden, else it is painted over it") {
     Studio studio;
     load_squares(studio);

@@ -1,3 +1,4 @@
+#include "sim/base/dice.h"
 #include "tests/visuals/gl/small_scene.h"
 
 #include <catch2/catch.hpp>
@@ -286,6 +287,32 @@ TEST_CASE("depth is cleared inside its box only") {
     CHECK(count_of(picture, blue_px) == 12 * 10);
     CHECK(pixel(picture, 8, 4) == blue_px);
     CHECK(pixel(picture, 19, 13) == blue_px);
+}
+
+TEST_CASE("slivers of ground keep their numbers to the last bit") {
+    // Corners hundreds of metres apart in depth, on one line of the picture but for 1e-5 of it.
+    Studio studio;
+    Dice dice(5);
+    Triangles slivers;
+    constexpr std::uint32_t number = 0xff1ebde2U;
+    for (std::uint32_t i = 0; i < 30000; ++i) {
+        const glm::vec2 from(dice.between(-0.9, 0.9), dice.between(-0.9, 0.9));
+        const glm::vec2 way(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3));
+        for (const float share : {0.0F, 0.4F, 1.0F}) {
+            const glm::vec2 aside(-way.y, way.x);
+            const glm::vec2 at = from + way * share + aside * (share == 0.4F ? 2e-5F : 0.0F);
+            const auto ahead_m = static_cast<float>(dice.between(5000.0, 9000.0));
+            slivers.vertices.push_back({glm::vec3(at * ahead_m, -ahead_m), number});
+            slivers.indices.push_back(static_cast<std::uint32_t>(slivers.indices.size()));
+        }
+    }
+    scene::FramePlan plan = empty_plan();
+    plan.ground = slivers.draw();
+    plan.ground_has_numbers = true;
+    const scene::Picture picture = studio.picture(plan);
+    const int right = count_of(picture, {0xe2, 0xbd, 0x1e, 255});
+    CHECK(right > 100);
+    CHECK(right + count_of(picture, grey_px) == side_px * side_px);
 }
 
 TEST_CASE("a smooth polygon has the light of its corners, a flat one that of its face") {

@@ -38,6 +38,16 @@ double distance_to_segment(const glm::dvec2& at, const glm::dvec2& from, const g
     return glm::distance(at, from + share * way);
 }
 
+/// Places within reach of a pixel's middle, itself among them: a square grid.
+std::array<glm::dvec3, 25> places_around(const glm::ivec2& pixel, double reach_px) {
+    std::array<glm::dvec3, 25> places;
+    for (int i = 0; i < 25; ++i) {
+        const glm::dvec2 steps(i % 5 - 2, i / 5 - 2);
+        places[static_cast<std::size_t>(i)] = {glm::dvec2(pixel) + steps * (reach_px / 2.0), 1.0};
+    }
+    return places;
+}
+
 /// The box of what of a triangle lies before the near plane, from homogeneous places in pixels.
 std::array<glm::dvec2, 2> box_of(const glm::dmat3& corners, double near_m) {
     std::array<glm::dvec2, 2> box{glm::dvec2(1e9), glm::dvec2(-1e9)};
@@ -106,6 +116,7 @@ void RayRenderer::draw(const scene::FramePlan& plan) {
     world_to_clip_ = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
     near_m_ = static_cast<double>(plan.view_to_clip[3][2]);
     targets_.clear();
+    pieces_ = 0;
     add_ground(plan);
     for (const scene::PaintStep& step : plan.steps) {
         for (std::uint32_t i = step.first;
@@ -125,6 +136,7 @@ void RayRenderer::add_ground(const scene::FramePlan& plan) {
     const auto& indices = plan.ground.indices;
     const auto& vertices = plan.ground.vertices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        ++pieces_;
         add({vertices[indices[i]].position_m,
              vertices[indices[i + 1]].position_m,
              vertices[indices[i + 2]].position_m},
@@ -136,7 +148,13 @@ void RayRenderer::add_ground(const scene::FramePlan& plan) {
 void RayRenderer::add_aircraft(const scene::FramePlan& plan, const scene::AircraftDraw& draw) {
     const scene::ModelBuffers& model = models_[draw.model];
     const auto add_range = [&](std::size_t first, std::size_t count) {
+        std::optional<std::uint32_t> polygon;
         for (std::size_t i = first; i + 2 < first + count; i += 3) {
+            const std::uint32_t next = model.vertices[model.indices[i]].polygon;
+            if (polygon != next) {
+                ++pieces_;
+            }
+            polygon = next;
             std::array<glm::vec3, 3> corners_m;
             for (std::size_t k = 0; k < 3; ++k) {
                 const scene::ModelVertex& vertex = model.vertices[model.indices[i + k]];
@@ -188,6 +206,7 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
     target.is_placed =
         corners[0].z >= near_m_ && corners[1].z >= near_m_ && corners[2].z >= near_m_;
     target.number = number & without_alpha;
+    target.piece = pieces_;
     targets_.push_back(target);
 }
 
@@ -206,6 +225,10 @@ void RayRenderer::see(const Target& target) {
             }
         }
     }
+}
+
+std::uint32_t RayRenderer::number_of(const glm::ivec2& pixel) const {
+    return number_at(picture_, index_of(pixel, size_px_));
 }
 
 RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, double reach_px) const {
@@ -227,16 +250,19 @@ RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, doub
     return difference;
 }
 
+bool RayRenderer::may_reach(const Target& target, const glm::ivec2& pixel, double reach_px) {
+    return pixel.x >= target.least.x && pixel.x <= target.most.x && pixel.y >= target.least.y &&
+           pixel.y <= target.most.y && target.inside_px({pixel, 1.0}) >= -reach_px;
+}
+
 std::optional<RayRenderer::WrongPixel>
 RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
-    constexpr int places = 2; // of a square grid within reach, on each side of the middle
     const glm::dvec2 middle(pixel);
     const glm::dvec3 at(middle, 1.0);
     std::vector<const Target*> others;
     double shown_by_w = number == 0 ? 0.0 : -1.0; // 0: nothing, infinitely far
     for (const Target& target : targets_) {
-        if (pixel.x < target.least.x || pixel.x > target.most.x || pixel.y < target.least.y ||
-            pixel.y > target.most.y || target.inside_px(at) < -reach_px) {
+        if (!may_reach(target, pixel, reach_px)) {
             continue;
         }
         if (target.number != number) {
@@ -248,7 +274,7 @@ RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reac
         }
     }
     if (shown_by_w < 0.0) {
-        return WrongPixel{pixel, std::nullopt};
+        return WrongPixel{pixel, number, std::nullopt};
     }
     const auto hides = [&](const glm::dvec3& place) {
         return std::ranges::any_of(others, [&](const Target* other) {
@@ -257,16 +283,38 @@ RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reac
                    by_w > shown_by_w * (1.0 + nearer_share);
         });
     };
-    for (int y = -places; y <= places; ++y) {
-        for (int x = -places; x <= places; ++x) {
-            const glm::dvec2 place = middle + glm::dvec2(x, y) * (reach_px / places);
-            if (!hides({place, 1.0})) {
-                return std::nullopt;
-            }
-        }
+    if (!std::ranges::all_of(places_around(pixel, reach_px), hides)) {
+        return std::nullopt;
     }
     const double found_by_w = by_w_[index_of(pixel, size_px_)];
-    return WrongPixel{pixel, found_by_w / shown_by_w - 1.0};
+    return WrongPixel{pixel, number, found_by_w / shown_by_w - 1.0};
+}
+
+bool RayRenderer::is_rounding(
+    const glm::ivec2& pixel, std::uint32_t number, std::uint32_t seen, double reach_px) const {
+    const glm::dvec2 middle(pixel);
+    const auto places = places_around(pixel, reach_px);
+    std::uint32_t last = 0; // painted without rounding
+    bool may_be_shown = false;
+    for (auto first = targets_.begin(); first != targets_.end();) {
+        const auto end = std::find_if(
+            first, targets_.end(), [&](const Target& one) { return one.piece != first->piece; });
+        const std::span piece(first, end);
+        first = end;
+        if (std::ranges::none_of(piece, [&](const Target& one) {
+                return may_reach(one, pixel, reach_px) && one.distance_px(middle) <= reach_px;
+            })) {
+            continue;
+        }
+        const auto covers = [&](const glm::dvec3& place) {
+            return std::ranges::any_of(
+                piece, [&](const Target& one) { return one.inside_px(place) >= 0.0; });
+        };
+        const bool is_certain = std::ranges::all_of(places, covers);
+        last = covers({middle, 1.0}) ? piece.front().number : last;
+        may_be_shown = !is_certain && (may_be_shown || piece.front().number == number);
+    }
+    return may_be_shown && last == seen;
 }
 
 } // namespace octant::ui::studies::draw_order

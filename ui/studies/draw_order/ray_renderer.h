@@ -57,6 +57,7 @@ public:
     /// within reach of the pixel's middle, or all places within reach lie behind nearer ones.
     struct WrongPixel {
         glm::ivec2 at{0};
+        std::uint32_t number = 0; ///< that it shows
         /// How much nearer what the ray finds is, as a share of the depth; nothing: what is shown
         /// is not within reach.
         std::optional<double> nearer;
@@ -71,6 +72,16 @@ public:
     /// middle may lie `reach_px` from what it shows.
     Difference compare(const visuals::scene::Picture& picture, double reach_px) const;
 
+    /// What a pixel shows.
+    std::uint32_t number_of(const glm::ivec2& pixel) const;
+
+    /// Of a plan painted in order: whether a pixel shows `number` only as each piece's corners are
+    /// rounded for themselves, as where two polygons are cut by a plane that is seen edge-on. So it
+    /// is if the pieces, painted without rounding, show `seen`, and sides of a piece of `number` and
+    /// of all that are painted over it there are within reach of the pixel's middle.
+    bool is_rounding(
+        const glm::ivec2& pixel, std::uint32_t number, std::uint32_t seen, double reach_px) const;
+
 private:
     /// A triangle as rays meet it. Values at a pixel (column, row, 1) are dot products.
     struct Target {
@@ -82,12 +93,14 @@ private:
         glm::ivec2 least{0};    ///< pixels that it may cover, and one more on each side
         glm::ivec2 most{0};
         std::uint32_t number = 0;
+        std::uint32_t piece = 0; ///< those of one polygon are the same, one after the other
 
         double inside_px(const glm::dvec3& at) const;
         double distance_px(const glm::dvec2& at) const;
     };
 
     void add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t number, bool culls);
+    static bool may_reach(const Target& target, const glm::ivec2& pixel, double reach_px);
     void add_ground(const visuals::scene::FramePlan& plan);
     void
     add_aircraft(const visuals::scene::FramePlan& plan, const visuals::scene::AircraftDraw& draw);
@@ -100,7 +113,8 @@ private:
     std::vector<visuals::scene::ModelBuffers> models_;
     glm::dmat4 world_to_clip_{1.0};
     double near_m_ = 0.0;
-    std::vector<Target> targets_;
+    std::vector<Target> targets_; ///< as the plan names them
+    std::uint32_t pieces_ = 0;
     std::vector<double> by_w_; ///< of what is seen in each pixel; 0: nothing
     visuals::scene::Picture picture_;
 };

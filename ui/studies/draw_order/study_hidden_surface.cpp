@@ -276,7 +276,9 @@ ray_table(const std::vector<Compared<RayComparison>>& compared, const HiddenSurf
         "Every frame number {} of each flight over {}, {}x{}, one sample a pixel. Rays meet all "
         "triangles in double precision, without order. Wrong: no rounding explains what is shown: "
         "nothing of that number comes within {:.3f} pixel of the pixel's middle, or all of that "
-        "neighbourhood lies behind nearer triangles.",
+        "neighbourhood lies behind nearer triangles. Rounding is also what it is where the pieces, "
+        "painted in their order without it, show what the ray finds, and sides of the piece shown "
+        "and of all painted over it there pass within that distance.",
         study.every,
         short_name(study.settings.path.terrain),
         study.settings.view.size_px.x,

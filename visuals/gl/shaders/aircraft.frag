@@ -34,7 +34,9 @@ vec3 smooth_light() {
 #endif
 
 void main() {
-    if (flat_colour.a < 0.0) { // of slivers that the rounding of corners turned round
+    // Asked here, as some drivers leave out slivers by how their corners go round before they are
+    // rounded: then holes remain between neighbours. The plane knows which of them rounding turned.
+    if (!gl_FrontFacing || flat_colour.a < 0.0) {
         discard;
     }
     cut();

@@ -1,6 +1,9 @@
 #version 450 core
 // Ground that is coloured at its vertices, with its fine pattern.
 
+#ifdef NUMBERS
+flat // from corner to corner rounding would change a bit in slivers
+#endif
 in vec3 colour;
 in vec2 grain_at;
 in float grain_share;

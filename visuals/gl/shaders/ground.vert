@@ -6,6 +6,9 @@ layout(location = 1) in vec4 own_colour; // alpha: share of the fine pattern
 
 #include "haze.glsl"
 
+#ifdef NUMBERS
+flat
+#endif
 out vec3 colour;
 #ifdef MESH
 out vec3 place_m;
