@@ -6,7 +6,8 @@
 // wanted error)^2, where D2 is the squared distance.
 //
 // Deviations:
-// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h - 1 about a node's
+// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h - 1 about a
+// node's
 //   centre and 2h - 1 about the middle of an edge, where h is half the node's edge in samples; they
 //   contain all triangles that v may split and those that samples needing v may split. Vertically
 //   they have the bounds of all blocks (nodes with height bounds, of v's level where that has them)
@@ -27,10 +28,10 @@
 // child's centre, with a box of 3h/2 - 1, lies (h/2, h/2) from the middles it needs, and h/2 + 3h/2
 // - 1 = 2h - 1. So the ends of boxes, which are whole numbers, are nested; subtracting the eye with
 // rounding keeps their order, and so do all steps from there to the critical value: maximum,
-// minimum, sum and product of non-negative numbers, and quotient. The bounds of a block contain those of finer
-// blocks, and a box overlaps (a common line does not count) no block that is not within one that
-// the larger box overlaps. Errors are nested as stored; those of curvature halve from each step to
-// the next.
+// minimum, sum and product of non-negative numbers, and quotient. The bounds of a block contain
+// those of finer blocks, and a box overlaps (a common line does not count) no block that is not
+// within one that the larger box overlaps. Errors are nested as stored; those of curvature halve
+// from each step to the next.
 #include "visuals/terrain/error_rule.h"
 
 #include "visuals/terrain/earth_drop.h"
@@ -55,9 +56,9 @@ constexpr double farthest_eye = 4194304.0;
 /// More than the rounding of heights in double precision can amount to.
 constexpr double height_margin_m = 1e-3;
 
-// The ends of the boxes of influence, a sample farther out on each side, in half edges from a node's
-// south-west corner: of the middles of its south, east, north and west edges, and of the centres of
-// its four children.
+// The ends of the boxes of influence, a sample farther out on each side, in half edges from a
+// node's south-west corner: of the middles of its south, east, north and west edges, and of the
+// centres of its four children.
 constexpr FourFloats west_of_middles = {-1.0F, 0.0F, -1.0F, -2.0F};
 constexpr FourFloats east_of_middles = {3.0F, 4.0F, 3.0F, 2.0F};
 constexpr FourFloats south_of_middles = {-2.0F, -1.0F, 0.0F, -1.0F};

@@ -27,8 +27,8 @@ std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
                      : "what is shown is not there");
 }
 
-/// Frames of a run as they are painted, in order, but without rounding. They are drawn when they are
-/// asked for.
+/// Frames of a run as they are painted, in order, but without rounding. They are drawn when they
+/// are asked for.
 class Unrounded {
 public:
     explicit Unrounded(const settings::RunSettings& painted)

@@ -77,8 +77,8 @@ public:
 
     /// Of a plan painted in order: whether a pixel shows `number` only as each piece's corners are
     /// rounded for themselves, as where two polygons are cut by a plane that is seen edge-on. So it
-    /// is if the pieces, painted without rounding, show `seen`, and sides of a piece of `number` and
-    /// of all that are painted over it there are within reach of the pixel's middle.
+    /// is if the pieces, painted without rounding, show `seen`, and sides of a piece of `number`
+    /// and of all that are painted over it there are within reach of the pixel's middle.
     bool is_rounding(
         const glm::ivec2& pixel, std::uint32_t number, std::uint32_t seen, double reach_px) const;
 

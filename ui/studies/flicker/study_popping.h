@@ -18,7 +18,8 @@ struct PoppingStudyOptions : base::StudyOutput {
 /// screen-space error without and with geomorphs; with near detail also for that with the detail
 /// that is drawn near the eye. With `shimmer` also how much the ground's pixels change between
 /// consecutive frames once the motion is taken out, for one and four samples a pixel, geomorphs off
-/// and on. Prints the tables and writes them to `out` as CSV and together as Markdown. Throws Error.
+/// and on. Prints the tables and writes them to `out` as CSV and together as Markdown. Throws
+/// Error.
 void study_popping(const PoppingStudyOptions& options);
 
 } // namespace octant::ui::studies::flicker

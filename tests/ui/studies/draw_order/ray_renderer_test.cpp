@@ -1,5 +1,4 @@
 #include "ui/studies/draw_order/ray_renderer.h"
-
 #include "visuals/scene/camera.h"
 
 #include <catch2/catch.hpp>
