@@ -42,7 +42,9 @@ void place_by_points(const path& file, const RasterFile& raster) {
         points[k].dfGCPX = raster.transform[0] + points[k].dfGCPPixel * raster.transform[1];
         points[k].dfGCPY = raster.transform[3] + points[k].dfGCPLine * raster.transform[5];
     }
-    REQUIRE(GDALSetGCPs(made.get(), 4, points.data(), wkt_of(models::heights::wgs84().get()).c_str()) == CE_None);
+    REQUIRE(
+        GDALSetGCPs(made.get(), 4, points.data(), wkt_of(models::heights::wgs84().get()).c_str()) ==
+        CE_None);
     GDALDeinitGCPs(4, points.data());
 }
 
