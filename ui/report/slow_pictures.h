@@ -17,8 +17,11 @@ std::string slow_picture_name(int frame);
 /// flown; in constant memory.
 class SlowPictures {
 public:
-    /// As many of the slowest frames as a report shows.
-    static constexpr std::size_t most_kept = 4;
+    /// As many as a report shows.
+    static constexpr std::size_t most_shown = 4;
+
+    /// One more: the first frame of a flight's part is often slow, and is not the whole flight's.
+    static constexpr std::size_t most_kept = most_shown + 1;
 
     /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must
     /// hold.

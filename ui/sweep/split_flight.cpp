@@ -196,10 +196,11 @@ private:
         video.add(from, rate_hz_);
     }
 
-    /// Those of the whole flight's slowest frames: each is among the slowest of its part.
+    /// Those of the whole flight's slowest frames: each is among the slowest of its part, even
+    /// where the frame before the part is, too.
     void copy_slow_pictures() const {
         std::vector<report::Overrun> slowest = slow_.slowest();
-        slowest.resize(std::min(slowest.size(), report::SlowPictures::most_kept));
+        slowest.resize(std::min(slowest.size(), report::SlowPictures::most_shown));
         for (const report::Overrun& frame : slowest) {
             const std::string name = report::slow_picture_name(frame.record.frame);
             const auto part = std::ranges::find_if(
