@@ -6,12 +6,11 @@
 // wanted error)^2, where D2 is the squared distance.
 //
 // Deviations:
-// - Regions are boxes, not spheres. Horizontally they are squares of half size 3h - 1 about a
-// node's
-//   centre and 2h - 1 about the middle of an edge, where h is half the node's edge in samples; they
-//   contain all triangles that v may split and those that samples needing v may split. Vertically
-//   they have the bounds of all blocks (nodes with height bounds, of v's level where that has them)
-//   that the square overlaps.
+// - Regions are boxes, not spheres. Horizontally they are squares about a node's centre, of half
+//   size 3h - 1, and about the middle of an edge, of half size 2h - 1, where h is half the node's
+//   edge in samples; they contain all triangles that v may split and those that samples needing v
+//   may split. Vertically they have the bounds of all blocks (nodes with height bounds, of v's
+//   level where that has them) that the square overlaps.
 // - D2 is at least 1 m^2.
 // - In a flat picture an error counts for more beside its middle than D tells. At a place p, whose
 //   depth is z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z +
