@@ -92,21 +92,22 @@ std::uint32_t address_from_text(const std::string& text) {
     return ntohl(address.s_addr);
 }
 
-Source peer_from_text(const std::string& text) {
+Source peer_from_text(const std::string& option, const std::string& text) {
     const std::size_t colon = text.rfind(':');
     const auto port = colon == std::string::npos
                           ? std::nullopt
                           : whole_number(std::string_view(text).substr(colon + 1));
     constexpr long last_port = 65535;
     if (!port || *port < 1 || *port > last_port || colon == 0) {
-        throw Error(fmt::format("expected HOST:PORT, got '{}'", printable(text)));
+        throw Error(fmt::format("{}: expected HOST:PORT, got '{}'", option, printable(text)));
     }
     addrinfo wanted{};
     wanted.ai_family = AF_INET;
     addrinfo* found = nullptr;
     const std::string host = text.substr(0, colon);
     if (getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0 || found == nullptr) {
-        throw Error(fmt::format("expected a host with an IPv4 address, got '{}'", printable(host)));
+        throw Error(fmt::format(
+            "{}: expected a host with an IPv4 address, got '{}'", option, printable(host)));
     }
     sockaddr_in address{};
     std::memcpy(&address, found->ai_addr, sizeof(address));

@@ -13,8 +13,9 @@ namespace octant::sim::links {
 /// "127.0.0.1", "0.0.0.0" or another IPv4 address of this machine as a number. Throws Error.
 std::uint32_t address_from_text(const std::string& text);
 
-/// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error.
-Source peer_from_text(const std::string& text);
+/// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error
+/// "option: ...".
+Source peer_from_text(const std::string& option, const std::string& text);
 
 /// A UDP socket that never waits.
 class UdpPort {

@@ -110,9 +110,11 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
 
 /// Every frame of the session, recorded, until a signal comes. What ended the flight before its
 /// last frame, empty = nothing did.
-std::string
-fly_frames(const FlyOptions& options, flight::Session& session, flight::FlightRecorder& recorder) {
-    flight::Sender sender(options.send);
+std::string fly_frames(
+    const FlyOptions& options,
+    flight::Session& session,
+    flight::Sender& sender,
+    flight::FlightRecorder& recorder) {
     const std::optional<std::string>& part = options.settings.time.part;
     const int first = part ? session.begin_part(*settings::part_from_text(*part)).first : 0;
     const int count = session.frames() - first;
@@ -173,6 +175,7 @@ void fly(FlyOptions options) {
             options.quiet, fmt::format("{} is done already", options.record.folder->string()));
         return;
     }
+    flight::Sender sender(options.send);
     flight::Session session(options.settings);
     for (const std::string& note : session.world().notes) {
         base::say(options.quiet, fmt::format("note: {}", note));
@@ -191,7 +194,7 @@ void fly(FlyOptions options) {
     if (live) {
         packets = fly_packets(*options.replay, session, recorder, options.quiet);
     } else {
-        stopped = fly_frames(options, session, recorder);
+        stopped = fly_frames(options, session, sender, recorder);
     }
     if (!stopped.empty()) {
         base::say(options.quiet, fmt::format("note: ended by {}", stopped));

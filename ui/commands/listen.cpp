@@ -27,9 +27,9 @@ public:
     explicit HeadlessRun(const ListenOptions& options)
         : options_(options)
         , listener_(options.listener)
+        , sender_(options.send)
         , session_(options.settings)
-        , recorder_(options.record, options.settings, session_)
-        , sender_(options.send) {
+        , recorder_(options.record, options.settings, session_) {
         listener_.attach(session_);
         if (options.record.folder) {
             listener_.record_into(*options.record.folder);
@@ -101,9 +101,9 @@ private:
 
     const ListenOptions& options_;
     flight::Listener listener_;
+    flight::Sender sender_;
     flight::Session session_;
     flight::FlightRecorder recorder_;
-    flight::Sender sender_;
     double began_s_ = 0.0;
 };
 

@@ -79,10 +79,10 @@ void CigiChannels::add(const std::string& target) {
     const std::size_t last = peer.rfind(':');
     std::uint16_t own_port = usual_own_port;
     if (last != std::string::npos && peer.find(':') != last) {
-        own_port = links::peer_from_text("0.0.0.0" + peer.substr(last)).port;
+        own_port = links::peer_from_text("--send", "0.0.0.0" + peer.substr(last)).port;
         peer.resize(last);
     }
-    const Channel channel{links::peer_from_text(peer)};
+    const Channel channel{links::peer_from_text("--send", peer)};
     if (socket_ && own_port != own_port_) {
         throw Error(fmt::format(
             "--send: expected one own port for all channels, got '{}'", printable(target)));

@@ -28,7 +28,7 @@ LiveInput::LiveInput(const LiveInputOptions& options)
         options.mavlink_port.value_or(usual(links::mavlink_port)));
     open(links::Protocol::Dis, "DIS", options.dis_port.value_or(usual(links::dis_port)));
     if (options.cigi_port >= 0) {
-        cigi_ = Cigi{ports_.size(), links::peer_from_text(options.cigi_host)};
+        cigi_ = Cigi{ports_.size(), links::peer_from_text("--cigi-host", options.cigi_host)};
         open(links::Protocol::Cigi, "CIGI", options.cigi_port);
     }
     if (!options.only_from.empty()) {

@@ -24,7 +24,7 @@ namespace {
 /// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
 links::Source reader_address(const std::string& target) {
     const std::string rest = target.substr(target.find(':') + 1);
-    return links::peer_from_text(rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
+    return links::peer_from_text("--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
 }
 
 /// Text as a property's value: no commas and no ends of lines of its own.
@@ -79,7 +79,7 @@ Sender::Sender(const std::vector<std::string>& targets) {
                 printable(target)));
         }
         constexpr std::size_t prefix = 4;
-        targets_.push_back({*form, links::peer_from_text(target.substr(prefix))});
+        targets_.push_back({*form, links::peer_from_text("--send", target.substr(prefix))});
     }
     if (!targets_.empty()) {
         socket_.emplace_back(0, std::uint16_t{0}); // any address of ours, any port

@@ -162,13 +162,27 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         {{"--height", "low"}, "--height: expected msl, agl or offset, got 'low'"},
         {{"--from", "here"}, "expected an IPv4 address"},
         {{"--channel", "up"}, "--channel: expected left, front or right, got 'up'"},
+        {{"--cigi-host", "there"}, "--cigi-host: expected HOST:PORT, got 'there'"},
+        {{"--send", "fdm:there"}, "--send: expected HOST:PORT, got 'there'"},
         {{"--delay", "-1"}, "--delay"}};
+    const std::filesystem::path record = tests::scratch_folder() / "refused";
     for (const Case& wrong : cases) {
-        std::vector<std::string> line{"listen", "--headless", "--seconds", "1"};
+        std::vector<std::string> line{
+            "listen", "--headless", "--seconds", "1", "--record", record.string()};
         line.insert(line.end(), wrong.arguments.begin(), wrong.arguments.end());
         const tests::ProgramRun run = run_octant(line);
         CHECK(run.exit_code == 2);
         CHECK_THAT(run.err, Contains(wrong.expected));
         CHECK(tests::lines_in(run.err) == 1);
+        CHECK(!std::filesystem::exists(record));
     }
+}
+
+TEST_CASE("a flight that is sent to nobody ends before anything is loaded or written") {
+    const std::filesystem::path record = tests::scratch_folder() / "sent-nowhere";
+    const tests::ProgramRun run =
+        run_octant({"fly", "straight", "--send", "fdm:there", "--record", record.string()});
+    CHECK(run.exit_code == 2);
+    CHECK(run.err == "octant: --send: expected HOST:PORT, got 'there'\n");
+    CHECK(!std::filesystem::exists(record));
 }
