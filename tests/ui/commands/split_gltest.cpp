@@ -160,10 +160,11 @@ TEST_CASE("levels of detail and smooth polygons are kept over the seams between 
         "\"torus.chain\"\naircraft-error-px = 0.02\nstart = 14\nframes = 45\nrate = 5",
         "15");
     CHECK(levels.size() >= 3);
+    const std::string orders = fmt::format("order-cache = \"{}\"\n", (made / "orders").string());
     levels_of_checked_parts(
         made,
-        "path = \"turn\"\nterrain = \"none\"\naircraft = \"f15-detailed\"\nsmooth-share = "
-        "0.4\nstart = 10\nframes = 45\nrate = 20",
+        orders + "path = \"turn\"\nterrain = \"none\"\naircraft = \"f15-detailed\"\n"
+                 "smooth-share = 0.4\nstart = 10\nframes = 45\nrate = 20",
         "15");
 }
 
