@@ -1,11 +1,11 @@
 #include "flightpaths/acmi_tape.h"
 
 #include "flightpaths/acmi_text.h"
-#include "flightpaths/local_tangent.h"
 #include "flightpaths/motion_fill.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -65,15 +65,15 @@ double span_s(const std::vector<TapedPlace>& places) {
     return places.back().time_s - places.front().time_s;
 }
 
-sim::AircraftState state_of(const TapedPlace& place, const GeoPlace& origin, double begin_s) {
+sim::AircraftState state_of(const TapedPlace& taped, const EarthFrame& frame, double begin_s) {
     sim::AircraftState state;
-    state.time_s = place.time_s - begin_s;
-    const glm::dvec2 at_m = local_from_geo(origin, place.latitude_deg, place.longitude_deg);
-    state.position_m = glm::dvec3(at_m, place.altitude_m);
+    state.time_s = taped.time_s - begin_s;
+    const FramePlace local = frame.place_of({taped.latitude_deg, taped.longitude_deg});
+    state.position_m = glm::dvec3(local.east_north_m, taped.altitude_m);
     state.body_to_world = body_to_world_from_euler(
-        {rad_from_deg(place.heading_deg),
-         rad_from_deg(place.pitch_deg),
-         rad_from_deg(place.roll_deg)});
+        {rad_from_deg(taped.heading_deg) + local.north_turn_rad,
+         rad_from_deg(taped.pitch_deg),
+         rad_from_deg(taped.roll_deg)});
     return state;
 }
 
@@ -81,12 +81,12 @@ sim::AircraftState state_of(const TapedPlace& place, const GeoPlace& origin, dou
 std::optional<sim::Trajectory> trajectory_of(
     const std::vector<TapedPlace>& places,
     bool has_attitude,
-    const GeoPlace& origin,
+    const EarthFrame& frame,
     double begin_s,
     Omitted& omitted) {
     std::vector<sim::AircraftState> samples;
     for (const TapedPlace& place : places) {
-        const sim::AircraftState state = state_of(place, origin, begin_s);
+        const sim::AircraftState state = state_of(place, frame, begin_s);
         const bool near = glm::length(glm::dvec2(state.position_m)) <= furthest_m;
         const bool follows =
             samples.empty() || glm::distance(samples.back().position_m, state.position_m) <=
@@ -150,13 +150,14 @@ AcmiTape acmi_tape(std::string_view text, const std::filesystem::path& file) {
     }
     const TapedPlace& first = objects.front().places.front();
     AcmiTape tape{{}, {first.latitude_deg, first.longitude_deg}, {}};
+    const TransverseMercator frame(tape.origin);
     for (TapedObject& object : objects) {
         if (tape.aircraft.size() == most_taped_aircraft) {
             ++omitted.many;
             continue;
         }
         auto trajectory =
-            trajectory_of(object.places, object.has_attitude, tape.origin, begin_s, omitted);
+            trajectory_of(object.places, object.has_attitude, frame, begin_s, omitted);
         if (trajectory) {
             tape.aircraft.push_back(
                 {std::move(object.name), std::move(object.type), std::move(*trajectory)});

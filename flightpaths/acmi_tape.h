@@ -10,8 +10,8 @@
 
 namespace octant::flightpaths {
 
-/// An aircraft of a Tacview tape: at least 2 samples, in metres east, north and above the sea of
-/// the tape's origin, seconds since the first sample of any.
+/// An aircraft of a Tacview tape: at least 2 samples, in a TransverseMercator frame at the tape's
+/// origin and metres above the sea, seconds since the first sample of any.
 struct TapedAircraft {
     /// As the tape has it, empty where it has none.
     std::string name;

@@ -1,10 +1,11 @@
 #include "flightpaths/recorded_track.h"
 
-#include "flightpaths/local_tangent.h"
+#include "flightpaths/geocentric_latitude.h"
 #include "flightpaths/motion_fill.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -214,7 +215,7 @@ Row row_from(std::string_view line, const Header& header, const Source& at) {
 
 /// A JSBSim row in the units and axes of our own columns.
 Row own_from_jsbsim(
-    Row row, const Header& header, std::optional<GeoPlace>& origin, const Source& at) {
+    Row row, const Header& header, std::optional<TransverseMercator>& frame, const Source& at) {
     if (std::abs(row[North]) > 89.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
             "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
@@ -224,15 +225,19 @@ Row own_from_jsbsim(
     if (header.columns[North].name == geocentric_latitude) {
         row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
     }
-    if (!origin) {
-        origin = GeoPlace{row[North], row[East]};
+    const GeoPlace place{row[North], row[East]};
+    if (!frame) {
+        frame.emplace(place);
     }
-    const glm::dvec2 local = local_from_geo(*origin, row[North], row[East]);
-    row[North] = local.y;
-    row[East] = local.x;
+    const FramePlace local = frame->place_of(place);
+    const glm::dvec2 speed_mps = turned_clockwise(
+        {m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_turn_rad);
+    row[North] = local.east_north_m.y;
+    row[East] = local.east_north_m.x;
     row[Altitude] = m_from_ft(row[Altitude]);
-    row[NorthSpeed] = m_from_ft(row[NorthSpeed]);
-    row[EastSpeed] = m_from_ft(row[EastSpeed]);
+    row[Yaw] += deg_from_rad(local.north_turn_rad);
+    row[NorthSpeed] = speed_mps.y;
+    row[EastSpeed] = speed_mps.x;
     row[UpSpeed] = -m_from_ft(row[UpSpeed]);
     return row;
 }
@@ -307,7 +312,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     }
     const Header header = header_from(lines.front(), {file, 1});
     const bool as_quaternion = header.has({QuaternionW});
-    std::optional<GeoPlace> origin;
+    std::optional<TransverseMercator> frame;
     std::vector<sim::AircraftState> samples;
     for (std::size_t i = 1; i < lines.size(); ++i) {
         if (split_words(lines[i]).empty()) {
@@ -316,7 +321,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         const Source at{file, static_cast<int>(i) + 1};
         Row row = row_from(lines[i], header, at);
         if (header.jsbsim) {
-            row = own_from_jsbsim(row, header, origin, at);
+            row = own_from_jsbsim(row, header, frame, at);
         }
         samples.push_back(state_from(row, as_quaternion, at));
         if (samples.size() > 1) {
@@ -337,7 +342,8 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     if (!header.has({LoadFactor})) {
         fill_load_factors(samples);
     }
-    return {sim::Trajectory(std::move(samples)), origin};
+    return {
+        sim::Trajectory(std::move(samples)), frame ? std::optional(frame->origin()) : std::nullopt};
 }
 
 } // namespace octant::flightpaths

@@ -11,8 +11,9 @@ namespace octant::flightpaths {
 struct RecordedTrack {
     /// At least 2 samples.
     sim::Trajectory trajectory;
-    /// Where the local origin lies; set when the recording gives latitude and longitude. The first
-    /// sample then is at x = y = 0; heights stay those of the recording, above datum.
+    /// Where the first sample lies, set when the recording gives latitude and longitude: it is at
+    /// x = y = 0 of a TransverseMercator frame there; heights stay those of the recording, above
+    /// datum.
     std::optional<GeoPlace> origin;
 };
 

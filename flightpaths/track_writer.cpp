@@ -4,10 +4,10 @@
 
 #include "flightpaths/track_writer.h"
 
-#include "flightpaths/local_tangent.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/format_once.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -57,22 +57,24 @@ std::string properties_of(const AcmiHeader& header) {
     return "Type=Air+FixedWing,Name=" + acmi_text(header.aircraft);
 }
 
-std::string acmi_transform(const sim::AircraftState& state, const GeoPlace& origin) {
+std::string acmi_transform(const sim::AircraftState& state, const EarthFrame& frame) {
     const glm::dvec2 east_north(state.position_m.x, state.position_m.y);
-    const GeoPlace place = geo_from_local(origin, east_north);
+    const GeoPlace origin = frame.origin();
+    const GeoPlace place = frame.geo_from_local(east_north);
     const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
-    const std::string heading = compass(angles.heading_rad, 2);
+    const double true_rad =
+        wrapped_to_two_pi(angles.heading_rad - frame.place_of(place).north_turn_rad);
     return fmt::format(
         "T={}|{}|{}|{}|{}|{}|{}|{}|{}",
-        fixed(place.longitude_deg - origin.longitude_deg, 7),
+        fixed(std::remainder(place.longitude_deg - origin.longitude_deg, 360.0), 7),
         fixed(place.latitude_deg - origin.latitude_deg, 7),
         fixed(state.position_m.z, 2),
         fixed(deg_from_rad(angles.roll_rad), 2),
         fixed(deg_from_rad(angles.pitch_rad), 2),
-        heading,
+        compass(true_rad, 2),
         fixed(east_north.x, 2),
         fixed(east_north.y, 2),
-        heading);
+        compass(angles.heading_rad, 2));
 }
 
 } // namespace
@@ -127,19 +129,20 @@ std::string exact_track_csv(const sim::Trajectory& trajectory) {
 }
 
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
+    const EarthFrame& frame = frame_or_at_zero(header.frame);
     std::string text = fmt::format(
         "FileType=text/acmi/tacview\nFileVersion=2.2\n"
         "0,ReferenceTime=2026-01-01T00:00:00Z\n"
         "0,DataSource=Octant\n0,DataRecorder=Octant\n0,Title={}\n"
         "0,ReferenceLongitude={}\n0,ReferenceLatitude={}\n",
         acmi_text(header.title),
-        fixed(header.origin.longitude_deg, 7),
-        fixed(header.origin.latitude_deg, 7));
+        fixed(frame.origin().longitude_deg, 7),
+        fixed(frame.origin().latitude_deg, 7));
     auto bookmark = header.bookmarks.begin();
     bool first = true;
     for (const sim::AircraftState& state : trajectory.samples()) {
         text += fmt::format("#{}\n1,", fixed(state.time_s, 3));
-        text += acmi_transform(state, header.origin);
+        text += acmi_transform(state, frame);
         if (first) {
             text += "," + properties_of(header) + ",Color=Blue";
             first = false;

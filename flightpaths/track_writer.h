@@ -2,7 +2,7 @@
 
 #include "flightpaths/fly_script.h"
 #include "sim/aircraft_kind.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 
 #include <string>
@@ -28,13 +28,13 @@ struct AcmiHeader {
     const sim::AircraftKind* kind = nullptr;
     /// The name of an aircraft without a row.
     std::string aircraft;
-    /// Where the world's origin lies on the earth.
-    GeoPlace origin;
+    /// How the flight's axes lie on the earth; null: at 0 N, 0 E.
+    const EarthFrame* frame = nullptr;
     std::vector<LegBegin> bookmarks;
 };
 
-/// A flight as Tacview ACMI 2.2 text with positions on the globe and on the flat local map. The
-/// reference time is fixed, so that the same flight gives the same bytes.
+/// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local
+/// map. The reference time is fixed, so that the same flight gives the same bytes.
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
 
 } // namespace octant::flightpaths

@@ -65,7 +65,7 @@ public:
     float highest_m() const { return highest_m_; }
 
     std::string name;                ///< built-in name or file name, for reports
-    std::optional<GeoPlace> place;   ///< nothing for made ground
+    std::optional<GeoPlace> place;   ///< of its centre; nothing for made ground
     std::optional<MapSystem> system; ///< nothing for ground without a place in any
     long filled_voids = 0;           ///< samples without data that were filled in on reading
 

@@ -118,7 +118,7 @@ void HeightSource::Content::find_place() {
         return;
     }
     system = lattice.system();
-    const Reference globe = wgs84();
+    const Reference globe = globe_system();
     const Transformation to_globe = between(lattice.frame.get(), globe.get());
     const auto middle =
         to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;

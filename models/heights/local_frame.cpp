@@ -32,8 +32,8 @@ Reference reference_from_proj(const std::string& text) {
 
 /// The way on the ground between two places that lie close together, metres east and north.
 glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg) {
-    using octant::wgs84::e2;
-    constexpr double equator_m = octant::wgs84::semi_major_m;
+    using wgs84::e2;
+    constexpr double equator_m = wgs84::semi_major_m;
     constexpr double rad = std::numbers::pi / 180.0;
     const double latitude = 0.5 * (from_deg.y + to_deg.y) * rad;
     const double root = std::sqrt(1.0 - e2 * std::sin(latitude) * std::sin(latitude));
@@ -74,7 +74,7 @@ std::string wkt_of(SystemHandle system) {
     return wkt;
 }
 
-Reference wgs84() {
+Reference globe_system() {
     return reference_from_proj("+proj=longlat +datum=WGS84 +no_defs");
 }
 
@@ -85,6 +85,15 @@ Reference system_named(const std::string& name) {
         throw Error(fmt::format(
             "--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'",
             printable(name)));
+    }
+    OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+Reference system_of(const MapSystem& system) {
+    Reference reference = counted(OSRNewSpatialReference(nullptr));
+    if (OSRSetFromUserInput(reference.get(), system.wkt.c_str()) != OGRERR_NONE) {
+        return nullptr;
     }
     OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
@@ -129,12 +138,11 @@ std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point) {
 std::optional<Distortion>
 distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m) {
     const GdalSession gdal;
-    const Reference own = counted(OSRNewSpatialReference(nullptr));
-    if (OSRSetFromUserInput(own.get(), system.wkt.c_str()) != OGRERR_NONE) {
+    const Reference own = system_of(system);
+    if (!own) {
         return std::nullopt;
     }
-    OSRSetAxisMappingStrategy(own.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    const Reference globe = wgs84();
+    const Reference globe = globe_system();
     const Transformation to_globe = between(own.get(), globe.get());
     if (!to_globe) {
         return std::nullopt;

@@ -52,10 +52,13 @@ struct MapFromGrid {
 std::string wkt_of(SystemHandle system);
 
 /// WGS 84 in degrees, longitude first.
-Reference wgs84();
+Reference globe_system();
 
 /// A system by a name that ImportOptions::system may have. Throws Error for other names.
 Reference system_named(const std::string& name);
+
+/// The system of a ground; null where its text is not understood.
+Reference system_of(const MapSystem& system);
 
 /// A copy of a system that lives as long as it is wanted.
 Reference reference_of(SystemHandle system);

@@ -80,7 +80,7 @@ Bounds rectangle_of(const Outline& outline) {
 
 /// The middle of all grids on the globe.
 GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
-    const Reference globe = wgs84();
+    const Reference globe = globe_system();
     Bounds all;
     std::optional<double> first_deg;
     for (SourceGrid& grid : grids) {
@@ -168,7 +168,7 @@ bool keeps_own_frame(const path& file, std::vector<SourceGrid>& grids) {
             return false;
         }
     }
-    const Reference globe = wgs84();
+    const Reference globe = globe_system();
     if (own == nullptr || !grids.front().look_from(globe.get())) {
         return true;
     }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace octant {
 
-// World: local tangent plane, x east, y north, z up, metres from the map centre at datum.
+// World: flat ground, x east, y north, z up, metres from the map centre at datum (EarthFrame).
 // Body:  x forward, y right, z down, metres from the aircraft's reference point.
 
 /// Attitude as pilots say it, radians. Heading clockwise from true north in [0, 2 pi), pitch nose
@@ -25,6 +26,9 @@ EulerAngles euler_from_body_to_world(const glm::dquat& body_to_world);
 
 /// Unit vector of a compass direction, level. 0 = north (0, 1, 0), pi/2 = east (1, 0, 0).
 glm::dvec3 direction_from_heading(double heading_rad);
+
+/// A level vector, x east and y north, turned clockwise seen from above.
+glm::dvec2 turned_clockwise(const glm::dvec2& east_north, double by_rad);
 
 /// The same angle in [0, 2 pi).
 double wrapped_to_two_pi(double angle_rad);

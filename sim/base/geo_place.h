@@ -2,7 +2,7 @@
 
 namespace octant {
 
-/// A place on the WGS 84 ellipsoid, degrees.
+/// A place on the WGS 84 ellipsoid, degrees. Its latitude is geodetic.
 struct GeoPlace {
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;

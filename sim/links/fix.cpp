@@ -27,6 +27,7 @@ bool is_finite(const Fix& fix) {
            std::isfinite(fix.altitude_m) && std::isfinite(fix.attitude.heading_rad) &&
            std::isfinite(fix.attitude.pitch_rad) && std::isfinite(fix.attitude.roll_rad) &&
            (!fix.above_ground_m || std::isfinite(*fix.above_ground_m)) &&
+           (!fix.above_home_m || std::isfinite(*fix.above_home_m)) &&
            (!fix.velocity_ned_mps || finite(*fix.velocity_ned_mps)) &&
            finite(fix.acceleration_ned_mps2) &&
            (!fix.body_rates_radps || finite(*fix.body_rates_radps)) &&
@@ -34,7 +35,21 @@ bool is_finite(const Fix& fix) {
            (!fix.sent_s || std::isfinite(*fix.sent_s));
 }
 
+glm::dvec3 turned(const glm::dvec3& ned, double by_rad) {
+    const glm::dvec2 east_north = turned_clockwise({ned.y, ned.x}, by_rad);
+    return {east_north.y, east_north.x, ned.z};
+}
+
 } // namespace
+
+Fix in_axes_turned(Fix fix, double north_turn_rad) {
+    fix.attitude.heading_rad += north_turn_rad;
+    fix.acceleration_ned_mps2 = turned(fix.acceleration_ned_mps2, north_turn_rad);
+    if (fix.velocity_ned_mps) {
+        fix.velocity_ned_mps = turned(*fix.velocity_ned_mps, north_turn_rad);
+    }
+    return fix;
+}
 
 Fault fault_of(const Fix& fix) {
     if (!is_finite(fix)) {
@@ -49,6 +64,7 @@ Fault fault_of(const Fix& fix) {
          (std::abs(fix.local_m->x) <= furthest_m && std::abs(fix.local_m->y) <= furthest_m)) &&
         within(angles, largest_angle_rad) &&
         (!fix.above_ground_m || std::abs(*fix.above_ground_m) <= highest_m) &&
+        (!fix.above_home_m || std::abs(*fix.above_home_m) <= highest_m) &&
         (!fix.velocity_ned_mps || within(*fix.velocity_ned_mps, fastest_mps)) &&
         within(fix.acceleration_ned_mps2, most_acceleration_mps2) &&
         (!fix.body_rates_radps || within(*fix.body_rates_radps, fastest_turn_radps));

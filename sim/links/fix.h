@@ -21,6 +21,8 @@ struct Fix {
     std::optional<glm::dvec2> local_m;
     /// Above the sender's own ground, where it says so.
     std::optional<double> above_ground_m;
+    /// Above the place where it started, where the sender says so.
+    std::optional<double> above_home_m;
     EulerAngles attitude;
     /// North, east, down over the ground, where the protocol has it. Some senders leave it zero.
     std::optional<glm::dvec3> velocity_ned_mps;
@@ -36,6 +38,9 @@ struct Fix {
     /// The sender's clock in seconds.
     std::optional<double> sent_s;
 };
+
+/// The fix as it is from axes whose y axis true north lies so far clockwise of.
+Fix in_axes_turned(Fix fix, double north_turn_rad);
 
 /// Why a packet was not taken.
 enum class Fault {

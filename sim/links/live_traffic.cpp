@@ -73,9 +73,20 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     if (const auto known = numbers_.find(key); known != numbers_.end()) {
         return &vehicles_[known->second];
     }
-    const auto gone = std::ranges::find_if(vehicles_, [&](const LiveVehicle& vehicle) {
-        return arrival_s - vehicle.last_arrival_s() > gone_after_s;
-    });
+    const auto silent_for = [arrival_s](double least_s) {
+        return [arrival_s, least_s](const LiveVehicle& vehicle) {
+            return arrival_s - vehicle.last_arrival_s() > least_s;
+        };
+    };
+    const auto is_restarted = [&](const LiveVehicle& vehicle) {
+        const VehicleKey& old = vehicle.key();
+        return old.protocol == key.protocol && old.source.address == key.source.address &&
+               old.vehicle == key.vehicle && silent_for(restarted_after_s)(vehicle);
+    };
+    auto gone = std::ranges::find_if(vehicles_, is_restarted);
+    if (gone == vehicles_.end()) {
+        gone = std::ranges::find_if(vehicles_, silent_for(gone_after_s));
+    }
     if (gone != vehicles_.end()) {
         numbers_.erase(gone->key());
         numbers_.emplace(key, static_cast<std::size_t>(gone - vehicles_.begin()));
@@ -97,7 +108,9 @@ LiveTraffic::Taken LiveTraffic::move(const Datagram& datagram, const Fix& fix) {
         return Taken::Right;
     }
     const long lost = vehicle->clock().lost();
-    const bool taken = vehicle->add(fix, world_from_fix_(key, fix), datagram.arrival_s);
+    const WorldPlace place = world_from_fix_(key, fix);
+    const bool taken =
+        vehicle->add(in_axes_turned(fix, place.north_turn_rad), place.at_m, datagram.arrival_s);
     counts_.lost += vehicle->clock().lost() - lost;
     if (!taken) {
         ++counts_.late;

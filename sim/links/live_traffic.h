@@ -20,8 +20,13 @@
 
 namespace octant::sim::links {
 
-/// Where a fix lies in the world, in metres.
-using WorldFromFix = std::function<glm::dvec3(const VehicleKey& key, const Fix& fix)>;
+/// Where a fix lies in the world.
+struct WorldPlace {
+    glm::dvec3 at_m{0.0};
+    double north_turn_rad = 0.0; ///< of true north there, clockwise from the y axis
+};
+
+using WorldFromFix = std::function<WorldPlace(const VehicleKey& key, const Fix& fix)>;
 
 /// What came so far.
 struct TrafficCounts {
@@ -40,6 +45,9 @@ public:
     static constexpr std::size_t most_vehicles = 256;
     /// Silence after which a vehicle gives its place to another one.
     static constexpr double gone_after_s = 10.0;
+    /// The same where the other one is its sender begun anew: of the same number, machine and
+    /// protocol, by another port.
+    static constexpr double restarted_after_s = 2.0;
 
     /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside.
     explicit LiveTraffic(WorldFromFix world_from_fix, const CigiGround* ground = nullptr)

@@ -80,8 +80,10 @@ double boot_s(const WireReader& reader) {
     return reader.at<std::uint32_t>(0) / ms_per_s;
 }
 
+/// Autopilots that do not know yet where they are say 0 N, 0 E.
 std::optional<Fix> plausible(const Fix& fix) {
-    return fault_of(fix) == Fault::None ? std::optional(fix) : std::nullopt;
+    const bool is_somewhere = fix.latitude_deg != 0.0 || fix.longitude_deg != 0.0;
+    return is_somewhere && fault_of(fix) == Fault::None ? std::optional(fix) : std::nullopt;
 }
 
 } // namespace
@@ -168,12 +170,13 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     fix.vehicle = frame.system;
     fix.sent_s = boot_s(reader);
     set_place(reader, 4, fix);
+    fix.above_home_m = reader.at<std::int32_t>(16) / per_metre;
     fix.velocity_ned_mps = velocity_ned(reader, 20);
     constexpr std::uint16_t no_heading = 65535;
     const auto heading_cdeg = reader.at<std::uint16_t>(26);
     fix.attitude.heading_rad =
         heading_cdeg == no_heading ? 0.0 : rad_from_deg(heading_cdeg / cm_per_m);
-    if (fault_of(fix) != Fault::None) {
+    if (!plausible(fix)) {
         return std::nullopt;
     }
     position_ = fix;

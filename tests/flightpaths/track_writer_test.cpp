@@ -1,5 +1,6 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/axes.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 
 #include <catch2/catch.hpp>
@@ -33,13 +34,14 @@ TEST_CASE("a track is written with its columns, and never with a minus zero or 3
 }
 
 TEST_CASE("a Tacview file has its header, transforms and bookmarks") {
+    const octant::TransverseMercator frame({37.5, 127.1});
     CHECK(
         track_acmi(
             two_samples(),
             {"Pop-up, dive",
              &octant::sim::aircraft_kind("f15"),
              "",
-             {37.5, 127.1},
+             &frame,
              {{0.05, "pull|down"}}}) ==
         "FileType=text/acmi/tacview\n"
         "FileVersion=2.2\n"
@@ -59,9 +61,9 @@ TEST_CASE("a Tacview file has its header, transforms and bookmarks") {
 
 TEST_CASE("a helicopter is a rotorcraft, another aircraft goes by its own name") {
     CHECK_THAT(
-        track_acmi(two_samples(), {"a", &octant::sim::aircraft_kind("500md"), "", {}, {}}),
+        track_acmi(two_samples(), {"a", &octant::sim::aircraft_kind("500md"), "", nullptr, {}}),
         Catch::Contains(",Type=Air+Rotorcraft,Name=500MD,"));
     CHECK_THAT(
-        track_acmi(two_samples(), {"a", nullptr, "my,own\n", {}, {}}),
+        track_acmi(two_samples(), {"a", nullptr, "my,own\n", nullptr, {}}),
         Catch::Contains(",Type=Air+FixedWing,Name=my\\,own ,"));
 }

@@ -117,8 +117,8 @@ Option height_option(flight::LiveOptions& live) {
         .name = "--height",
         .form = "MODE",
         .meaning = "whose heights count: msl: the sender's above the sea; agl: his above ground, "
-                   "over ours; offset: as msl, moved once to be as high above our ground [msl on "
-                   "a map with a place, else offset]",
+                   "over ours; offset: as msl, moved so that he begins as high above our ground "
+                   "[msl on a map with a place, else offset]",
         .read = [&live](const Words& words) {
             live.height = flight::live_height_from(words.front());
             if (!live.height) {

@@ -23,8 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_entities = 48; // of one packet that receivers take
 
-links::CigiEntityControl entity_of(const Session& session, std::size_t number) {
-    const links::Fix fix = fix_of(session, session.states()[number]);
+links::CigiEntityControl
+entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
     links::CigiEntityControl entity;
     entity.entity = static_cast<std::uint16_t>(number);
     entity.state = links::fault_of(fix) == links::Fault::None ? 1 : 0;
@@ -34,12 +34,16 @@ links::CigiEntityControl entity_of(const Session& session, std::size_t number) {
     return entity;
 }
 
-/// How an entity goes on from this picture on, by its states in the one before and in this one.
-links::CigiRate
-rate_of(std::size_t number, const sim::AircraftState& before, const sim::AircraftState& now) {
+/// How an entity goes on from this picture on: by its fix in this one, and by its states in the one
+/// before and in this one.
+links::CigiRate rate_of(
+    std::size_t number,
+    const links::Fix& fix,
+    const sim::AircraftState& before,
+    const sim::AircraftState& now) {
     links::CigiRate rate;
     rate.entity = static_cast<std::uint16_t>(number);
-    rate.mps = glm::dvec3(now.velocity_mps.y, now.velocity_mps.x, -now.velocity_mps.z);
+    rate.mps = fix.velocity_ned_mps.value_or(glm::dvec3(0.0));
     const double step_s = now.time_s - before.time_s;
     if (step_s > 0.0) {
         glm::dquat turn = glm::conjugate(before.body_to_world) * now.body_to_world;
@@ -147,9 +151,10 @@ CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) c
     links::WireWriter message(links::ByteOrder::Big);
     links::add_ig_control(message, control);
     for (std::size_t i = 0; i < std::min(states.size(), most_entities); ++i) {
-        links::add_entity(message, entity_of(session, i));
+        const links::Fix fix = fix_of(session, states[i]);
+        links::add_entity(message, entity_of(session, i, fix));
         const bool was_there = before_.size() == states.size();
-        links::add_rate(message, rate_of(i, was_there ? before_[i] : states[i], states[i]));
+        links::add_rate(message, rate_of(i, fix, was_there ? before_[i] : states[i], states[i]));
     }
     links::add_view_definition(
         message, frustum_of(session.camera(), glm::dvec2(session.settings().view.size_px)));

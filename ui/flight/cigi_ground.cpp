@@ -1,7 +1,7 @@
 #include "ui/flight/cigi_ground.h"
 
-#include "flightpaths/local_tangent.h"
 #include "sim/base/axes.h"
+#include "sim/base/transverse_mercator.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,27 +18,29 @@ constexpr double most_steps = 10000.0;
 constexpr double found_m = 0.01;
 constexpr int most_halvings = 64;
 
-GeoPlace origin_of(const LivePlace& place) {
-    return place.origin().value_or(GeoPlace());
-}
-
 } // namespace
 
+const EarthFrame& CigiOverWorld::frame() const {
+    return frame_or_at_zero(place_.frame());
+}
+
 glm::dvec3 CigiOverWorld::world_from(const glm::dvec3& place) const {
-    return {flightpaths::local_from_geo(origin_of(place_), place.x, place.y), place.z};
+    return {frame().local_from_geo({place.x, place.y}), place.z};
 }
 
 glm::dvec3 CigiOverWorld::place_from(const glm::dvec3& at_m) const {
-    const GeoPlace geo = flightpaths::geo_from_local(origin_of(place_), glm::dvec2(at_m.x, at_m.y));
+    const GeoPlace geo = frame().geo_from_local(glm::dvec2(at_m.x, at_m.y));
     return {geo.latitude_deg, geo.longitude_deg, at_m.z};
 }
 
 std::optional<double> CigiOverWorld::height_m(const glm::dvec3& at_m) const {
-    return place_.origin() ? world_.scene.ground->height_at(at_m.x, at_m.y) : std::nullopt;
+    return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y)
+                                     : std::nullopt;
 }
 
 std::optional<sim::links::CigiSurface> CigiOverWorld::below(const glm::dvec3& place) const {
-    const glm::dvec3 at_m = world_from(place);
+    const FramePlace local = frame().place_of({place.x, place.y});
+    const glm::dvec3 at_m(local.east_north_m, place.z);
     const auto ground_m = height_m(at_m);
     if (!ground_m) {
         return std::nullopt;
@@ -53,7 +55,7 @@ std::optional<sim::links::CigiSurface> CigiOverWorld::below(const glm::dvec3& pl
         -slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
     return sim::links::CigiSurface{
         glm::dvec3(place.x, place.y, *ground_m),
-        wrapped_to_two_pi(std::atan2(normal.x, normal.y)),
+        wrapped_to_two_pi(std::atan2(normal.x, normal.y) - local.north_turn_rad),
         std::asin(std::clamp(normal.z, -1.0, 1.0))};
 }
 
@@ -91,7 +93,9 @@ double CigiOverWorld::distance_m(const glm::dvec3& from, const glm::dvec3& to) c
 }
 
 glm::dvec3 CigiOverWorld::moved(const glm::dvec3& place, const glm::dvec3& ned_m) const {
-    return place_from(world_from(place) + glm::dvec3(ned_m.y, ned_m.x, -ned_m.z));
+    const FramePlace local = frame().place_of({place.x, place.y});
+    const glm::dvec2 moved_m = turned_clockwise({ned_m.y, ned_m.x}, local.north_turn_rad);
+    return place_from({local.east_north_m + moved_m, place.z - ned_m.z});
 }
 
 } // namespace octant::ui::flight

@@ -24,6 +24,7 @@ public:
     glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const override;
 
 private:
+    const EarthFrame& frame() const;
     glm::dvec3 world_from(const glm::dvec3& place) const;
     glm::dvec3 place_from(const glm::dvec3& at_m) const;
     std::optional<double> height_m(const glm::dvec3& at_m) const;

@@ -178,7 +178,7 @@ void FlightRecorder::write_flown(const Session& session) const {
             *options_.folder,
             session.world(),
             sim::Trajectory({states.begin(), states.end()}),
-            simulation.source().origin());
+            simulation.source().frame());
     }
 }
 

@@ -133,8 +133,7 @@ void LiveFlight::turn_parts(double time_s) {
 
 scene::AirSettings LiveFlight::air_of(const scene::AirSettings& own) const {
     const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
-    const auto& place = world_.ground_place ? world_.ground_place : place_.origin();
-    return air_of_host(own, cigi.atmosphere(), cigi.celestial(), place);
+    return air_of_host(own, cigi.atmosphere(), cigi.celestial(), place_.origin());
 }
 
 std::vector<std::string> LiveFlight::lines() const {

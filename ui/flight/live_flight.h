@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/earth_frame.h"
 #include "sim/links/live_traffic.h"
 #include "ui/flight/cigi_ground.h"
 #include "ui/flight/live_place.h"
@@ -69,7 +69,7 @@ public:
     /// What was told for the first time since the last call.
     std::vector<std::string> take_news() { return traffic_.take_news(); }
 
-    std::optional<GeoPlace> origin() const override { return place_.origin(); }
+    const EarthFrame* frame() const override { return place_.frame(); }
 
     /// The message that CIGI hosts get for a picture.
     std::vector<std::byte> cigi_message(std::uint32_t picture, double time_s) {

@@ -1,6 +1,6 @@
 #include "ui/flight/live_place.h"
 
-#include "flightpaths/local_tangent.h"
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -35,22 +35,58 @@ std::string_view name_of(LiveHeight height) {
 LivePlace::LivePlace(const world::World& world, std::optional<LiveHeight> height)
     : world_(world)
     , height_is_chosen_(height.has_value())
-    , height_(height.value_or(world.ground_place ? LiveHeight::Msl : LiveHeight::Offset))
-    , origin_(world.ground_place) {}
+    , height_(height.value_or(world.ground_frame ? LiveHeight::Msl : LiveHeight::Offset)) {}
 
 std::optional<double> LivePlace::ground_m(const glm::dvec2& at_m) const {
     return world_.scene.ground->height_at(at_m.x, at_m.y);
+}
+
+/// A vehicle at the height of the place where it started most likely stands there.
+void LivePlace::compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m) {
+    constexpr double at_home_m = 1.0;
+    const bool is_home = fix.above_home_m && std::abs(*fix.above_home_m) < at_home_m;
+    const auto theirs_m = fix.above_ground_m ? fix.above_ground_m
+                          : is_home          ? fix.above_home_m
+                                             : std::nullopt;
+    if (ours_m && theirs_m) {
+        our_ground_m_ = *ours_m;
+        their_ground_m_ = fix.altitude_m - *theirs_m;
+        grounds_differ_ = std::abs(our_ground_m_ - their_ground_m_) > most_difference_m;
+    }
+    agl_unknown_ = height_ == LiveHeight::Agl && !fix.above_ground_m;
+}
+
+/// FlightGear, while it loads, says that it stands on the ground where it will fly: until a vehicle
+/// has moved a little its newest fix counts. One that has jumped begins anew.
+double LivePlace::offset_m(
+    const sim::links::VehicleKey& key,
+    const sim::links::Fix& fix,
+    const glm::dvec2& at_m,
+    double ours_m) {
+    constexpr int settled = 3;
+    constexpr double moved_m = 0.5;
+    constexpr double jumped_m = 5000.0;
+    if (offsets_.size() >= most_offsets && !offsets_.contains(key)) {
+        offsets_.erase(offsets_.begin());
+    }
+    const auto [known, is_new] = offsets_.try_emplace(key, Offset{.last_at_m = at_m});
+    Offset& offset = known->second;
+    const double way_m = glm::distance(at_m, offset.last_at_m);
+    offset.moves = way_m > jumped_m ? 0 : offset.moves + (way_m > moved_m ? 1 : 0);
+    offset.last_at_m = at_m;
+    if (offset.moves <= settled) {
+        const double above_m = fix.above_home_m.value_or(fix.altitude_m);
+        const double theirs_m = fix.altitude_m - fix.above_ground_m.value_or(above_m);
+        offset.added_m = ours_m - theirs_m;
+    }
+    return offset.added_m;
 }
 
 double LivePlace::height_of(
     const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
     const std::optional<double> ours_m = ground_m(at_m);
     off_the_map_ = !ours_m;
-    if (ours_m && fix.above_ground_m) {
-        our_ground_m_ = *ours_m;
-        their_ground_m_ = fix.altitude_m - *fix.above_ground_m;
-        grounds_differ_ = std::abs(our_ground_m_ - their_ground_m_) > most_difference_m;
-    }
+    compare_grounds(fix, ours_m);
     // A host of CIGI asks for the heights of our ground and means them.
     const bool means_ours = key.protocol == sim::links::Protocol::Cigi && !height_is_chosen_;
     switch (means_ours ? LiveHeight::Msl : height_) {
@@ -61,50 +97,48 @@ double LivePlace::height_of(
             return *ours_m + *fix.above_ground_m;
         }
         break;
-    case LiveHeight::Offset: {
-        const auto known = offsets_m_.find(key);
-        if (known != offsets_m_.end()) {
-            return fix.altitude_m + known->second;
-        }
-        const double theirs_m = fix.altitude_m - fix.above_ground_m.value_or(fix.altitude_m);
-        const double offset_m = ours_m.value_or(0.0) - theirs_m;
-        if (offsets_m_.size() < most_offsets) {
-            offsets_m_.emplace(key, offset_m);
-        }
-        return fix.altitude_m + offset_m;
-    }
+    case LiveHeight::Offset:
+        return fix.altitude_m + offset_m(key, fix, at_m, ours_m.value_or(0.0));
     }
     return fix.altitude_m;
 }
 
-glm::dvec3 LivePlace::world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
-    const glm::dvec2 place_m = world_.flight.place_m;
+void LivePlace::place_made_ground(const GeoPlace& first) {
+    placed_.emplace(GeoPlace{}); // As we send from ground without a place.
+    if (!ground_m(placed_->local_from_geo(first))) {
+        // So that the first fix comes to lie at the flight's place.
+        placed_.emplace(TransverseMercator(first).geo_from_local(-world_.flight.place_m));
+    }
+}
+
+glm::dvec3 LivePlace::over_ground(
+    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
+    const double height_m = height_of(key, fix, at_m);
+    under_ground_m_ = ground_m(at_m).value_or(height_m) - height_m;
+    return {at_m, height_m};
+}
+
+sim::links::WorldPlace
+LivePlace::world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
     if (fix.local_m) {
-        const glm::dvec2 own_m = place_m + *fix.local_m;
-        return {own_m, height_of(key, fix, own_m)};
+        return {.at_m = over_ground(key, fix, world_.flight.place_m + *fix.local_m)};
     }
-    if (!origin_ &&
-        ground_m(flightpaths::local_from_geo({}, fix.latitude_deg, fix.longitude_deg))) {
-        origin_ = GeoPlace{}; // As we send from ground without a place.
+    const GeoPlace place{fix.latitude_deg, fix.longitude_deg};
+    if (frame() == nullptr) {
+        place_made_ground(place);
     }
-    if (!origin_) {
-        // The world's origin, so that this fix comes to lie at the flight's place.
-        const GeoPlace origin =
-            flightpaths::geo_from_local({fix.latitude_deg, fix.longitude_deg}, -place_m);
-        origin_ = origin;
-    }
-    const glm::dvec2 at_m =
-        flightpaths::local_from_geo(*origin_, fix.latitude_deg, fix.longitude_deg);
-    return {at_m, height_of(key, fix, at_m)};
+    const FramePlace local = frame()->place_of(place);
+    return {
+        .at_m = over_ground(key, fix, local.east_north_m), .north_turn_rad = local.north_turn_rad};
 }
 
 std::vector<std::string> LivePlace::lines() const {
     std::vector<std::string> lines;
-    if (!world_.ground_place && origin_) {
+    if (placed_) {
         lines.push_back(fmt::format(
             "made ground, placed at the first position {:.5f}, {:.5f}",
-            origin_->latitude_deg,
-            origin_->longitude_deg));
+            placed_->origin().latitude_deg,
+            placed_->origin().longitude_deg));
     }
     if (off_the_map_) {
         lines.emplace_back("off the map");
@@ -115,6 +149,14 @@ std::vector<std::string> LivePlace::lines() const {
             our_ground_m_ - their_ground_m_,
             their_ground_m_,
             our_ground_m_));
+    }
+    constexpr double told_m = 5.0; // what stands may lie a little lower
+    if (under_ground_m_ > told_m) {
+        lines.push_back(fmt::format("{:.1f} m under our ground", under_ground_m_));
+    }
+    if (agl_unknown_) {
+        lines.emplace_back(
+            "--height agl: the sender tells no height above ground, so that above the sea counts");
     }
     return lines;
 }

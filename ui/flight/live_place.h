@@ -1,11 +1,11 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/links/fix.h"
-#include "sim/links/live_vehicle.h"
+#include "sim/links/live_traffic.h"
 #include "ui/world/world.h"
 
-#include <glm/vec3.hpp>
+#include <glm/vec2.hpp>
 
 #include <map>
 #include <optional>
@@ -21,7 +21,7 @@ enum class LiveHeight {
     Msl,
     /// Theirs above ground, over ours.
     Agl,
-    /// Theirs above the sea, moved once so that the first fix is as high above our ground.
+    /// Theirs above the sea, moved so that it begins as high above our ground.
     Offset
 };
 
@@ -40,10 +40,16 @@ public:
     /// else Offset; hosts of CIGI always mean Msl then.
     LivePlace(const world::World& world, std::optional<LiveHeight> height);
 
-    glm::dvec3 world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
+    sim::links::WorldPlace
+    world_from(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
+
+    /// How the world lies on the earth; null until that is known.
+    const EarthFrame* frame() const { return placed_ ? &*placed_ : world_.ground_frame.get(); }
 
     /// Where the world's origin lies on the earth; nothing until that is known.
-    const std::optional<GeoPlace>& origin() const { return origin_; }
+    std::optional<GeoPlace> origin() const {
+        return frame() == nullptr ? std::nullopt : std::optional(frame()->origin());
+    }
 
     LiveHeight height() const { return height_; }
 
@@ -51,20 +57,42 @@ public:
     std::vector<std::string> lines() const;
 
 private:
+    /// How far a vehicle is moved up.
+    struct Offset {
+        glm::dvec2 last_at_m{0.0};
+        /// Fixes that it had moved in.
+        int moves = 0;
+        double added_m = 0.0;
+    };
+
     std::optional<double> ground_m(const glm::dvec2& at_m) const;
+    void place_made_ground(const GeoPlace& first);
+    void compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m);
+    double offset_m(
+        const sim::links::VehicleKey& key,
+        const sim::links::Fix& fix,
+        const glm::dvec2& at_m,
+        double ours_m);
+    glm::dvec3 over_ground(
+        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
     double height_of(
         const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
 
     const world::World& world_;
     bool height_is_chosen_;
     LiveHeight height_;
-    std::optional<GeoPlace> origin_;
-    std::map<sim::links::VehicleKey, double> offsets_m_;
+    /// Of ground without a place of its own.
+    std::optional<TransverseMercator> placed_;
+    std::map<sim::links::VehicleKey, Offset> offsets_;
     bool off_the_map_ = false;
+    /// How far the newest fix is under our ground.
+    double under_ground_m_ = 0.0;
     /// The heights of their ground and of ours at the newest fix.
     double their_ground_m_ = 0.0;
     double our_ground_m_ = 0.0;
     bool grounds_differ_ = false;
+    /// Whether heights above ground are asked for that the newest fix has not.
+    bool agl_unknown_ = false;
 };
 
 } // namespace octant::ui::flight

@@ -1,9 +1,8 @@
 #include "ui/flight/session_fix.h"
 
-#include "flightpaths/local_tangent.h"
 #include "sim/base/axes.h"
+#include "sim/base/transverse_mercator.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -14,12 +13,10 @@ namespace links = sim::links;
 
 namespace {
 
-GeoPlace origin_of(const Session& session) {
-    std::optional<GeoPlace> place = session.world().ground_place;
-    if (session.simulation().is_live()) {
-        place = session.simulation().source().origin();
-    }
-    return place.value_or(GeoPlace());
+const EarthFrame& frame_of(const Session& session) {
+    return frame_or_at_zero(
+        session.simulation().is_live() ? session.simulation().source().frame()
+                                       : session.world().ground_frame.get());
 }
 
 /// Microseconds as a clock that wraps around.
@@ -32,10 +29,10 @@ std::uint32_t ticks_at(double time_s) {
 
 links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     const glm::dvec3& at_m = state.position_m;
-    const GeoPlace place =
-        flightpaths::geo_from_local(origin_of(session), glm::dvec2(at_m.x, at_m.y));
+    const EarthFrame& frame = frame_of(session);
+    const GeoPlace place = frame.geo_from_local(glm::dvec2(at_m.x, at_m.y));
     links::Fix fix;
-    fix.latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
+    fix.latitude_deg = place.latitude_deg;
     fix.longitude_deg = place.longitude_deg;
     fix.altitude_m = at_m.z;
     if (const auto ground_m = session.world().scene.ground->height_at(at_m.x, at_m.y)) {
@@ -45,6 +42,8 @@ links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     fix.velocity_ned_mps =
         glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
     fix.ticks = ticks_at(state.time_s);
+    fix = links::in_axes_turned(fix, -frame.place_of(place).north_turn_rad);
+    fix.attitude.heading_rad = wrapped_to_two_pi(fix.attitude.heading_rad);
     return fix;
 }
 

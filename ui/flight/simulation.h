@@ -2,6 +2,7 @@
 
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/hash.h"
 #include "sim/hand_flight.h"
 #include "sim/levelling.h"

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/earth_frame.h"
 #include "visuals/planning/turned_part.h"
 #include "visuals/scene/camera.h"
 
-#include <optional>
 #include <span>
 
 namespace octant::ui::flight {
@@ -41,8 +40,8 @@ public:
     /// Parts that the source turns, as of the last states_at().
     virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
 
-    /// Where the world's origin lies on the earth, once that is known.
-    virtual std::optional<GeoPlace> origin() const = 0;
+    /// How the world lies on the earth; null until that is known.
+    virtual const EarthFrame* frame() const = 0;
 };
 
 } // namespace octant::ui::flight

@@ -49,10 +49,8 @@ std::string_view flown_part(std::string_view text, std::size_t begin, double unt
     return text.substr(begin, at - begin);
 }
 
-flightpaths::AcmiHeader acmi_header(
-    const world::World& world,
-    const sim::Trajectory& flight,
-    const std::optional<GeoPlace>& origin) {
+flightpaths::AcmiHeader
+acmi_header(const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame) {
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
     header.kind = world.leader_kind;
@@ -62,9 +60,7 @@ flightpaths::AcmiHeader acmi_header(
             header.bookmarks.push_back(leg);
         }
     }
-    if (origin) {
-        header.origin = *origin;
-    }
+    header.frame = frame;
     return header;
 }
 
@@ -74,14 +70,14 @@ void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<GeoPlace>& origin) {
+    const EarthFrame* frame) {
     write_file(folder / "track.csv", flightpaths::track_csv(flight));
     write_file(
-        folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, origin)));
+        folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
 }
 
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s) {
-    write_tracks(folder, world, flown(world.flight.trajectory, until_s), world.ground_place);
+    write_tracks(folder, world, flown(world.flight.trajectory, until_s), world.ground_frame.get());
 }
 
 GrowingTracks::GrowingTracks(const std::filesystem::path& folder, const world::World& world)
@@ -91,7 +87,7 @@ GrowingTracks::GrowingTracks(const std::filesystem::path& folder, const world::W
               GrowingFile(folder / "track.acmi"),
               flightpaths::track_acmi(
                   world.flight.trajectory,
-                  acmi_header(world, world.flight.trajectory, world.ground_place))}} {}
+                  acmi_header(world, world.flight.trajectory, world.ground_frame.get()))}} {}
 
 void GrowingTracks::fly_until(double time_s) {
     constexpr double flush_every_s = 1.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/output_file.h"
 #include "ui/world/world.h"
 
@@ -17,12 +17,12 @@ namespace octant::ui::flight {
 void write_tracks(const std::filesystem::path& folder, const world::World& world, double until_s);
 
 /// Writes the tracks of a flight that left the world's path: `flight` holds its samples,
-/// `origin` says where the world's origin lies on the earth. Throws Error.
+/// `frame` says how the world lies on the earth, null where that is not known. Throws Error.
 void write_tracks(
     const std::filesystem::path& folder,
     const world::World& world,
     const sim::Trajectory& flight,
-    const std::optional<GeoPlace>& origin);
+    const EarthFrame* frame);
 
 /// The tracks of a flight along the world's path while it is flown: at any time the files hold what
 /// has been flown, so that those of a killed flight go no further than it came.

@@ -21,7 +21,8 @@ void first_steps_panel(ViewState& state);
 void leave_question(ViewState& state);
 
 /// Makes the line of status marks (recording, paused, by hand) and the line of the last message,
-/// between the columns of panels. Returns how much of the window's height they take.
+/// between the columns of panels: at the top, or at the bottom where others fly and the picture has
+/// words of its own at the top. Returns how much of the window's upper end they take.
 float status_line(const ViewState& state, flight::Session& session, double now_s);
 
 /// Writes the painting order of the first aircraft's polygons on those that face the eye.

@@ -81,9 +81,13 @@ float status_line(const ViewState& state, flight::Session& session, double now_s
     constexpr float from_top = 6.0F;
     constexpr float ground_alpha = 0.45F;
     const float top = from_top * gui_scale();
-    const float display = ImGui::GetIO().DisplaySize.x;
-    const auto [left, width] = state.columns.middle().value_or(Middle{0.0F, display});
-    ImGui::SetNextWindowPos({left + 0.5F * width, top}, ImGuiCond_Always, {0.5F, 0.0F});
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const auto [left, width] = state.columns.middle().value_or(Middle{0.0F, display.x});
+    // Where others fly, the picture's own words are above.
+    const bool below = session.simulation().is_live();
+    const float at = below ? display.y - top : top;
+    const float share = below ? 1.0F : 0.0F;
+    ImGui::SetNextWindowPos({left + 0.5F * width, at}, ImGuiCond_Always, {0.5F, share});
     ImGui::SetNextWindowBgAlpha(ground_alpha);
     ImGui::Begin(
         "##status",
@@ -98,7 +102,7 @@ float status_line(const ViewState& state, flight::Session& session, double now_s
     }
     const float height = ImGui::GetWindowSize().y;
     ImGui::End();
-    return top + height;
+    return below ? 0.0F : top + height;
 }
 
 void all_panels(ViewState& state, flight::Session& session, double now_s) {

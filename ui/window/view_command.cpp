@@ -144,7 +144,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             work.bench),
         list_option(
             "--send",
-            "fdm|dis|tacview:HOST:PORT",
+            "fdm|dis|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as octant fly --send",
             Takes::OneWordAgain,
             view.send),

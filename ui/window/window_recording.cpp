@@ -162,7 +162,7 @@ std::string WindowRecording::finish(flight::Session& session) {
         recording_.folder(),
         session.world(),
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())),
-        session.world().ground_place);
+        session.world().ground_frame.get());
     recording_.finish(
         {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::damage_lines()});
     session.simulation().stop_log();

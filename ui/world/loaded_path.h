@@ -19,7 +19,8 @@ struct LoadedPath {
     double min_clearance_m = 0.0;
     /// Those of what flies, where they are known.
     std::optional<sim::AircraftLimits> limits;
-    /// That of a track which knows where it was flown.
+    /// That of a track which knows where it was flown: its axes are a TransverseMercator frame's
+    /// there.
     std::optional<GeoPlace> origin;
     std::vector<flightpaths::LegBegin> legs;
     std::vector<std::string> notes;

@@ -1,7 +1,7 @@
 #include "ui/world/place_text.h"
 
-#include "flightpaths/local_tangent.h"
 #include "models/heights/height_source.h"
+#include "models/heights/map_frame.h"
 #include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -77,17 +77,16 @@ std::optional<GeoPlace> place_of(const settings::PathSettings& settings) {
 void check_place(const settings::PathSettings& settings) {
     if (settings.place && pair_of(*settings.place).lettered) {
         constexpr glm::dvec2 any_extent_m(1.0);
-        place_from_text(*settings.place, place_of(settings), any_extent_m);
+        const auto frame = models::heights::frame_of_ground(std::nullopt, place_of(settings));
+        place_from_text(*settings.place, frame.get(), any_extent_m);
     }
 }
 
 glm::dvec2 place_from_text(
-    const std::string& text,
-    const std::optional<GeoPlace>& map_place,
-    const glm::dvec2& half_extent_m) {
+    const std::string& text, const EarthFrame* map_frame, const glm::dvec2& half_extent_m) {
     const Pair pair = pair_of(text);
     const glm::dvec2 as_metres(pair.first, pair.second);
-    if (!map_place) {
+    if (map_frame == nullptr) {
         if (pair.lettered) {
             refuse("X,Y in metres on a map without a place on the earth", text);
         }
@@ -100,7 +99,7 @@ glm::dvec2 place_from_text(
         }
         return as_metres;
     }
-    const glm::dvec2 local_m = flightpaths::local_from_geo(*map_place, pair.first, pair.second);
+    const glm::dvec2 local_m = map_frame->local_from_geo({pair.first, pair.second});
     const bool on_map =
         std::abs(local_m.x) <= half_extent_m.x && std::abs(local_m.y) <= half_extent_m.y;
     return pair.lettered || on_map ? local_m : as_metres;

@@ -1,23 +1,20 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/earth_frame.h"
 #include "ui/settings/settings.h"
 
 #include <glm/vec2.hpp>
 
-#include <optional>
 #include <string>
 
 namespace octant::ui::world {
 
 /// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are
 /// degrees when they carry letters (49.3N,123.1W) or when the map has a place on the earth and they
-/// lie on it as latitude,longitude; otherwise metres. Throws Error for other text and for degrees
-/// on a map without a place.
+/// lie on it as latitude,longitude; otherwise metres. `map_frame` is null for a map without one.
+/// Throws Error for other text and for degrees on a map without a place.
 glm::dvec2 place_from_text(
-    const std::string& text,
-    const std::optional<GeoPlace>& map_place,
-    const glm::dvec2& half_extent_m);
+    const std::string& text, const EarthFrame* map_frame, const glm::dvec2& half_extent_m);
 
 /// Before anything is loaded: throws Error where place_from_text would for this ground whatever its
 /// extent. Reads no more of a map than where it lies.

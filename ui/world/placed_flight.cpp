@@ -1,8 +1,9 @@
 #include "ui/world/placed_flight.h"
 
-#include "flightpaths/local_tangent.h"
+#include "flightpaths/carried_path.h"
 #include "flightpaths/placement.h"
 #include "sim/base/error.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
 #include "ui/world/place_text.h"
 
@@ -18,16 +19,35 @@ namespace octant::ui::world {
 
 namespace {
 
+/// Whether a track lies over this ground where it was flown.
+bool lies_at_its_place(
+    const settings::RunSettings& settings, const LoadedPath& loaded, const SceneGround& ground) {
+    return loaded.origin && ground.frame && !settings.path.place;
+}
+
+/// A track that lies over this ground where it was flown, in the ground's axes; another one as it
+/// is.
+LoadedPath
+in_axes_of(const SceneGround& ground, const settings::RunSettings& settings, LoadedPath loaded) {
+    if (lies_at_its_place(settings, loaded, ground)) {
+        const TransverseMercator own(*loaded.origin);
+        loaded.trajectory = flightpaths::carried(loaded.trajectory, own, *ground.frame);
+        for (sim::Trajectory& other : loaded.others) {
+            other = flightpaths::carried(other, own, *ground.frame);
+        }
+    }
+    return loaded;
+}
+
 flightpaths::Placement placement_of(
     const settings::RunSettings& settings, const LoadedPath& loaded, const SceneGround& ground) {
     flightpaths::Placement placement;
-    const glm::dvec2 half_extent_m = ground.ground->half_extent_m();
-    const bool at_its_own_place = loaded.origin && ground.place && !settings.path.place;
+    const bool at_its_own_place = lies_at_its_place(settings, loaded, ground);
     if (settings.path.place) {
-        placement.place_m = place_from_text(*settings.path.place, ground.place, half_extent_m);
+        placement.place_m = place_from_text(
+            *settings.path.place, ground.frame.get(), ground.ground->half_extent_m());
     } else if (at_its_own_place) {
-        placement.place_m = flightpaths::local_from_geo(
-            *ground.place, loaded.origin->latitude_deg, loaded.origin->longitude_deg);
+        placement.place_m = ground.frame->local_from_geo(*loaded.origin);
         placement.heading_rad = 0.0;
     }
     if (settings.path.heading_deg) {
@@ -110,6 +130,7 @@ Flight place_flight(
     LoadedPath loaded,
     const SceneGround& ground,
     std::vector<std::string>& notes) {
+    loaded = in_axes_of(ground, settings, std::move(loaded));
     flightpaths::PlacedPath path =
         placed_by_name(path_of(settings), loaded, placement_of(settings, loaded, ground), ground);
     add(notes, path.notes);
@@ -144,11 +165,11 @@ sim::Trajectory own_path(
     const SceneGround& ground,
     const Flight& first,
     std::vector<std::string>& notes) {
-    const LoadedPath loaded = load_path(*flown.path, flown.shape, settings.path.lenient);
+    const LoadedPath loaded =
+        in_axes_of(ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient));
     add(notes, loaded.notes);
     flightpaths::Placement placement = placement_of(settings, loaded, ground);
-    const bool at_its_own_place = loaded.origin && ground.place && !settings.path.place;
-    if (!at_its_own_place) {
+    if (!lies_at_its_place(settings, loaded, ground)) {
         placement.heading_rad = first.heading_rad;
         const glm::dvec3 start_m = loaded.trajectory.samples().front().position_m;
         const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));

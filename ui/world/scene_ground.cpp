@@ -1,6 +1,7 @@
 #include "ui/world/scene_ground.h"
 
 #include "models/heights/height_field_import.h"
+#include "models/heights/map_frame.h"
 #include "models/made/made_up.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/sun_of_time.h"
@@ -49,6 +50,7 @@ SceneGround described(
         source.samples.rows(),
         source.samples.spacing_m());
     loaded.place = source.place;
+    loaded.frame = models::heights::frame_of_ground(source.area.system, source.place);
     if (filled_voids > 0) {
         loaded.notes.push_back(fmt::format(
             "{}: {} samples without data were filled in", source.area.name, filled_voids));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/earth_frame.h"
 #include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
 #include "ui/world/ground_texture_file.h"
@@ -28,6 +29,8 @@ struct SceneGround {
     std::string name;
     /// Nothing for made ground.
     std::optional<GeoPlace> place;
+    /// How it lies on the earth; null for made ground.
+    std::shared_ptr<const EarthFrame> frame;
     /// What a person should be told.
     std::vector<std::string> notes;
 };

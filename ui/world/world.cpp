@@ -68,8 +68,8 @@ Flight live_flight(const settings::RunSettings& settings, const SceneGround& gro
     constexpr double usual_rate_hz = 60.0;
     glm::dvec2 place_m(0.0);
     if (settings.path.place) {
-        place_m =
-            place_from_text(*settings.path.place, ground.place, ground.ground->half_extent_m());
+        place_m = place_from_text(
+            *settings.path.place, ground.frame.get(), ground.ground->half_extent_m());
     }
     sim::AircraftState state;
     const double ground_m = ground.ground->height_at(place_m.x, place_m.y).value_or(0.0);
@@ -273,6 +273,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     world.leader_kind = sim::find_aircraft_kind(settings::shape_of(settings.path.aircraft.front()));
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
+    world.ground_frame = ground.frame;
     if (auto night = note_of_night(settings, ground.place)) {
         world.notes.push_back(std::move(*night));
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_kind.h"
+#include "sim/base/earth_frame.h"
 #include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +34,8 @@ struct World {
     visuals::scene::FixedPoints points;
     std::string ground_name;
     std::optional<GeoPlace> ground_place;
+    /// How the ground lies on the earth; null where that is not known.
+    std::shared_ptr<const EarthFrame> ground_frame;
     /// What a person should be told: voids filled, legs clipped, ...
     std::vector<std::string> notes;
     /// Kept painting orders that were used.

@@ -34,8 +34,9 @@ std::string seed_of(int packets) {
 void use(const std::filesystem::path& file) {
     const std::string bytes = read_file(file);
     links::LiveTraffic traffic([](const auto& /*key*/, const links::Fix& fix) {
-        return 111000.0 *
-               glm::dvec3(fix.longitude_deg, fix.latitude_deg, fix.altitude_m / 111000.0);
+        return links::WorldPlace{
+            .at_m = 111000.0 *
+                    glm::dvec3(fix.longitude_deg, fix.latitude_deg, fix.altitude_m / 111000.0)};
     });
     std::array<sim::AircraftState, 4> states;
     double now_s = 0.0;

@@ -43,7 +43,8 @@ void place_by_points(const path& file, const RasterFile& raster) {
         points[k].dfGCPY = raster.transform[3] + points[k].dfGCPLine * raster.transform[5];
     }
     REQUIRE(
-        GDALSetGCPs(made.get(), 4, points.data(), wkt_of(models::heights::wgs84().get()).c_str()) ==
+        GDALSetGCPs(
+            made.get(), 4, points.data(), wkt_of(models::heights::globe_system().get()).c_str()) ==
         CE_None);
     GDALDeinitGCPs(4, points.data());
 }

@@ -22,11 +22,11 @@ namespace {
 
 using Taken = LiveTraffic::Taken;
 
-glm::dvec3 flat(const VehicleKey&, const Fix& fix) {
+WorldPlace flat(const VehicleKey&, const Fix& fix) {
     if (fix.local_m) {
-        return {*fix.local_m, fix.altitude_m};
+        return {.at_m = glm::dvec3(*fix.local_m, fix.altitude_m)};
     }
-    return {fix.longitude_deg * 1e5, fix.latitude_deg * 1e5, fix.altitude_m};
+    return {.at_m = {fix.longitude_deg * 1e5, fix.latitude_deg * 1e5, fix.altitude_m}};
 }
 
 Datagram line(std::string_view text, double arrival_s = 0.0) {
@@ -46,6 +46,25 @@ TEST_CASE("lines of named columns move aircraft, each by its id") {
     REQUIRE(traffic.show_newest(0.1, states) == 2);
     CHECK(states[0].position_m == glm::dvec3(200.0, 110.0, 300.0));
     CHECK(states[1].position_m == glm::dvec3(6.0, 5.0, 7.0));
+}
+
+TEST_CASE("a sender that begins anew by another port goes on as the same aircraft") {
+    LiveTraffic traffic(flat);
+    const auto begin = [&](std::uint16_t port, double arrival_s) {
+        Datagram head = line("t_s,id,north_m,east_m,alt_m,yaw_deg", arrival_s);
+        Datagram fix = line("0,1,100,200,300,90", arrival_s);
+        head.source.port = port;
+        fix.source.port = port;
+        traffic.take(head);
+        traffic.take(fix);
+    };
+    begin(5000, 0.0);
+    begin(5001, 1.0); // the first one may go on: two aircraft
+    CHECK(traffic.vehicles().size() == 2);
+    begin(5002, 2.5);
+    REQUIRE(traffic.vehicles().size() == 2);
+    CHECK(traffic.vehicles()[0].key().source.port == 5002);
+    CHECK(traffic.vehicles()[1].key().source.port == 5001);
 }
 
 TEST_CASE("lines that are wrong are refused with the reason and change nothing") {

@@ -37,8 +37,8 @@ MavLinkFrame position(std::uint32_t ms, double lat_deg, double lon_deg, double a
     writer.add(static_cast<std::int32_t>(lat_deg * 1e7));
     writer.add(static_cast<std::int32_t>(lon_deg * 1e7));
     writer.add(static_cast<std::int32_t>(alt_m * 1e3));
-    writer.add(std::int32_t{0});
-    writer.add(std::int16_t{2000}); // north, cm/s
+    writer.add(std::int32_t{12500}); // above home
+    writer.add(std::int16_t{2000});  // north, cm/s
     writer.add(std::int16_t{0});
     writer.add(std::int16_t{-100});
     writer.add(std::uint16_t{9000});
@@ -92,11 +92,21 @@ TEST_CASE("attitudes carry on the position of the last GLOBAL_POSITION_INT") {
     CHECK(*fix->sent_s == Approx(1.5));
 }
 
+TEST_CASE("an autopilot that does not know yet where it is is nowhere") {
+    MavLinkPose pose;
+    CHECK_FALSE(pose.take(position(1000, 0.0, 0.0, 500.0)).has_value());
+    CHECK_FALSE(pose.take(attitude(1100, 0.0F, 0.0F, 0.0F)).has_value());
+    pose.take(position(1200, 47.0, 8.0, 500.0));
+    CHECK(pose.take(attitude(1300, 0.0F, 0.0F, 0.0F)).has_value());
+}
+
 TEST_CASE("positions without attitudes are poses of their own") {
     MavLinkPose pose;
     const auto fix = pose.take(position(1000, 47.0, 8.0, 500.0));
     REQUIRE(fix.has_value());
     CHECK(fix->attitude.heading_rad == Approx(rad_from_deg(90.0)));
+    REQUIRE(fix->above_home_m.has_value());
+    CHECK(*fix->above_home_m == Approx(12.5));
 }
 
 TEST_CASE("once HIL_STATE_QUATERNION comes it is the only source of a pose") {

@@ -1,8 +1,8 @@
 // How near to the truth octant listen shows what comes by real UDP: what its recording says was in
 // each picture against where the sender's aircraft was then.
 
-#include "flightpaths/local_tangent.h"
 #include "sim/base/dice.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
 #include "tests/ui/commands/command_line.h"
@@ -68,7 +68,7 @@ std::vector<Sending> schedule_of(const Network& network) {
 
 /// North from the origin, steadily.
 std::vector<std::byte> packet_at(double truth_s) {
-    const auto place = flightpaths::geo_from_local(origin, {0.0, speed_mps * truth_s});
+    const GeoPlace place = TransverseMercator(origin).geo_from_local({0.0, speed_mps * truth_s});
     links::Fix fix;
     fix.latitude_deg = place.latitude_deg;
     fix.longitude_deg = place.longitude_deg;

@@ -8,12 +8,14 @@
 #include "ui/window/viewer.h"
 
 #include <catch2/catch.hpp>
+#include <imgui.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <imgui_internal.h>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -113,6 +115,10 @@ TEST_CASE("a flight of others that is recorded in the window is replayed without
             viewer.state().wanted.view.azimuth_deg = i; // A recording keeps its view.
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
+        const ImGuiWindow* const marks = ImGui::FindWindowByName("##status"); // "REC folder"
+        REQUIRE(marks != nullptr);
+        CHECK(marks->Pos.y > 160.0F); // The picture's own words are above.
+        CHECK(marks->Pos.y + marks->Size.y <= 320.0F);
         REQUIRE(viewer.finish_recording());
         CHECK_FALSE(viewer.finish_recording());
         viewer.turn(); // goes on

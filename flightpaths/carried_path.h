@@ -1,0 +1,13 @@
+#pragma once
+
+#include "sim/base/earth_frame.h"
+#include "sim/trajectory.h"
+
+namespace octant::flightpaths {
+
+/// A path in the axes of one frame, brought to those of another one, counted from where the origin
+/// of the first lies in it: each sample stays over its place on the earth, and attitude and
+/// velocity keep their directions from true north.
+sim::Trajectory carried(const sim::Trajectory& path, const EarthFrame& from, const EarthFrame& to);
+
+} // namespace octant::flightpaths

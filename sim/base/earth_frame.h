@@ -1,0 +1,42 @@
+#pragma once
+
+#include "sim/base/geo_place.h"
+
+#include <glm/vec2.hpp>
+
+namespace octant {
+
+/// Where a place is in a frame's axes.
+struct FramePlace {
+    glm::dvec2 east_north_m{0.0};
+    /// The bearing of true north there, clockwise from the y axis: what is to be added to a heading
+    /// from true north to have one from the y axis.
+    double north_turn_rad = 0.0;
+};
+
+/// How flat ground lies on the earth: where places are in its axes, x east and y north in metres.
+/// For one thread at a time.
+class EarthFrame {
+public:
+    virtual ~EarthFrame() = default;
+    EarthFrame(const EarthFrame&) = delete;
+    EarthFrame& operator=(const EarthFrame&) = delete;
+    EarthFrame(EarthFrame&&) = delete;
+    EarthFrame& operator=(EarthFrame&&) = delete;
+
+    /// Where x and y are 0.
+    virtual GeoPlace origin() const = 0;
+
+    /// Finite for every place on the earth, and true up to 5,000 km from the origin.
+    virtual glm::dvec2 local_from_geo(const GeoPlace& place) const = 0;
+
+    /// Undoes local_from_geo() there; always a place on the earth.
+    virtual GeoPlace geo_from_local(const glm::dvec2& east_north_m) const = 0;
+
+    FramePlace place_of(const GeoPlace& place) const;
+
+protected:
+    EarthFrame() = default;
+};
+
+} // namespace octant
