@@ -170,9 +170,12 @@ private:
         return false;
     }
 
-    /// Holds the polygon of the file that is seen against those that the ray meets first.
+    /// Holds the polygon of the file that is seen against those that the ray meets first. Decals on
+    /// it are looked for where each piece of it that may be seen is hit: a bent polygon has pieces
+    /// in other planes, too.
     void judge_parent(std::uint32_t parent, const Met& nearest) {
         const Met* shown = nullptr;
+        bool is_hit = true;
         bool open = false;
         for (const Met& met : met_) {
             const long double margin_m = met.hit.margin_m + nearest.hit.margin_m;
@@ -181,11 +184,14 @@ private:
             }
             if (given_.parent_of(met.polygon) == parent) {
                 shown = &met;
+                is_hit = is_hit && met.hit.meeting == Meeting::Hit;
             }
             open = open || met.hit.meeting == Meeting::Doubtful;
         }
         if (shown != nullptr) {
-            judge_decals(*shown);
+            if (is_hit) {
+                judge_decals(*shown);
+            }
         } else if (open || by_side_of(parent)) {
             ++counts_.open;
         } else {

@@ -72,31 +72,43 @@ FoundCells cell_orders(WorkingModel work, double least_distance) {
 
 } // namespace
 
-FoundCells best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget) {
+FoundCells best_tree(
+    const models::polygons::PolygonModel& model,
+    SearchBudget& budget,
+    const std::function<int()>& most_splits) {
     WorkingModel work(model, glm::dvec3(0.0));
     work.budget = &budget;
     work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
     RegionGraphs graphs(work.faces);
     const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
     if (root.cycles.edges > most_edges_searched_again) {
-        return tree_orders(work, root, quick_search);
+        TreeSearch search = quick_search;
+        search.most_splits = most_splits;
+        return tree_orders(work, root, search);
     }
     std::optional<FoundCells> best;
+    std::optional<SearchGivenUp> beaten;
     for (TreeSearch search : tree_searches) {
         if (best && best->work.twins.empty() && search.planes_first) {
             break;
         }
+        search.most_splits = most_splits;
         if (best && best->open.empty()) {
-            search.keeps_part = false;
             search.less_than = cost_of(*best);
         }
+        search.keeps_part = search.keeps_part && !search.less_than && !beaten;
         try {
             keep_better(best, tree_orders(work, root, search));
-        } catch (const SearchGivenUp&) {
-            if (!best) {
+        } catch (const SearchGivenUp& given_up) {
+            if (given_up.is_beaten) {
+                beaten = given_up;
+            } else if (!best && !beaten) {
                 throw;
             }
         }
+    }
+    if (!best) {
+        throw SearchGivenUp(*beaten);
     }
     return std::move(*best);
 }

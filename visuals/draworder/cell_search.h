@@ -6,6 +6,7 @@
 #include "visuals/draworder/working_model.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,12 @@ struct FoundCells {
 };
 
 /// The best of several searches for a tree of planes over eye space. Throws SearchGivenUp when none
-/// finds anything.
-FoundCells best_tree(const models::polygons::PolygonModel& model, SearchBudget& budget);
+/// finds anything, or only trees that split polygons more often than `most_splits` says
+/// (TreeSearch).
+FoundCells best_tree(
+    const models::polygons::PolygonModel& model,
+    SearchBudget& budget,
+    const std::function<int()>& most_splits = {});
 
 /// The best of several searches for octants that are divided further, for eyes of
 /// |x|+|y|+|z| >= `least_distance` radii. Throws SearchGivenUp when none finds anything.

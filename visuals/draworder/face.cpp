@@ -66,6 +66,9 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
         face.corners.push_back(
             face.right * corner.x + face.up * corner.y - plane.normal * plane.offset_m);
     }
+    for (std::size_t i = 0; i < face.flat.size(); ++i) {
+        face.along.push_back(glm::normalize(face.flat[(i + 1) % face.flat.size()] - face.flat[i]));
+    }
     return face;
 }
 

@@ -24,6 +24,7 @@ struct Face {
     std::optional<Plane> plane;
     /// The corners in the coordinates (right, up), counter-clockwise.
     std::vector<glm::dvec2> flat;
+    std::vector<glm::dvec2> along; ///< The unit directions from each of them to the next one.
     glm::dvec3 right{0.0};
     glm::dvec3 up{0.0};                 ///< Equal to cross(normal, right).
     std::optional<std::uint32_t> pivot; ///< The index in PolygonModel::pivots of what turns it.

@@ -87,6 +87,9 @@ bool HidingTest::hides(const Face& b, const Face& a, std::span<const glm::dvec4>
 void HidingTest::find_crossings(const Face& b, const Face& a, std::span<const glm::dvec4> eyes) {
     behind_.clear();
     crossings_.clear();
+    const auto flat_of = [&](const glm::dvec3& at) {
+        return glm::dvec2(glm::dot(at, b.right), glm::dot(at, b.up));
+    };
     const double limit = -tolerances_.on_plane;
     glm::dvec3 last = a.corners.back();
     double last_height = distance_m(*b.plane, last);
@@ -94,10 +97,10 @@ void HidingTest::find_crossings(const Face& b, const Face& a, std::span<const gl
         const double height = distance_m(*b.plane, corner);
         if ((height < limit) != (last_height < limit)) {
             const double share = (limit - last_height) / (height - last_height);
-            behind_.emplace_back(last + (corner - last) * share, limit);
+            behind_.emplace_back(flat_of(last + (corner - last) * share), -limit);
         }
         if (height < limit) {
-            behind_.emplace_back(corner, height);
+            behind_.emplace_back(flat_of(corner), -height);
         }
         last = corner;
         last_height = height;
@@ -106,27 +109,25 @@ void HidingTest::find_crossings(const Face& b, const Face& a, std::span<const gl
         const glm::dvec3 at(eye.x, eye.y, eye.z);
         const double raw = glm::dot(b.plane->normal, at) + b.plane->offset_m * eye.w;
         const double height = raw < 1e-10 ? 0.0 : raw;
-        const glm::dvec2 flat(glm::dot(at, b.right), glm::dot(at, b.up));
-        for (const glm::dvec4& corner : behind_) {
-            const glm::dvec3 from(corner.x, corner.y, corner.z);
-            const glm::dvec2 flat_from(glm::dot(from, b.right), glm::dot(from, b.up));
-            const double depth = -corner.w;
+        const glm::dvec2 flat = flat_of(at);
+        for (const glm::dvec3& corner : behind_) {
+            const double depth = corner.z;
             const double scale = 1.0 / (height + depth);
             crossings_.emplace_back(
-                (flat_from * height + flat * depth) * scale, (height + depth * eye.w) * scale);
+                (glm::dvec2(corner) * height + flat * depth) * scale,
+                (height + depth * eye.w) * scale);
         }
     }
 }
 
 bool HidingTest::apart_at(const Face& b, std::size_t corner) const {
-    const std::size_t count = b.flat.size();
     const glm::dvec2 at = b.flat[corner];
-    const glm::dvec2 to_next = glm::normalize(b.flat[(corner + 1) % count] - at);
-    const glm::dvec2 to_last = glm::normalize(b.flat[(corner + count - 1) % count] - at);
-    if (cross(to_next, to_last) < 0.0) {
+    const glm::dvec2 to_next = b.along[corner];
+    const glm::dvec2 from_last = b.along[(corner == 0 ? b.along.size() : corner) - 1];
+    if (cross(from_last, to_next) < 0.0) {
         return false; // dented by rounding: lines past its neighbours serve as well
     }
-    Sector sector(-to_next, -to_last);
+    Sector sector(-to_next, from_last);
     return std::ranges::all_of(crossings_, [&](const glm::dvec3& point) {
         return sector.take(glm::dvec2(point.x, point.y) - at * point.z);
     });

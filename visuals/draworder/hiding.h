@@ -55,7 +55,8 @@ private:
     bool apart_at(const Face& b, std::size_t corner) const;
 
     Tolerances tolerances_;
-    std::vector<glm::dvec4> behind_; ///< The corners of A-, with their heights in w.
+    /// The corners of A- in the coordinates of b's plane, and how far each is behind it.
+    std::vector<glm::dvec3> behind_;
     /// Generators of C, homogeneous, in the coordinates of b's plane.
     std::vector<glm::dvec3> crossings_;
 };

@@ -35,7 +35,7 @@ constexpr std::size_t most_comparisons = 20'000'000;
 constexpr std::size_t most_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
 constexpr std::size_t rays_a_pair = 100; ///< that no proof was found for
-/// Polygons that face alike and lie nearer to one another than this lie in one plane.
+/// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
 constexpr double in_plane = 1e-9;
 
 /// A convex polygon in radii of the model about its middle.
@@ -47,10 +47,12 @@ struct Target {
     std::vector<glm::dvec3> corners;
 };
 
-/// How a ray meets a target: where, and how far inside its sides.
+/// How a ray meets a target: where, how far inside its sides, and how far along the ray it would be
+/// met if the target were moved by a hair. That is more for a ray that grazes it.
 struct Hit {
     double away = 0.0;
     double inside = 0.0;
+    double doubt = 0.0;
 };
 
 std::optional<Hit> meet(const Target& target, const glm::dvec3& eye, const glm::dvec3& ray) {
@@ -68,7 +70,7 @@ std::optional<Hit> meet(const Target& target, const glm::dvec3& eye, const glm::
     if (!models::polygons::is_inside(target.corners, target.normal, at)) {
         return std::nullopt;
     }
-    return Hit{away, models::polygons::distance_to_sides(target.corners, at)};
+    return Hit{away, models::polygons::distance_to_sides(target.corners, at), hair / -slope};
 }
 
 /// One trial at one angle of the turning parts.
@@ -231,7 +233,7 @@ private:
     }
 
     void look_along(const glm::dvec3& eye, const glm::dvec3& ray, Trial& trial) {
-        Hit nearest{std::numeric_limits<double>::infinity(), 0.0};
+        Hit nearest{.away = std::numeric_limits<double>::infinity()};
         Hit seen = nearest;
         const Target* on_top = nullptr;
         std::uint32_t last = 0;
@@ -255,9 +257,9 @@ private:
             return;
         }
         ++trial.rays;
-        const double scale = hair * std::max(1.0, nearest.away);
+        const double doubt = seen.doubt + nearest.doubt + hair * nearest.away;
         const bool clear = last == 0 || seen.inside >= hair;
-        const bool behind = seen.away - nearest.away > scale;
+        const bool behind = seen.away - nearest.away > doubt;
         trial.wrong += clear && (behind || lies_under(on_top, seen.away)) ? 1 : 0;
     }
 
@@ -265,10 +267,24 @@ private:
     /// the ray meets it.
     bool lies_under(const Target* target, double away) const {
         return std::ranges::any_of(met_, [&](const auto& met) {
-            return target != nullptr && met.second.inside >= hair &&
-                   std::abs(met.second.away - away) < in_plane &&
-                   model_.parent_of(met.first->polygon) > model_.parent_of(target->polygon) &&
-                   glm::dot(met.first->normal, target->normal) > 1.0 - in_plane;
+            const auto& [other, hit] = met;
+            return target != nullptr && hit.inside >= hair &&
+                   std::abs(hit.away - away) < hit.doubt &&
+                   model_.parent_of(other->polygon) > model_.parent_of(target->polygon) &&
+                   glm::dot(other->normal, target->normal) > 0.0 && lies_in(*other, *target) &&
+                   lies_in(*target, *other);
+        });
+    }
+
+    /// Whether a polygon of the file lies in the plane of a piece of another one, given any of its
+    /// pieces: planes that cross at a small angle are near one another along a line, too.
+    bool lies_in(const Target& piece, const Target& other) const {
+        const std::uint32_t parent = model_.parent_of(piece.polygon);
+        return std::ranges::all_of(targets_, [&](const Target& target) {
+            return model_.parent_of(target.polygon) != parent ||
+                   std::ranges::all_of(target.corners, [&](const glm::dvec3& corner) {
+                       return std::abs(glm::dot(corner - other.middle, other.normal)) < in_plane;
+                   });
         });
     }
 
@@ -285,10 +301,6 @@ private:
     /// For each polygon when it is painted, from 1; 0 for one that is not.
     std::vector<std::uint32_t> place_;
 };
-
-} // namespace
-
-namespace {
 
 /// Casts the rays of a trial, those at pairs too; what it saw of the proof stays as it is.
 void cast_rays(

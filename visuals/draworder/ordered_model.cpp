@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -82,14 +83,79 @@ OrderedModel completed(FoundCells orders, int penetrating, std::string& why) {
         .drawn_by = DrawnBy::TreeAndParts};
 }
 
-/// Finds the orders by Cells or Tree. `why` says why some cells are drawn by parts, if they are.
-OrderedModel
-exact(models::polygons::PolygonModel model, const OrderOptions& options, std::string& why) {
+OrderedModel by_parts(models::polygons::PolygonModel model, Parting way) {
+    PartedOrder parted = parted_order(std::move(model), way);
+    return {
+        .model = std::move(parted.model),
+        .order = std::move(parted.order),
+        .cells = {},
+        .splits = parted.splits,
+        .notes = std::move(parted.notes),
+        .drawn_by = way == Parting::Single ? DrawnBy::Bsp : DrawnBy::Parts};
+}
+
+/// Tries an order; whether it may be used.
+bool is_right(OrderedModel& ordered, double search_s) {
+    const bool is_large = ordered.model.polygons.size() > most_polygons_searched;
+    // Where no order is right for turning parts, they say nothing about the others.
+    ordered.trial = try_order(
+        ordered.model,
+        ordered.order,
+        {.turning_parts = ordered.notes.empty(),
+         .min_distance_m = ordered.min_distance_m,
+         .centre_m = ordered.centre_m,
+         .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
+    return ordered.trial.wrong == 0;
+}
+
+/// A model's order by parts, made and tried when it is first asked for.
+class PartsInstead {
+public:
+    PartsInstead(const models::polygons::PolygonModel& model, double search_s)
+        : model_(model)
+        , search_s_(search_s) {}
+
+    bool is_right() {
+        make();
+        return is_right_;
+    }
+
+    /// How many splits a tree may have and still be used.
+    int most_splits() { return is_right() ? order_->splits : std::numeric_limits<int>::max(); }
+
+    /// The order; nothing may be asked after it.
+    OrderedModel take() {
+        make();
+        return std::move(*order_);
+    }
+
+private:
+    void make() {
+        if (!order_) {
+            order_ = by_parts(model_, Parting::Clusters);
+            is_right_ = draworder::is_right(*order_, search_s_);
+        }
+    }
+
+    const models::polygons::PolygonModel& model_;
+    double search_s_;
+    std::optional<OrderedModel> order_;
+    bool is_right_ = false;
+};
+
+/// Finds the orders by Cells or Tree; a tree only while it splits no more than `parts`. `why` says
+/// why some cells are drawn by parts, if they are.
+OrderedModel exact(
+    models::polygons::PolygonModel model,
+    const OrderOptions& options,
+    PartsInstead& parts,
+    std::string& why) {
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
     const bool by_cells = options.method == Method::Cells;
-    FoundCells orders =
-        by_cells ? best_cells(model, options.min_distance_radii, budget) : best_tree(model, budget);
+    const auto most_splits = [&] { return parts.most_splits() - penetrating; };
+    FoundCells orders = by_cells ? best_cells(model, options.min_distance_radii, budget)
+                                 : best_tree(model, budget, most_splits);
     const ModelFaces& faces = orders.work.faces;
     for (DrawOrder::Node& node : orders.nodes) {
         node.plane = faces.in_model(node.plane);
@@ -113,45 +179,23 @@ exact(models::polygons::PolygonModel model, const OrderOptions& options, std::st
         .drawn_by = by_cells ? DrawnBy::Cells : DrawnBy::Tree};
 }
 
-OrderedModel by_parts(models::polygons::PolygonModel model, Parting way) {
-    PartedOrder parted = parted_order(std::move(model), way);
-    return {
-        .model = std::move(parted.model),
-        .order = std::move(parted.order),
-        .cells = {},
-        .splits = parted.splits,
-        .notes = std::move(parted.notes),
-        .drawn_by = way == Parting::Single ? DrawnBy::Bsp : DrawnBy::Parts};
-}
-
 /// The orders of the method asked for; nothing where the search for cells is given up without any.
-/// `why` says why then, and why some are not found.
+/// `why` says why then, and why some are not found; it stays empty where `parts` cut less.
 std::optional<OrderedModel> searched(
-    const models::polygons::PolygonModel& model, const OrderOptions& options, std::string& why) {
+    const models::polygons::PolygonModel& model,
+    const OrderOptions& options,
+    PartsInstead& parts,
+    std::string& why) {
     if (model.polygons.size() > most_polygons_searched) {
         why = fmt::format("cells are searched for up to {} polygons", most_polygons_searched);
         return std::nullopt;
     }
     try {
-        return exact(model, options, why);
+        return exact(model, options, parts, why);
     } catch (const SearchGivenUp& given_up) {
-        why = given_up.why;
+        why = given_up.is_beaten ? "" : given_up.why;
         return std::nullopt;
     }
-}
-
-/// Tries an order; whether it may be used.
-bool is_right(OrderedModel& ordered, double search_s) {
-    const bool is_large = ordered.model.polygons.size() > most_polygons_searched;
-    // Where no order is right for turning parts, they say nothing about the others.
-    ordered.trial = try_order(
-        ordered.model,
-        ordered.order,
-        {.turning_parts = ordered.notes.empty(),
-         .min_distance_m = ordered.min_distance_m,
-         .centre_m = ordered.centre_m,
-         .proof_s = search_s * (is_large ? proof_share_of_large : proof_share)});
-    return ordered.trial.wrong == 0;
 }
 
 /// What is to be told of a trial that saw nothing wrong.
@@ -168,25 +212,20 @@ std::string wrong_in_words(const Trial& trial) {
 }
 
 /// What was found by cells or, where that had to split polygons more often, by parts.
-OrderedModel with_fewer_splits(
-    OrderedModel found, const models::polygons::PolygonModel& model, double search_s) {
+OrderedModel with_fewer_splits(OrderedModel found, PartsInstead& parts) {
     const bool by_tree = found.drawn_by == DrawnBy::Tree || found.drawn_by == DrawnBy::TreeAndParts;
-    if (by_tree && found.splits > 0) {
-        OrderedModel parted = by_parts(model, Parting::Clusters);
-        if (parted.splits < found.splits && is_right(parted, search_s)) {
-            return parted;
-        }
-    }
-    return found;
+    const bool by_parts = by_tree && found.splits > 0 && found.splits > parts.most_splits();
+    return by_parts ? parts.take() : std::move(found);
 }
 
 /// Finds the orders of a planar model by any method but that of the paper.
 OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions& options) {
+    PartsInstead parts(model, options.seconds);
     std::string why;
     if (options.method != Method::Bsp) {
-        if (auto found = searched(model, options, why)) {
+        if (auto found = searched(model, options, parts, why)) {
             if (is_right(*found, options.seconds)) {
-                OrderedModel best = with_fewer_splits(std::move(*found), model, options.seconds);
+                OrderedModel best = with_fewer_splits(std::move(*found), parts);
                 if (!why.empty()) {
                     best.notes.push_back(
                         best.drawn_by == DrawnBy::TreeAndParts
@@ -198,8 +237,9 @@ OrderedModel of_planar(models::polygons::PolygonModel model, const OrderOptions&
             why = "by cells " + wrong_in_words(found->trial);
         }
     }
-    OrderedModel parted = by_parts(model, Parting::Clusters);
-    if (!is_right(parted, options.seconds)) {
+    const bool by_parts_right = parts.is_right();
+    OrderedModel parted = parts.take();
+    if (!by_parts_right) {
         const std::string instead = wrong_in_words(parted.trial);
         OrderedModel single = by_parts(std::move(model), Parting::Single);
         single.notes.push_back("drawn by a BSP tree: by parts " + instead);

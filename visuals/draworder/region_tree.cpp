@@ -59,8 +59,12 @@ private:
 
 /// Throws SearchGivenUp where the tree, which only grows, costs too much already.
 void TreeBuilder::check_cost() const {
-    if (search_.less_than && TreeCost{work_.twins.size(), cells_} >= *search_.less_than) {
-        throw SearchGivenUp{"another tree costs less"};
+    const TreeCost cost{work_.twins.size(), cells_};
+    const bool costs_more = search_.less_than && cost >= *search_.less_than;
+    const bool splits_more = cost.splits > 0 && search_.most_splits &&
+                             static_cast<int>(cost.splits) > search_.most_splits();
+    if (costs_more || splits_more) {
+        throw SearchGivenUp{"another order costs less", true};
     }
 }
 
@@ -120,6 +124,9 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
     try {
         return found(node, depth);
     } catch (const SearchGivenUp& given_up) {
+        if (given_up.is_beaten) {
+            throw;
+        }
         why_open_ = why_open_.empty() ? given_up.why : why_open_;
         return open_leaf(node);
     }

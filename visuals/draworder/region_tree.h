@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,8 +45,12 @@ struct TreeSearch {
     bool planes_first = false;
     /// Whether what was found is kept where the search is given up (RegionTree::open).
     bool keeps_part = false;
-    /// The search is given up as soon as its tree is sure to cost as much as this.
+    /// The search is given up as soon as its tree is sure to cost as much as this; then nothing of
+    /// it is kept.
     std::optional<TreeCost> less_than = {};
+    /// So is it where the tree is sure to have more splits. Asked once a polygon is split; may be
+    /// empty.
+    std::function<int()> most_splits = {};
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there

@@ -11,6 +11,8 @@ namespace octant::visuals::draworder {
 /// cells that could be held. ordered() catches it and takes another way.
 struct SearchGivenUp {
     std::string why; ///< Such as "the search took longer than 20 s".
+    /// Whether only because another order is known that costs less.
+    bool is_beaten = false;
 };
 
 /// What a search may cost. Work is counted, not timed, so that the same model gives the same order

@@ -31,9 +31,9 @@ namespace octant::visuals::orderfile {
 ///                                                         the plane, then the eye's side
 ///     node sequence FIRST LATER                           painted one after the other
 /// FRONT is what is painted, or lies, where N.p + D >= 0. A child is `node K` or `list K`, counted
-/// from 0 in the order of the lines, or `nothing`; the children of a node are lists or later nodes.
-/// Of what lies in a parting's plane, ALONG is painted for eyes in front and AGAINST for those
-/// behind. Node 0 is where every eye begins; without nodes it is list 0.
+/// from 0 in the order of the lines, or `nothing`; the children of a node are lists or later nodes,
+/// and no node is the child of two. Of what lies in a parting's plane, ALONG is painted for eyes in
+/// front and AGAINST for those behind. Node 0 is where every eye begins; without nodes it is list 0.
 ///
 /// Coordinates are in `axes`, those of the model file that the orders speak of; so the letters
 /// A, B, C of octant paths belong to that file's x, y, z. Numbers have 17 significant digits.
@@ -44,7 +44,7 @@ std::string order_text(const CellOrders& orders, const models::polygons::FileAxe
 /// Throws Error "file:line: expected ..., got ...": no header, unknown keywords and regions,
 /// numbers that are missing, too many, not finite or too large, indices out of range, a polygon
 /// twice in one cell, another count of faces, a keyword twice or after the cells, no cells and no
-/// parts, both of them, children that are not there.
+/// parts, both of them, children that are not there or have another parent, too.
 CellOrders read_order_file(
     const std::filesystem::path& path,
     std::size_t faces,

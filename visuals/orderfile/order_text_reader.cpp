@@ -177,7 +177,12 @@ private:
         }
         if (words_.skip("node")) {
             const auto later = static_cast<long>(nodes_.size()) + 1;
-            return static_cast<int>(words_.count("the number of a later node", later, most));
+            const auto number = words_.count("the number of a later node", later, most);
+            if (!below_one_.insert(number).second) {
+                words_.back();
+                words_.refuse("each node below one other"); // else there is no end of ways
+            }
+            return static_cast<int>(number);
         }
         words_.refuse("a child: node K, list K or nothing");
     }
@@ -291,7 +296,8 @@ private:
     CellOrders orders_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<std::vector<std::uint32_t>> lists_;
-    std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
+    std::set<long> below_one_; ///< The nodes that are children of another one.
+    std::vector<bool> used_;   ///< One flag for each polygon; all are false between lines.
     std::set<std::string> seen_;
 };
 

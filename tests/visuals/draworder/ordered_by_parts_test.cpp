@@ -167,6 +167,25 @@ TEST_CASE("an order by a few parts has cells, which hold the same orders") {
     }
 }
 
+TEST_CASE("a trial allows for rays that graze what lies within the tolerance of an order") {
+    const auto wrong_at = [](double gap_m) {
+        PolygonModel model;
+        model.materials.emplace_back();
+        model.parts = {"plates"};
+        for (const double height_m : {0.0, gap_m}) {
+            model.polygons.push_back({.first_corner = model.polygons.empty() ? 0U : 4U});
+            model.polygons.back().corner_count = 4;
+            for (const glm::dvec2& at_m : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                model.corner_vertices.push_back(std::uint32_t(model.vertices_m.size()));
+                model.vertices_m.emplace_back(at_m, height_m);
+            }
+        }
+        return try_order(model, DrawOrder(std::vector<std::uint32_t>{1, 0}), {}).wrong;
+    };
+    CHECK(wrong_at(2e-9) == 0);
+    CHECK(wrong_at(2e-8) > 0);
+}
+
 TEST_CASE("a trial sees what is painted too early, off the origin and as a decal too") {
     PolygonModel model = octant::tests::plate_between_boxes();
     OrderedModel found = by(Method::Tree, model);

@@ -1,6 +1,7 @@
 #include "tests/order_shapes.h"
 #include "visuals/draworder/bit_count.h"
 #include "visuals/draworder/candidate_planes.h"
+#include "visuals/draworder/cell_search.h"
 #include "visuals/draworder/components.h"
 #include "visuals/draworder/cycle_split.h"
 #include "visuals/draworder/plane_judge.h"
@@ -196,4 +197,29 @@ TEST_CASE("models that need too many splits, planes or entries are given up") {
     CHECK(region_tree(pile, root, {}).lists.size() > 4);
     CHECK_NOTHROW(check_entries(8'000'000));
     CHECK_THROWS_AS(check_entries(8'000'001), SearchGivenUp);
+}
+
+TEST_CASE("a tree that splits more than another order is given up, and only then asks how much") {
+    SearchBudget budget(20.0);
+    int asked = 0;
+    const auto at_most = [&](int splits) {
+        return [&asked, splits] {
+            ++asked;
+            return splits;
+        };
+    };
+    const std::size_t splits = best_tree(three_bars(), budget, at_most(1000)).work.twins.size();
+    REQUIRE(splits > 0);
+    CHECK(asked > 0);
+    const int enough = static_cast<int>(splits);
+    CHECK(best_tree(three_bars(), budget, at_most(enough)).work.twins.size() == splits);
+    try {
+        best_tree(three_bars(), budget, at_most(enough - 1));
+        FAIL("a tree was found");
+    } catch (const SearchGivenUp& given_up) {
+        CHECK(given_up.is_beaten);
+    }
+    asked = 0;
+    CHECK(best_tree(octant::tests::u_channel(), budget, at_most(0)).work.twins.empty());
+    CHECK(asked == 0);
 }

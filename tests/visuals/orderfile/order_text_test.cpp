@@ -119,6 +119,9 @@ TEST_CASE("parts that hang together badly are refused") {
         refusal(lists + "node sequence list 0 node 0\n"),
         Catch::StartsWith(":5: expected the number of a later node"));
     CHECK_THAT(
+        refusal(lists + "node sequence node 1 node 1\nnode sequence list 0 list 1\n"),
+        Catch::StartsWith(":5: expected each node below one other, got '1'"));
+    CHECK_THAT(
         refusal(lists + "node either list 0 list 1\n"),
         Catch::StartsWith(":5: expected choice, parting or sequence, got 'either'"));
     CHECK_THAT(
