@@ -42,7 +42,7 @@ void show_pixel_check(ViewState& state) {
     const bool clean = found.wrong == 0;
     ImGui::SameLine();
     ImGui::TextColored(
-        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : ImVec4(1.0F, 0.4F, 0.3F, 1.0F),
+        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour,
         "%ld wrong",
         found.wrong);
     ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);

@@ -141,7 +141,7 @@ void show_hand_flight(const ViewState& state, const flight::Simulation& simulati
         pilot.state(),
         simulation.controls());
     const char* warning = "";
-    ImVec4 colour{1.0F, 0.35F, 0.25F, 1.0F};
+    ImVec4 colour = warning_colour;
     if (simulation.end_of_flight()) {
         warning = simulation.end_of_flight() == flight::Simulation::End::OffTheMap
                       ? "left the map"
@@ -184,7 +184,7 @@ void recording_buttons(ViewState& state, const flight::Simulation& simulation) {
     }
     explain(state.keys.name_of(ViewCommand::Screenshot));
     if (state.recording) {
-        ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.35F, 0.25F, 1.0F});
+        ImGui::PushStyleColor(ImGuiCol_Text, warning_colour);
         ImGui::TextWrapped(
             "%.1f s in %s",
             static_cast<double>(simulation.log().size()) * sim::step_s,

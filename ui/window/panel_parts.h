@@ -11,6 +11,12 @@
 
 namespace octant::ui::window {
 
+/// Of text that warns: light enough to be read over a panel's ground.
+inline const ImVec4 warning_colour{1.0F, 0.55F, 0.45F, 1.0F};
+
+/// How much of the picture below a panel its ground covers.
+constexpr float ground_alpha = 0.82F;
+
 /// A panel, whose widgets are made while this object lives. The cross in its title closes it and
 /// sets `open` to false. It lies where the columns have it, which are told how high it would be.
 class Panel {

@@ -26,7 +26,6 @@ std::optional<HandStatus> hand_status(const flight::Simulation& simulation) {
         simulation.is_levelling()};
 }
 
-const ImVec4 warning_colour{1.0F, 0.35F, 0.25F, 1.0F};
 const ImVec4 mark_colour{1.0F, 0.95F, 0.7F, 1.0F};
 
 /// Makes a text that is broken where it is wider than `most`.
@@ -79,7 +78,6 @@ float status_line(const ViewState& state, flight::Session& session, double now_s
         return 0.0F;
     }
     constexpr float from_top = 6.0F;
-    constexpr float ground_alpha = 0.45F;
     const float top = from_top * gui_scale();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const auto [left, width] = state.columns.middle().value_or(Middle{0.0F, display.x});

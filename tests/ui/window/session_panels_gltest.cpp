@@ -1,10 +1,17 @@
 #include "ui/flight/session.h"
+#include "ui/window/panel_pixels.h"
 #include "ui/window/panels.h"
 
 #include <catch2/catch.hpp>
+#include <glm/vec2.hpp>
+#include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "headless_gui.h"
 
@@ -33,6 +40,37 @@ struct Shown {
         state.history.add(session.draw_at(0.0, std::nullopt));
     }
 };
+
+/// Of one byte of a pixel, as screens show it: 0 to 1.
+double luminance_of(std::uint8_t byte) {
+    const double value = byte / 255.0;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+/// How many times lighter the lightest pixel of a window is than its darkest one, as WCAG 2
+/// counts contrast, where the panels of the last frame lie over a white picture.
+double contrast_over_white(const char* window) {
+    ImGuiIO& io = ImGui::GetIO();
+    const glm::ivec2 size(static_cast<int>(io.DisplaySize.x), static_cast<int>(io.DisplaySize.y));
+    unsigned char* texels = nullptr;
+    glm::ivec2 atlas_px(0);
+    io.Fonts->GetTexDataAsAlpha8(&texels, &atlas_px.x, &atlas_px.y);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(4 * size.x * size.y), 255);
+    ui::window::PanelPixels(texels, atlas_px).draw(*ImGui::GetDrawData(), pixels.data(), size);
+    const ImRect place = ImGui::FindWindowByName(window)->Rect();
+    double lightest = 0.0;
+    double darkest = 1.0;
+    for (int y = static_cast<int>(place.Min.y); y < static_cast<int>(place.Max.y); ++y) {
+        for (int x = static_cast<int>(place.Min.x); x < static_cast<int>(place.Max.x); ++x) {
+            const std::uint8_t* const bgr = &pixels[static_cast<std::size_t>(4 * (y * size.x + x))];
+            const double light = 0.0722 * luminance_of(bgr[0]) + 0.7152 * luminance_of(bgr[1]) +
+                                 0.2126 * luminance_of(bgr[2]);
+            lightest = std::max(lightest, light);
+            darkest = std::min(darkest, light);
+        }
+    }
+    return (lightest + 0.05) / (darkest + 0.05);
+}
 
 int background_vertices() {
     return ImGui::GetBackgroundDrawList()->VtxBuffer.Size;
@@ -116,6 +154,15 @@ TEST_CASE("a message is shown for its time") {
     };
     CHECK(at(1.0).find("hello") != std::string::npos);
     CHECK(at(2.0).find("hello") == std::string::npos);
+}
+
+TEST_CASE("what the status line warns of can be read over a white picture") {
+    Shown shown;
+    shown.state.recording = "flight-1";
+    HeadlessGui gui(640.0F, 360.0F);
+    ImGui::GetStyle().WindowBorderSize = 0.0F;
+    gui.settled([&] { ui::window::status_line(shown.state, shown.session, 0.0); });
+    CHECK(contrast_over_white("##status") >= 4.5);
 }
 
 TEST_CASE("painting order is written on the polygons in the middle of the chase view") {
