@@ -41,7 +41,7 @@ bool flies(const TapedObject& object) {
 }
 
 bool is_on_earth(const TapedPlace& place) {
-    return std::abs(place.latitude_deg) <= 89.0 && std::abs(place.longitude_deg) <= 360.0 &&
+    return std::abs(place.latitude_deg) <= 90.0 && std::abs(place.longitude_deg) <= 360.0 &&
            std::abs(place.altitude_m) <= highest_m;
 }
 

@@ -216,9 +216,9 @@ Row row_from(std::string_view line, const Header& header, const Source& at) {
 /// A JSBSim row in the units and axes of our own columns.
 Row own_from_jsbsim(
     Row row, const Header& header, std::optional<TransverseMercator>& frame, const Source& at) {
-    if (std::abs(row[North]) > 89.0 || std::abs(row[East]) > 360.0) {
+    if (std::abs(row[North]) > 90.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
-            "expected a latitude within 89 deg and a longitude within 360 deg, got {} and {}",
+            "expected a latitude within 90 deg and a longitude within 360 deg, got {} and {}",
             row[North],
             row[East]));
     }

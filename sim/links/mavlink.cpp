@@ -131,7 +131,7 @@ std::optional<Fix> MavLinkPose::take(const MavLinkFrame& frame) {
     case MavLinkKind::HilStateQuaternion:
         return take_hil(frame);
     case MavLinkKind::GlobalPositionInt:
-        return hil_ ? std::nullopt : take_position(frame);
+        return take_position(frame);
     case MavLinkKind::Attitude:
         return hil_ ? std::nullopt : take_attitude(frame);
     default:
@@ -159,6 +159,9 @@ std::optional<Fix> MavLinkPose::take_hil(const MavLinkFrame& frame) {
         std::atan2(m[1].z, m[2].z)};
     fix.body_rates_radps = reader.floats(24);
     set_place(reader, 36, fix);
+    if (position_) {
+        fix.above_home_m = fix.altitude_m - (position_->altitude_m - *position_->above_home_m);
+    }
     fix.velocity_ned_mps = velocity_ned(reader, 48);
     hil_ = true;
     return plausible(fix);
@@ -183,7 +186,7 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     // Attitudes come more often; while they do, they carry the position on.
     constexpr double attitude_kept_s = 0.5;
     const bool carried = attitude_s_ && std::abs(*fix.sent_s - *attitude_s_) < attitude_kept_s;
-    return carried ? std::nullopt : position_;
+    return hil_ || carried ? std::nullopt : position_;
 }
 
 std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame) {
@@ -205,6 +208,7 @@ std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame) {
     fix.latitude_deg = std::clamp(fix.latitude_deg + moved_m.x / m_per_degree, -90.0, 90.0);
     fix.longitude_deg += moved_m.y / (m_per_degree * cosine);
     fix.altitude_m -= moved_m.z;
+    *fix.above_home_m -= moved_m.z;
     fix.sent_s = sent_s;
     const glm::dvec3 angles = reader.floats(4);
     fix.attitude = {angles.z, angles.y, angles.x};

@@ -41,7 +41,8 @@ struct MavLinkParse {
 MavLinkParse parse_mavlink(Bytes bytes);
 
 /// The pose of one system, from one kind of message: HIL_STATE_QUATERNION where that ever comes,
-/// else ATTITUDE over the positions of GLOBAL_POSITION_INT.
+/// else ATTITUDE over the positions of GLOBAL_POSITION_INT, which tell the height of its home to
+/// both.
 class MavLinkPose {
 public:
     /// A fix where the message completes one.

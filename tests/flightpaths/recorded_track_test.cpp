@@ -98,6 +98,15 @@ TEST_CASE("a flight over the date line is whole") {
     CHECK(track.trajectory.samples()[1].position_m.x == Approx(21.93).margin(0.05));
 }
 
+TEST_CASE("a flight over the pole is whole") {
+    const RecordedTrack track =
+        track_of("Time,Latitude Geodetic (deg),Longitude (deg),Altitude ASL (ft)\n"
+                 "0,89.999,20,100\n1,89.999,-160,100\n");
+    const glm::dvec3 behind_m = track.trajectory.samples()[1].position_m;
+    CHECK(behind_m.x == Approx(0.0).margin(1e-6));
+    CHECK(behind_m.y == Approx(223.39).margin(0.01));
+}
+
 TEST_CASE("velocity, bank and load factor of a circle come out of its positions") {
     auto samples = circle(1000.0, 100.0, 200);
     fill_velocities(samples);
@@ -188,7 +197,7 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
         "2: expected a place within 10000 km of the origin, got 100000 km");
     CHECK(
         track_fault("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
-        "2: expected a latitude within 89 deg and a longitude within 360 deg, got 95 and 0");
+        "2: expected a latitude within 90 deg and a longitude within 360 deg, got 95 and 0");
     CHECK(track_fault(std::string("t_s\0", 4)) == " expected text, got binary data");
 }
 

@@ -119,7 +119,7 @@ std::string fly_frames(
     const int first = part ? session.begin_part(*settings::part_from_text(*part)).first : 0;
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, options.quiet);
-    for (const std::string& line : sender.channels().await_first()) {
+    for (const std::string& line : sender.await_channels(session)) {
         base::say(false, line);
     }
     const base::Stopwatch since_start;
@@ -136,7 +136,7 @@ std::string fly_frames(
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
         }
         sender.send(session);
-        record.skew_frames = sender.channels().await_pictures();
+        record.skew_frames = sender.await_pictures();
         recorder.add(record, session);
         progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }

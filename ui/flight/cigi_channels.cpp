@@ -27,7 +27,7 @@ links::CigiEntityControl
 entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
     links::CigiEntityControl entity;
     entity.entity = static_cast<std::uint16_t>(number);
-    entity.state = links::fault_of(fix) == links::Fault::None ? 1 : 0;
+    entity.state = flown_fix(session, number) ? 1 : 0;
     entity.type = static_cast<std::uint16_t>(session.world().scene.aircraft[number] + 1);
     entity.attitude = fix.attitude;
     entity.place = {fix.latitude_deg, fix.longitude_deg, fix.altitude_m};
@@ -116,13 +116,14 @@ void CigiChannels::listen() {
     }
 }
 
-std::vector<std::string> CigiChannels::await_first() {
+std::vector<std::string> CigiChannels::await_first(const std::function<void()>& meanwhile) {
     const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
     const auto all_answer = [this] {
         listen();
         return std::ranges::all_of(channels_, &Channel::answers);
     };
     while (!channels_.empty() && !all_answer() && Clock::now() < end) {
+        meanwhile();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     std::vector<std::string> lines;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,9 @@ public:
 
     bool empty() const { return channels_.empty(); }
 
-    /// Waits until each has sent a Start of Frame, for ten seconds at most. Returns a line for each
-    /// that has not.
-    std::vector<std::string> await_first();
+    /// Waits until each has sent a Start of Frame, for ten seconds at most, and does `meanwhile`
+    /// again and again. Returns a line for each that has not.
+    std::vector<std::string> await_first(const std::function<void()>& meanwhile);
 
     /// Sends the last picture to all. Does not wait.
     void send(const Session& session);

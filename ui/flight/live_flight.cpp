@@ -62,6 +62,10 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
     turn_parts(time_s);
 }
 
+bool LiveFlight::is_flown(std::size_t aircraft) const {
+    return std::ranges::find(places_, aircraft, &Place::aircraft) != places_.end();
+}
+
 /// The aircraft that shows what this vehicle is said to be: the free ones from its own number on,
 /// for entities of a type that has a shape those of that shape first.
 std::size_t
@@ -70,14 +74,11 @@ LiveFlight::free_place(const sim::links::VehicleKey& key, std::optional<std::uin
     const bool has_number =
         key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
     const std::size_t first = has_number ? static_cast<std::size_t>(key.vehicle) : 0;
-    const auto is_free = [this](std::size_t place) {
-        return std::ranges::find(places_, place, &Place::aircraft) == places_.end();
-    };
     std::optional<std::size_t> any;
     const auto shape = type ? options_.shapes.find(*type) : options_.shapes.end();
     for (std::size_t i = 0; i < models.size(); ++i) {
         const std::size_t place = (first + i) % models.size();
-        if (!is_free(place)) {
+        if (is_flown(place)) {
             continue;
         }
         if (shape == options_.shapes.end() || models[place] == models.at(shape->second)) {

@@ -69,6 +69,8 @@ public:
     /// What was told for the first time since the last call.
     std::vector<std::string> take_news() { return traffic_.take_news(); }
 
+    bool is_flown(std::size_t aircraft) const override;
+
     const EarthFrame* frame() const override { return place_.frame(); }
 
     /// The message that CIGI hosts get for a picture.

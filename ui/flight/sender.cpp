@@ -24,7 +24,8 @@ namespace {
 /// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
 links::Source reader_address(const std::string& target) {
     const std::string rest = target.substr(target.find(':') + 1);
-    return links::peer_from_text("--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
+    return links::peer_from_text(
+        "--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
 }
 
 /// Text as a property's value: no commas and no ends of lines of its own.
@@ -43,7 +44,7 @@ std::string tacview_head(const Session& session) {
         "FileType=text/acmi/tacview\nFileVersion=2.2\n0,ReferenceTime=2026-01-01T00:00:00Z\n"
         "0,DataSource=Octant\n0,Title={}\n",
         acmi_value(session.world().flight.title));
-    for (std::size_t i = 0; i < session.states().size(); ++i) {
+    for (std::size_t i = 0; i < session.world().scene.aircraft.size(); ++i) {
         const std::string& shape = session.world().scene.model_of(i).polygons.name;
         const sim::AircraftKind* const kind = sim::find_aircraft_kind(shape);
         head += fmt::format(
@@ -104,28 +105,42 @@ void Sender::send_dis(const Target& target, std::size_t number, links::Fix fix, 
     socket_.front().send(target.peer, links::encode_dis(entity, time_s));
 }
 
+std::vector<std::string> Sender::await_channels(const Session& session) {
+    tell_head(session);
+    return channels_.await_first([this] {
+        for (links::TacviewServer& server : tacview_) {
+            server.send({});
+        }
+    });
+}
+
+void Sender::tell_head(const Session& session) {
+    if (tacview_.empty() || std::exchange(head_told_, true)) {
+        return;
+    }
+    for (links::TacviewServer& server : tacview_) {
+        server.set_head(tacview_head(session));
+    }
+}
+
 void Sender::send_tacview(const Session& session) {
     const auto states = session.states();
-    if (!std::exchange(head_told_, true)) {
-        for (links::TacviewServer& server : tacview_) {
-            server.set_head(tacview_head(session));
-        }
-    }
+    tell_head(session);
     std::string text = fmt::format("#{:.3f}\n", states.front().time_s);
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const links::Fix fix = fix_of(session, states[i]);
-        if (links::fault_of(fix) != links::Fault::None) {
+        const std::optional<links::Fix> fix = flown_fix(session, i);
+        if (!fix) {
             continue;
         }
         text += fmt::format(
             "{:x},T={:.7f}|{:.7f}|{:.2f}|{:.2f}|{:.2f}|{:.2f}\n",
             i + 1,
-            fix.longitude_deg,
-            fix.latitude_deg,
-            fix.altitude_m,
-            deg_from_rad(fix.attitude.roll_rad),
-            deg_from_rad(fix.attitude.pitch_rad),
-            deg_from_rad(fix.attitude.heading_rad));
+            fix->longitude_deg,
+            fix->latitude_deg,
+            fix->altitude_m,
+            deg_from_rad(fix->attitude.roll_rad),
+            deg_from_rad(fix->attitude.pitch_rad),
+            deg_from_rad(fix->attitude.heading_rad));
     }
     for (links::TacviewServer& server : tacview_) {
         server.send(text);
@@ -141,14 +156,14 @@ void Sender::send(const Session& session) {
         const auto states = session.states();
         const std::size_t count = target.form == Form::Fdm ? 1 : states.size();
         for (std::size_t i = 0; i < count; ++i) {
-            const links::Fix fix = fix_of(session, states[i]);
-            if (links::fault_of(fix) != links::Fault::None) {
-                continue; // nobody flies it yet
+            const std::optional<links::Fix> fix = flown_fix(session, i);
+            if (!fix) {
+                continue;
             }
             if (target.form == Form::Fdm) {
-                send_fdm(target, fix);
+                send_fdm(target, *fix);
             } else {
-                send_dis(target, i, fix, states[i].time_s);
+                send_dis(target, i, *fix, states[i].time_s);
             }
         }
     }

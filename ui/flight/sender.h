@@ -22,12 +22,16 @@ public:
     /// Error.
     explicit Sender(const std::vector<std::string>& targets);
 
+    /// Waits for the channels of CIGI as CigiChannels::await_first() does; readers of Tacview's
+    /// telemetry are answered meanwhile. To be called before the first picture is sent.
+    std::vector<std::string> await_channels(const Session& session);
+
     /// Sends the states of the session's last picture. Does not wait; what the network does not
     /// take is lost.
     void send(const Session& session);
 
-    /// Those of CIGI, for whoever waits for them.
-    CigiChannels& channels() { return channels_; }
+    /// As CigiChannels::await_pictures().
+    int await_pictures() { return channels_.await_pictures(); }
 
 private:
     enum class Form { Fdm, Dis };
@@ -40,6 +44,7 @@ private:
     void send_fdm(const Target& target, const sim::links::Fix& fix);
     void send_dis(const Target& target, std::size_t number, sim::links::Fix fix, double time_s);
 
+    void tell_head(const Session& session);
     void send_tacview(const Session& session);
 
     std::vector<Target> targets_;

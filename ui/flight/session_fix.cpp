@@ -47,4 +47,13 @@ links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     return fix;
 }
 
+std::optional<links::Fix> flown_fix(const Session& session, std::size_t aircraft) {
+    const Simulation& simulation = session.simulation();
+    if (simulation.is_live() && !simulation.source().is_flown(aircraft)) {
+        return std::nullopt;
+    }
+    const links::Fix fix = fix_of(session, session.states()[aircraft]);
+    return links::fault_of(fix) == links::Fault::None ? std::optional(fix) : std::nullopt;
+}
+
 } // namespace octant::ui::flight

@@ -5,6 +5,7 @@
 #include "visuals/planning/turned_part.h"
 #include "visuals/scene/camera.h"
 
+#include <cstddef>
 #include <span>
 
 namespace octant::ui::flight {
@@ -23,6 +24,10 @@ public:
     /// The states at a time, not before that of the last call. `states` hold those of the last
     /// call, or where the aircraft stand at the beginning.
     virtual void states_at(double time_s, std::span<sim::AircraftState> states) = 0;
+
+    /// Whether somebody flies this aircraft as of the last states_at(): the first one stands and
+    /// waits until somebody does.
+    virtual bool is_flown(std::size_t aircraft) const = 0;
 
     /// Where the next picture of this width over height is to be taken from, for aircraft in these
     /// states; `usual` is what the settings say.

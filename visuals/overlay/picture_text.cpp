@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 namespace octant::visuals::overlay {
 
@@ -17,20 +18,34 @@ constexpr float lines_apart = 1.8F; ///< heights of a capital
 constexpr std::uint32_t shade = 0xb0000000U;
 constexpr std::uint32_t colour = 0xffb4f0ffU;
 
+constexpr std::string_view indent = "  "; ///< of what goes on from the line above
+
 char capital(char letter) {
     return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 
-/// What fits beside the margin of a picture.
-std::string fitting(const std::string& line, float letter_px, float width_px) {
+/// How many letters stand beside each other in a width; more than the indent.
+std::size_t letters_across(float width_px, float letter_px) {
     const float step_px = letter_px / letter_height;
-    std::size_t count = line.size();
-    while (count > 0 && static_cast<float>(text_width(count)) * step_px > width_px) {
-        --count;
+    std::size_t count = indent.size() + 1;
+    while (static_cast<float>(text_width(count + 1)) * step_px <= width_px) {
+        ++count;
     }
-    std::string text = line.substr(0, count);
-    std::transform(text.begin(), text.end(), text.begin(), capital);
-    return text;
+    return count;
+}
+
+/// Takes from the front of a text, and returns, what fits into so many letters: whole words where a
+/// space is among them.
+std::string take_fitting(std::string_view& text, std::size_t most) {
+    std::size_t count = text.size();
+    if (count > most) {
+        const std::size_t space = text.rfind(' ', most);
+        count = space == std::string_view::npos || space == 0 ? most : space;
+    }
+    std::string taken(text.substr(0, count));
+    std::ranges::transform(taken, taken.begin(), capital);
+    text.remove_prefix(std::min(text.find_first_not_of(' ', count), text.size()));
+    return taken;
 }
 
 } // namespace
@@ -43,12 +58,16 @@ PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px)
         glm::mat3(1.0F),
         {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, shade});
     glm::vec2 at(letter_px, 2.0F * letter_px);
-    for (const std::string& line : lines) {
-        if (at.y > size.y) {
-            break;
+    const std::size_t most = letters_across(size.x - 2.0F * letter_px, letter_px);
+    for (const std::string_view line : lines) {
+        std::string_view rest = line;
+        std::string text = take_fitting(rest, most);
+        while (!text.empty() && at.y <= size.y) {
+            canvas_.text({at, letter_px}, text);
+            at.y += lines_apart * letter_px;
+            text = take_fitting(rest, most - indent.size());
+            text = text.empty() ? text : std::string(indent) + text;
         }
-        canvas_.text({at, letter_px}, fitting(line, letter_px, size.x - 2.0F * letter_px));
-        at.y += lines_apart * letter_px;
     }
     return canvas_.finish();
 }

@@ -45,6 +45,21 @@ MavLinkFrame position(std::uint32_t ms, double lat_deg, double lon_deg, double a
     return {MavLinkKind::GlobalPositionInt, 7, writer.take()};
 }
 
+MavLinkFrame hil_state() {
+    WireWriter writer(ByteOrder::Little);
+    writer.add(std::uint64_t{2000000});
+    for (const float value : {0.70710678F, 0.0F, 0.0F, 0.70710678F, 0.0F, 0.0F, 0.5F}) {
+        writer.add(value); // a quarter turn to the right; then rates
+    }
+    writer.add(std::int32_t{470000000});
+    writer.add(std::int32_t{80000000});
+    writer.add(std::int32_t{123000});
+    for (int i = 0; i < 8; ++i) {
+        writer.add(std::int16_t{0});
+    }
+    return {MavLinkKind::HilStateQuaternion, 1, writer.take()};
+}
+
 } // namespace
 
 TEST_CASE("the heartbeat that ArduPilot's pages show is read") {
@@ -110,19 +125,8 @@ TEST_CASE("positions without attitudes are poses of their own") {
 }
 
 TEST_CASE("once HIL_STATE_QUATERNION comes it is the only source of a pose") {
-    WireWriter writer(ByteOrder::Little);
-    writer.add(std::uint64_t{2000000});
-    for (const float value : {0.70710678F, 0.0F, 0.0F, 0.70710678F, 0.0F, 0.0F, 0.5F}) {
-        writer.add(value); // a quarter turn to the right; then rates
-    }
-    writer.add(std::int32_t{470000000});
-    writer.add(std::int32_t{80000000});
-    writer.add(std::int32_t{123000});
-    for (int i = 0; i < 8; ++i) {
-        writer.add(std::int16_t{0});
-    }
     MavLinkPose pose;
-    const auto fix = pose.take({MavLinkKind::HilStateQuaternion, 1, writer.take()});
+    const auto fix = pose.take(hil_state());
     REQUIRE(fix.has_value());
     CHECK(fix->attitude.heading_rad == Approx(0.5 * pi));
     CHECK(fix->altitude_m == 123.0);
@@ -130,6 +134,17 @@ TEST_CASE("once HIL_STATE_QUATERNION comes it is the only source of a pose") {
     CHECK(fix->body_rates_radps->z == Approx(0.5));
     CHECK_FALSE(pose.take(position(3000, 1.0, 1.0, 1.0)).has_value());
     CHECK_FALSE(pose.take(attitude(3000, 0.0F, 0.0F, 0.0F)).has_value());
+}
+
+TEST_CASE("GLOBAL_POSITION_INT tells HIL_STATE_QUATERNION and ATTITUDE the height of home") {
+    MavLinkPose pose;
+    CHECK_FALSE(pose.take(hil_state())->above_home_m.has_value());
+    pose.take(position(3000, 47.0, 8.0, 130.0)); // 12.5 m above home
+    CHECK(*pose.take(hil_state())->above_home_m == Approx(123.0 - 117.5));
+    MavLinkPose other;
+    other.take(attitude(900, 0.0F, 0.0F, 0.0F));
+    other.take(position(1000, 47.0, 8.0, 500.0));
+    CHECK(*other.take(attitude(1500, 0.0F, 0.0F, 0.0F))->above_home_m == Approx(13.0)); // 1 m/s up
 }
 
 TEST_CASE("bytes that are no MAVLink are passed over up to the next frame") {

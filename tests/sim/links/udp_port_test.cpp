@@ -58,6 +58,7 @@ TEST_CASE("addresses are read from text or refused") {
     CHECK(text_of(peer_from_text("--send", "localhost:8005")) == "127.0.0.1:8005");
     CHECK_THROWS_AS(address_from_text("127.0.0"), Error);
     for (const char* wrong : {"127.0.0.1", "127.0.0.1:0", "127.0.0.1:70000", ":5", "127.0.0.1:x"}) {
-        CHECK_THROWS_WITH(peer_from_text("--send", wrong), Catch::Contains("--send: expected HOST:PORT"));
+        CHECK_THROWS_WITH(
+            peer_from_text("--send", wrong), Catch::Contains("--send: expected HOST:PORT"));
     }
 }

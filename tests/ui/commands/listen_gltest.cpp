@@ -141,6 +141,37 @@ TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is rep
     CHECK_THAT(replay.out, Contains("same states, same pictures"));
 }
 
+TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
+    links::UdpPort receiver(loopback, 0);
+    const std::vector<std::string> arguments{
+        "listen",
+        "--headless",
+        "--size",
+        "64x36",
+        "--seconds",
+        "1",
+        "--send",
+        "fdm:127.0.0.1:" + std::to_string(receiver.port())};
+    std::vector<std::string> alone = arguments;
+    for (const std::string port : {"--fdm-port", "--mavlink-port", "--dis-port", "--cigi-port"}) {
+        alone.insert(alone.end(), {port, port == "--fdm-port" ? "0" : "-1"});
+    }
+    REQUIRE(run_octant(alone).exit_code == 0);
+    std::vector<links::Datagram> packets;
+    receiver.drain(links::Protocol::Fdm, 0.0, packets);
+    CHECK(packets.empty());
+
+    REQUIRE(run_with_packets(arguments).exit_code == 0);
+    receiver.drain(links::Protocol::Fdm, 0.0, packets);
+    CHECK_FALSE(packets.empty());
+    for (const links::Datagram& packet : packets) {
+        links::Fix fix;
+        REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::Fault::None);
+        CHECK(fix.latitude_deg == Approx(47.0).margin(0.1));
+        CHECK(fix.longitude_deg == Approx(8.0).margin(0.1));
+    }
+}
+
 TEST_CASE("a live recording cannot be flown like a path") {
     for (const std::vector<std::string>& line :
          {std::vector<std::string>{"fly", "live"}, {"view", "live"}}) {
