@@ -1,6 +1,7 @@
 // The way to an order that never fails: polygons are divided by planes (a BSP tree of clusters).
 #include "visuals/draworder/parted_order.h"
 
+#include "visuals/draworder/cut_pieces.h"
 #include "visuals/draworder/model_faces.h"
 #include "visuals/draworder/precedence.h"
 #include "visuals/draworder/turning_parts.h"
@@ -181,12 +182,7 @@ private:
     /// Adds to a list the pieces that were cut since there were `count`, behind what they are cut
     /// from.
     void catch_up(Polygons& list, std::size_t count) const {
-        for (std::size_t made = count; made < pieces_.count(); ++made) {
-            const auto whole = std::ranges::find(list, pieces_.cut_from(made));
-            if (whole != list.end()) {
-                list.insert(whole + 1, static_cast<std::uint32_t>(made));
-            }
-        }
+        add_pieces(list, pieces_.cut_from(count), static_cast<std::uint32_t>(count));
     }
 
     void find_turning_parts() {

@@ -134,6 +134,7 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
 
 /// The branch of a node. Throws SearchGivenUp.
 std::unique_ptr<Branch> TreeBuilder::found(EyeNode& node, std::size_t depth) {
+    check_entries(entries_); // where a list was too much already, another one is, too
     if (depth == search_.most_depth) {
         throw SearchGivenUp{
             fmt::format("{} planes one after another make no cell", search_.most_depth)};

@@ -4,11 +4,12 @@
 #include "visuals/draworder/working_model.h"
 
 #include "sim/base/plane.h"
+#include "visuals/draworder/cut_pieces.h"
 #include "visuals/draworder/cycle_split.h"
 #include "visuals/draworder/split.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::draworder {
@@ -79,12 +80,10 @@ bool WorkingModel::catch_up(EyeNode& node) const {
 }
 
 void WorkingModel::catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const {
-    for (std::size_t made = polygons; made < faces.faces.size(); ++made) {
-        const auto twin = std::ranges::find(list, twins[made - first_count]);
-        if (twin != list.end()) {
-            list.insert(twin + 1, static_cast<std::uint32_t>(made));
-        }
-    }
+    add_pieces(
+        list,
+        std::span(twins).subspan(polygons - first_count),
+        static_cast<std::uint32_t>(polygons));
 }
 
 } // namespace octant::visuals::draworder

@@ -58,8 +58,11 @@ public:
     /// How many pieces were added since the start.
     std::size_t added() const { return pieces_.size() - first_count_; }
 
-    /// The piece that an added one was cut from, and with which it shares its plane.
-    std::uint32_t cut_from(std::size_t piece) const { return cut_from_[piece - first_count_]; }
+    /// Which pieces those from number `first` on, which were added, were cut from. They share their
+    /// planes.
+    std::span<const std::uint32_t> cut_from(std::size_t first) const {
+        return std::span(cut_from_).subspan(first - first_count_);
+    }
 
     /// Makes a piece stand for what its polygon sweeps: corners in body axes, metres. A body is one
     /// that has no plane.

@@ -1,5 +1,6 @@
 #include "models/polygons/polygon_check.h"
 #include "tests/order_shapes.h"
+#include "visuals/draworder/cut_pieces.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/split.h"
 
@@ -287,4 +288,13 @@ TEST_CASE("the bodies of a pile face outward, lie close together and are the sam
             }
         }
     }
+}
+
+TEST_CASE("pieces go into a list behind what they were cut from, the latest first") {
+    std::vector<std::uint32_t> list{5, 1, 3};
+    add_pieces(list, {}, 6);
+    CHECK(list == std::vector<std::uint32_t>{5, 1, 3});
+    const std::vector<std::uint32_t> cut_from{1, 6, 0, 1}; // of the pieces 6 to 9
+    add_pieces(list, cut_from, 6);
+    CHECK(list == std::vector<std::uint32_t>{5, 1, 9, 6, 7, 3});
 }
