@@ -109,7 +109,8 @@ Outcome fly(const Truth& truth, const Way& way, double delay_s, double length_s 
                 fix.velocity_ned_mps = glm::dvec3(0.0);
             }
             if (way.with_clock) {
-                fix.ticks = static_cast<std::uint32_t>(packets[next].sent_s * 1e6 + 4294000000.0);
+                const double ticks = packets[next].sent_s * 1e6 + 4294000000.0;
+                fix.ticks = static_cast<std::uint32_t>(static_cast<std::uint64_t>(ticks)); // wraps
             }
             vehicle.add(fix, truth.position_m(packets[next].sent_s), packets[next].arrival_s);
         }

@@ -10,8 +10,8 @@
 
 namespace octant::tests {
 
-/// Memory of this process that is in use, bytes.
-double resident_bytes();
+/// Memory of this process that is in use, bytes: resident, or allocated under a sanitizer.
+double used_bytes();
 
 /// Sends packets to a port of this machine that are nearly right, and some that are anything:
 /// `per_s` a second, or as fast as it can where that is 0.
