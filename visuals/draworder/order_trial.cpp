@@ -34,7 +34,8 @@ constexpr double hair = 3e-9;
 constexpr std::size_t most_comparisons = 20'000'000;
 constexpr std::size_t most_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
-constexpr std::size_t rays_a_pair = 100; ///< that no proof was found for
+/// So many rays are cast at each pair for which no proof was found.
+constexpr std::size_t rays_a_pair = 100;
 /// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
 constexpr double in_plane = 1e-9;
 

@@ -176,7 +176,7 @@ private:
 
     void look_at_side(const Task& task, int child, const Plane& wall) {
         if (child == DrawOrder::nothing) {
-            return; // unclaimed
+            return; // nothing is painted for these eyes, and nothing is claimed for them
         }
         Task side{child, task.walls, task.expected, false};
         side.walls.push_back(wall);

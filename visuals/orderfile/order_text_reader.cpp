@@ -180,7 +180,8 @@ private:
             const auto number = words_.count("the number of a later node", later, most);
             if (!below_one_.insert(number).second) {
                 words_.back();
-                words_.refuse("each node below one other"); // else there is no end of ways
+                // Where nodes have several parents, the ways from the root may be too many to walk.
+                words_.refuse("each node below one other");
             }
             return static_cast<int>(number);
         }

@@ -117,7 +117,7 @@ private:
             return list_of(std::move(list));
         }
         const int node = new_node({});
-        if (end - first == 1) { // a ring alone, painted last of nothing
+        if (end - first == 1) { // a ring alone: nothing is painted before it
             to_do_.push_back(
                 {components[first], node, &Node::back, depth + 1, true, components[first].size()});
             return node;

@@ -58,8 +58,7 @@ private:
     void take_structure() {
         if (!structure_.take()) {
             words_.refuse("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
-                          "sum, never, away or "
-                          "unproved");
+                          "sum, never, away or unproved");
         }
         if (claims_) {
             error_at(
