@@ -32,7 +32,8 @@ struct PictureValues {
     glm::vec4 sunlight;
     glm::mat4 ray_from_pixel;
     scene::TexturePlaces ground_texture;
-    scene::Grain grain;
+    glm::vec4 grain_x;
+    glm::vec4 grain_y;
 };
 
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
@@ -54,6 +55,17 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows
     return glm::transpose(plan.world_to_view) * view_ray;
 }
 
+/// A part of the eye's place in the fine pattern at each scale; negative where there is none.
+glm::vec4 eye_in_grain(const std::optional<scene::Grain>& grain, glm::length_t part) {
+    glm::vec4 at_eye(-1.0F);
+    if (grain) {
+        for (std::size_t scale = 0; scale < grain->at_eye.size(); ++scale) {
+            at_eye[static_cast<glm::length_t>(scale)] = grain->at_eye[scale][part];
+        }
+    }
+    return at_eye;
+}
+
 PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows) {
     const float visibility_m = plan.haze.visibility_m;
     return {
@@ -66,7 +78,8 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
         glm::vec4(plan.sunlight, 0.0F),
         ray_from_pixel(plan, rect, rows),
         plan.ground_texture.value_or(scene::TexturePlaces()),
-        plan.grain.value_or(scene::Grain())};
+        eye_in_grain(plan.grain, 0),
+        eye_in_grain(plan.grain, 1)};
 }
 
 } // namespace

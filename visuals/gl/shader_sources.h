@@ -9,7 +9,6 @@ extern const char* const ground_textured_vert;
 extern const char* const ground_textured_frag;
 extern const char* const sky_vert;
 extern const char* const aircraft_vert;
-extern const char* const smooth_frag;
 extern const char* const aircraft_frag;
 extern const char* const ground_mesh_geom;
 extern const char* const ground_mesh_frag;

@@ -2,11 +2,14 @@
 
 #include "sim/base/error.h"
 #include "visuals/gl/context.h"
+#include "visuals/scene/grain_pattern.h"
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <fmt/format.h>
 #include <string_view>
+#include <vector>
 
 namespace octant::visuals::gl {
 namespace {
@@ -77,16 +80,41 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
     return texture;
 }
 
-Object make_texture(const Functions& gl, const scene::GrainPattern& pattern) {
+Object make_grain_texture(const Functions& gl) {
     Object texture = make_texture(gl, "ground's fine pattern");
-    const auto side = static_cast<GLsizei>(pattern.size);
-    const auto levels = std::bit_width(static_cast<unsigned>(pattern.size));
-    gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels), GL_R8, side, side);
+    const auto& levels = scene::grain_levels();
+    const auto side = static_cast<GLsizei>(levels.front().size);
+    gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
-    gl.texture_sub_image_2d(
-        texture.name(), 0, 0, 0, side, side, GL_RED, GL_UNSIGNED_BYTE, pattern.texels.data());
-    gl.generate_texture_mipmap(texture.name());
+    GLint number = 0;
+    for (const scene::GrainPattern& level : levels) {
+        gl.texture_sub_image_2d(
+            texture.name(),
+            number++,
+            0,
+            0,
+            level.size,
+            level.size,
+            GL_RED,
+            GL_UNSIGNED_BYTE,
+            level.texels.data());
+    }
     set_filters(gl, texture, GL_REPEAT);
+    return texture;
+}
+
+Object make_texture(const Functions& gl, const scene::CoverContrast& contrast) {
+    Object texture = make_texture(gl, "contrast of ground's covers");
+    std::vector<glm::vec3> shares;
+    shares.reserve(contrast.table().size());
+    for (const std::uint32_t entry : contrast.table()) {
+        shares.push_back(scene::CoverContrast::shares_of(entry));
+    }
+    constexpr GLsizei width = scene::CoverContrast::patterns;
+    constexpr GLsizei height = scene::CoverContrast::kinds;
+    gl.texture_storage_2d(texture.name(), 1, GL_RGB32F, width, height);
+    gl.texture_sub_image_2d(
+        texture.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, shares.data());
     return texture;
 }
 

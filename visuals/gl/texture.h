@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
-#include "visuals/scene/grain_pattern.h"
+#include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/ground_texture.h"
 
 namespace octant::visuals::gl {
@@ -17,7 +17,10 @@ enum class TextureKind {
 /// driver has no memory for it.
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
 
-/// The ground's fine pattern, a byte a texel, with all its mip levels; it repeats beyond its edge.
-Object make_texture(const Functions& gl, const scene::GrainPattern& pattern);
+/// The ground's fine pattern, a byte a texel, with its own levels; it repeats beyond its edge.
+Object make_grain_texture(const Functions& gl);
+
+/// A texel for each kind (up) and pattern (right): the shares by which a colour changes.
+Object make_texture(const Functions& gl, const scene::CoverContrast& contrast);
 
 } // namespace octant::visuals::gl

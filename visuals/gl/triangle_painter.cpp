@@ -19,6 +19,7 @@ using scene::PaintStep;
 constexpr GLuint albedo_unit = 0;
 constexpr GLuint normal_unit = 1;
 constexpr GLuint grain_unit = 2;
+constexpr GLuint contrast_unit = 3;
 constexpr GLint mesh_look_uniform = 8;
 
 constexpr std::size_t first_capacity_bytes = std::size_t{1} << 20;
@@ -38,8 +39,8 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl)
     , state_(state)
     , ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag}))
-    , sky_programs_{make_program(gl, "sky", {sky_vert, smooth_frag}), {}}
-    , grain_(make_texture(gl, scene::grain_pattern()))
+    , sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}
+    , grain_(make_grain_texture(gl))
     , vertices_(gl, "ground and sky vertices", first_capacity_bytes)
     , indices_(gl, "ground and sky indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
@@ -68,6 +69,18 @@ void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
     }
 }
 
+void TrianglePainter::use_grain(const scene::FramePlan& plan) {
+    if (!plan.grain) {
+        return;
+    }
+    if (plan.grain->contrast != shown_contrast_) {
+        shown_contrast_ = plan.grain->contrast;
+        contrast_ = make_texture(gl_, *shown_contrast_);
+    }
+    gl_.bind_texture_unit(grain_unit, grain_.name());
+    gl_.bind_texture_unit(contrast_unit, contrast_->name());
+}
+
 void TrianglePainter::upload(const scene::FramePlan& plan) {
     use_mesh_look(plan);
     has_numbers_ = plan.ground_has_numbers;
@@ -75,7 +88,7 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
         number_programs_ =
             make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
     }
-    gl_.bind_texture_unit(grain_unit, grain_.name());
+    use_grain(plan);
     textured_ = plan.ground_texture.has_value();
     if (textured_) {
         assert(texture_);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace octant::visuals::gl {
@@ -49,12 +50,15 @@ private:
     }
 
     void use_mesh_look(const scene::FramePlan& plan);
+    void use_grain(const scene::FramePlan& plan);
 
     const Functions& gl_;
     DrawState& state_;
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
     Object grain_;
+    std::shared_ptr<const scene::CoverContrast> shown_contrast_; ///< in contrast_
+    std::optional<Object> contrast_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
     std::optional<ProgramPair> number_programs_;

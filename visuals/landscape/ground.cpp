@@ -49,6 +49,9 @@ const nature::Backdrop& Ground::surroundings() const {
                  },
                  [this](const glm::dvec2& at_m, double footprint_m) {
                      return colour_at(at_m.x, at_m.y, footprint_m);
+                 },
+                 [this](const glm::dvec2& at_m, double footprint_m) {
+                     return covers_at(at_m.x, at_m.y, footprint_m);
                  }});
         }
     });

@@ -5,6 +5,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/nature/backdrop.h"
+#include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
@@ -52,9 +53,18 @@ public:
     virtual double mean_height_m() const = 0;
     virtual glm::vec3 mean_colour() const = 0;
 
+    /// How pixels differ from the colours of its vertices, whose alpha says of which covers they
+    /// are mixed; null where it says nothing.
+    virtual std::shared_ptr<const scene::CoverContrast> cover_contrast() const { return nullptr; }
+
     /// Colour of a place on the map as the mean over about `footprint_m`, display values.
     virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
         return mean_colour();
+    }
+
+    /// The number of the covers of that colour, 0..255; 0 where it says nothing.
+    virtual float covers_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
+        return 0.0F;
     }
 
     /// The land around the map; nothing for ground without samples. Made when it is first asked

@@ -47,16 +47,21 @@ ground_colours(const models::heights::HeightField& field, const scene::AirSettin
     return colours;
 }
 
+GroundPoint
+nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m) {
+    const glm::dvec2 place = ground.grid_from_world(at_m.x, at_m.y);
+    const int column = std::clamp(static_cast<int>(std::lround(place.x)), 0, ground.columns() - 1);
+    const int row = std::clamp(static_cast<int>(std::lround(place.y)), 0, ground.rows() - 1);
+    const int step = std::max(static_cast<int>(footprint_m / (2.0 * ground.spacing_m())), 1);
+    return ground_point(ground, column, row, step);
+}
+
 glm::vec3 nearest_colour(
     const terrain::GroundSamples& ground,
     const GroundPalette& palette,
     const glm::dvec2& at_m,
     double footprint_m) {
-    const glm::dvec2 place = ground.grid_from_world(at_m.x, at_m.y);
-    const int column = std::clamp(static_cast<int>(std::lround(place.x)), 0, ground.columns() - 1);
-    const int row = std::clamp(static_cast<int>(std::lround(place.y)), 0, ground.rows() - 1);
-    const int step = std::max(static_cast<int>(footprint_m / (2.0 * ground.spacing_m())), 1);
-    return palette.lit(ground_point(ground, column, row, step), static_cast<float>(footprint_m));
+    return palette.lit(nearest_point(ground, at_m, footprint_m), static_cast<float>(footprint_m));
 }
 
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours) {

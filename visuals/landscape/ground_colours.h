@@ -23,7 +23,11 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 std::vector<std::uint32_t>
 ground_colours(const models::heights::HeightField& field, const scene::AirSettings& settings);
 
-/// Colour of the sample nearest to a place, world axes, as the mean over about `footprint_m`.
+/// The sample nearest to a place, world axes, with the mean slope over about `footprint_m`.
+GroundPoint
+nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m);
+
+/// Its colour as the mean over about `footprint_m`.
 glm::vec3 nearest_colour(
     const terrain::GroundSamples& ground,
     const GroundPalette& palette,

@@ -44,7 +44,10 @@ constexpr std::array arid_stops = {
     Stop{2400.0F, {0.42F, 0.45F, 0.28F}}};
 constexpr glm::vec3 temperate_rock(0.47F, 0.44F, 0.41F);
 constexpr glm::vec3 scree(0.54F, 0.51F, 0.46F);
+constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
+constexpr float shrub_share = 0.35F; ///< of ground where they grow
 constexpr glm::vec3 hedge(0.19F, 0.29F, 0.13F);
+constexpr scene::Cover snow_on_ground{snow_colour, 0.03F};
 constexpr float band_m = 85.0F;   ///< thickness of a stratum of arid rock ...
 constexpr float ledge_m = 13.0F;  ///< ... of a layer within it ...
 constexpr float bed_m = 3.5F;     ///< ... and of a bed within that
@@ -237,6 +240,14 @@ float shrubs_of(const Site& site) {
     return glm::smoothstep(0.1F, 0.5F, site.patches + 0.6F * small_patches(site, 60.0F));
 }
 
+namespace {
+
+float arid_rock(const Site& site) {
+    return glm::smoothstep(0.05F, 0.25F, site.steepness);
+}
+
+} // namespace
+
 glm::vec3 arid(const Site& site) {
     const glm::vec3 level = level_cover(arid_stops, site.height_m + 60.0F * site.patches);
     const float height_m = site.height_m + 12.0F * site.patches;
@@ -251,10 +262,35 @@ glm::vec3 arid(const Site& site) {
         glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
         (1.0F + 0.22F * ledges) * mottled(site, 40.0F, 0.07F);
     const glm::vec3 grown =
-        glm::mix(level, glm::vec3(0.36F, 0.36F, 0.22F), 0.35F * shrubs_of(site)) *
-        mottled(site, 90.0F, 0.09F);
-    return glm::mix(grown, rock, glm::smoothstep(0.05F, 0.25F, site.steepness)) *
-           (1.0F + 0.10F * site.patches);
+        glm::mix(level, shrubs, shrub_share * shrubs_of(site)) * mottled(site, 90.0F, 0.09F);
+    return glm::mix(grown, rock, arid_rock(site)) * (1.0F + 0.10F * site.patches);
+}
+
+std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers() {
+    return {
+        scene::Cover{forest, 0.17F},
+        scene::Cover{meadow_stops[1].colour, 0.08F},
+        scene::Cover{{0.45F, 0.44F, 0.39F}, 0.15F},
+        snow_on_ground};
+}
+
+std::array<scene::Cover, scene::CoverContrast::covers> arid_covers() {
+    return {
+        scene::Cover{shrubs, 0.15F},
+        scene::Cover{arid_stops[1].colour, 0.09F},
+        scene::Cover{arid_stops[2].colour, 0.15F},
+        snow_on_ground};
+}
+
+float temperate_mixture(const Site& site) {
+    const Cover cover = cover_of(site);
+    const float grown = glm::mix(level_number, grown_number, cover.wooded);
+    return glm::mix(grown, rock_number, std::max(cover.bare, 0.6F * scree_cover(site)));
+}
+
+float arid_mixture(const Site& site) {
+    const float grown = glm::mix(level_number, grown_number, shrub_share * shrubs_of(site));
+    return glm::mix(grown, rock_number, arid_rock(site));
 }
 
 } // namespace octant::visuals::landscape

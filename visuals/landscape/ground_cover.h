@@ -2,8 +2,11 @@
 
 #include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
+#include "visuals/scene/cover_contrast.h"
 
 #include <glm/vec3.hpp>
+
+#include <array>
 
 namespace octant::visuals::landscape {
 
@@ -54,5 +57,20 @@ float shrubs_of(const Site& site);
 
 /// Own colour of desert ground, display values.
 glm::vec3 arid(const Site& site);
+
+constexpr glm::vec3 snow_colour(0.93F, 0.94F, 0.96F);
+
+/// The covers of ground for scene::CoverContrast, by their numbers: woods or shrubs, meadows or
+/// bare soil, rock and snow.
+constexpr float grown_number = 64.0F;
+constexpr float level_number = 128.0F;
+constexpr float rock_number = 192.0F;
+constexpr float snow_number = 255.0F;
+std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers();
+std::array<scene::Cover, scene::CoverContrast::covers> arid_covers();
+
+/// What temperate() and arid() are mixed of, as such a number; at least grown_number.
+float temperate_mixture(const Site& site);
+float arid_mixture(const Site& site);
 
 } // namespace octant::visuals::landscape

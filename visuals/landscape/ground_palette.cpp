@@ -16,7 +16,6 @@ namespace octant::visuals::landscape {
 
 namespace {
 
-constexpr glm::vec3 snow(0.93F, 0.94F, 0.96F);
 constexpr glm::vec3 water_colour(0.10F, 0.21F, 0.28F);
 constexpr glm::vec3 shallow_water(0.27F, 0.40F, 0.36F);
 
@@ -81,10 +80,10 @@ glm::vec3 GroundPalette::own(const GroundPoint& point, float footprint_m) const 
     }
     const float white = snow_cover(site, point.normal, climate_);
     if (climate_.arid) {
-        return glm::mix(arid(site), snow, white);
+        return glm::mix(arid(site), snow_colour, white);
     }
     site.height_m = height_of_cover_m(site.height_m, climate_);
-    return glm::mix(temperate(site), snow, white);
+    return glm::mix(temperate(site), snow_colour, white);
 }
 
 glm::vec3 GroundPalette::lit(const GroundPoint& point, float footprint_m) const {
@@ -95,20 +94,25 @@ glm::vec3 GroundPalette::lit(const GroundPoint& point, float footprint_m) const 
 }
 
 std::uint32_t GroundPalette::packed(const GroundPoint& point, float footprint_m) const {
-    constexpr float bare_grain = 1.0F;
-    constexpr float grown_grain = 0.7F;
-    constexpr float snow_grain = 0.25F;
-    const std::uint32_t colour = models::packed_colour(lit(point, footprint_m)) & 0x00ffffffU;
+    const auto number = static_cast<std::uint32_t>(std::lround(covers(point, footprint_m)));
+    return (models::packed_colour(lit(point, footprint_m)) & 0x00ffffffU) | number << 24U;
+}
+
+float GroundPalette::covers(const GroundPoint& point, float footprint_m) const {
     if (is_water(point)) {
-        return colour;
+        return 0.0F;
     }
-    const Site site = site_of(point, footprint_m, water_m_);
-    const float bare = climate_.arid ? 1.0F : glm::smoothstep(0.06F, 0.2F, site.steepness);
-    const float grain = glm::mix(
-        glm::mix(grown_grain, bare_grain, bare),
-        snow_grain,
-        snow_cover(site, point.normal, climate_));
-    return colour | static_cast<std::uint32_t>(std::lround(grain * 255.0F)) << 24U;
+    Site site = site_of(point, footprint_m, water_m_);
+    const float white = snow_cover(site, point.normal, climate_);
+    if (climate_.arid) {
+        return glm::mix(arid_mixture(site), snow_number, white);
+    }
+    site.height_m = height_of_cover_m(site.height_m, climate_);
+    return glm::mix(temperate_mixture(site), snow_number, white);
+}
+
+scene::CoverContrast GroundPalette::contrast() const {
+    return scene::CoverContrast(climate_.arid ? arid_covers() : temperate_covers());
 }
 
 bool GroundPalette::is_water(const GroundPoint& point) const {

@@ -6,6 +6,7 @@
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/relief_light.h"
 #include "visuals/nature/scenery.h"
+#include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 
@@ -52,9 +53,15 @@ public:
     /// The colour as own() gives it under the light that reaches the place, display values.
     glm::vec3 lit(const GroundPoint& point, float footprint_m) const;
 
-    /// The colour as lit() gives it, packed; alpha is the share of the fine pattern that the ground
-    /// has there (scene::Grain): 0 on water and nowhere else.
+    /// The colour as lit() gives it, packed; alpha is the number of the covers that it is mixed of
+    /// (scene::CoverContrast): 0 on water and nowhere else.
     std::uint32_t packed(const GroundPoint& point, float footprint_m) const;
+
+    /// The number of the covers at a place (scene::CoverContrast), 0..255; 0 on water.
+    float covers(const GroundPoint& point, float footprint_m) const;
+
+    /// How pixels differ from the mean of the covers around them.
+    scene::CoverContrast contrast() const;
 
     /// Whether a place lies under water.
     bool is_water(const GroundPoint& point) const;

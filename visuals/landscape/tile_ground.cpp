@@ -34,6 +34,8 @@ public:
         : tiles_(std::move(tiles))
         , air_(air)
         , relief_(relief_light(terrain::GroundSamples(*tiles_), air))
+        , contrast_(std::make_shared<const scene::CoverContrast>(
+              GroundPalette(air, climate_at(tiles_->facts().place)).contrast()))
         , mean_colour_(VertexColours(*tiles_, air, relief_).mean()) {}
 
     const terrain::GroundTiles& tiles() const { return *tiles_; }
@@ -54,10 +56,21 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
+    std::shared_ptr<const scene::CoverContrast> cover_contrast() const override {
+        return contrast_;
+    }
+
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
         const terrain::GroundSamples samples(*tiles_);
         const GroundPalette palette(air_, climate_at(tiles_->facts().place), relief_);
         return nearest_colour(samples, palette, {x_m, y_m}, footprint_m);
+    }
+
+    float covers_at(double x_m, double y_m, double footprint_m) const override {
+        const GroundPalette palette(air_, climate_at(tiles_->facts().place));
+        return palette.covers(
+            nearest_point(terrain::GroundSamples(*tiles_), {x_m, y_m}, footprint_m),
+            static_cast<float>(footprint_m));
     }
 
     std::optional<GroundSource> source() const override {
@@ -87,6 +100,7 @@ private:
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     scene::AirSettings air_;
     std::shared_ptr<const nature::ReliefLight> relief_;
+    std::shared_ptr<const scene::CoverContrast> contrast_;
     glm::vec3 mean_colour_;
 };
 

@@ -42,7 +42,7 @@ public:
     void
     fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins);
 
-    /// Colour of a place of the world, packed, with the share of the fine pattern for alpha.
+    /// Colour of a place of the world, packed, with the number of its covers for alpha.
     std::uint32_t at(const glm::dvec2& place_m, const glm::vec3& from_eye_m);
 
     /// What stands at a sample.

@@ -53,7 +53,8 @@ Backdrop::Corner corner_at(const MapFacts& map, double share, int number) {
     const double footprint_m = std::max(1.2 * size_m / side_corners, 0.12 * share * size_m);
     return {
         {at_m, height_m},
-        glm::mix(map.mean_colour, map.colour(twin_m, footprint_m), static_cast<float>(left))};
+        glm::mix(map.mean_colour, map.colour(twin_m, footprint_m), static_cast<float>(left)),
+        map.covers ? map.covers(twin_m, footprint_m) : 0.0F};
 }
 
 } // namespace

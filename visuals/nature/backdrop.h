@@ -17,6 +17,8 @@ struct MapFacts {
     /// Height and colour of a place on the map; the colour as the mean over so many metres.
     std::function<double(const glm::dvec2& at_m)> height_m;
     std::function<glm::vec3(const glm::dvec2& at_m, double footprint_m)> colour;
+    /// The number of the covers there, 0..255; none is 0 everywhere.
+    std::function<float(const glm::dvec2& at_m, double footprint_m)> covers = nullptr;
 };
 
 /// Land around a map that goes on as the map's own mirror image and flattens towards the mean
@@ -25,6 +27,7 @@ struct Backdrop {
     struct Corner {
         glm::dvec3 at_m{0.0}; ///< world axes
         glm::vec3 colour{0.0F};
+        float covers = 0.0F; ///< their number, 0..255
     };
 
     std::vector<Corner> corners;

@@ -1,15 +1,16 @@
 #pragma once
 
-#include "visuals/landscape/ground.h"
-#include "visuals/planning/frame_view.h"
+#include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/frame_plan.h"
 
-#include <optional>
+#include <glm/vec3.hpp>
+
+#include <memory>
 
 namespace octant::visuals::planning {
 
-/// Where the fine pattern lies on the ground of a frame, and how far it reaches: farther than its
-/// coarsest features look wider than two pixels on level ground, nobody would see it.
-scene::Grain ground_grain(const landscape::Ground& ground, const FrameView& view);
+/// Where the fine pattern lies on the ground of a frame.
+scene::Grain
+ground_grain(std::shared_ptr<const scene::CoverContrast> contrast, const glm::dvec3& eye_m);
 
 } // namespace octant::visuals::planning

@@ -9,10 +9,9 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Whether the ground of a scene has the fine pattern near the eye.
+/// Whether the ground of a scene has the fine pattern.
 bool has_grain(const Scene& scene, const scene::GroundSettings& settings) {
-    return settings.near_detail && !scene.ground_texture && scene.ground->spacing_m() > 0.0 &&
-           scene::ground_metric(settings) == scene::GroundMetric::ScreenError;
+    return settings.near_detail && !scene.ground_texture && scene.ground->cover_contrast();
 }
 
 } // namespace
@@ -141,12 +140,12 @@ void Planner::begin_plan(const FrameView& view) {
     }
     plan_.grain.reset();
     if (has_grain(scene_, settings_.ground)) {
-        plan_.grain = ground_grain(*scene_.ground, view);
+        plan_.grain = ground_grain(scene_.ground->cover_contrast(), view.camera.eye_m);
     }
 }
 
 void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {
-    shadows_.begin(ground.all, plan_.shadow_vertices);
+    shadows_.begin(ground.all, plan_.ground_texture.has_value(), plan_.shadow_vertices);
     if (settings_.surface.shadows) {
         const auto hulls = fleet_.hulls();
         for (std::size_t i = 0; i < hulls.size(); ++i) {

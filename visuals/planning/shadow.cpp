@@ -29,9 +29,10 @@ glm::vec4 unpacked(std::uint32_t colour) {
            255.0F;
 }
 
-/// Darkened, alpha too.
-std::uint32_t shaded(const glm::vec4& colour) {
-    const auto alpha = static_cast<std::uint32_t>(255.0F * shadow_share * colour.w + 0.5F);
+/// Darkened; alpha too, where it says how much light is left.
+std::uint32_t shaded(const glm::vec4& colour, bool is_light) {
+    const float left = is_light ? shadow_share : 1.0F;
+    const auto alpha = static_cast<std::uint32_t>(255.0F * left * colour.w + 0.5F);
     return (models::packed_colour(glm::vec3(colour) * shadow_share) & 0x00ffffffU) | alpha << 24U;
 }
 
@@ -61,8 +62,11 @@ ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
     , high_enough_(to_sun.z >= std::sin(rad_from_deg(least_sun_elevation_deg))) {}
 
 void ShadowCaster::begin(
-    const scene::TriangleDraw& triangles, std::vector<models::ColourVertex>& vertices) {
+    const scene::TriangleDraw& triangles,
+    bool alpha_is_light,
+    std::vector<models::ColourVertex>& vertices) {
     ground_ = triangles;
+    alpha_is_light_ = alpha_is_light;
     vertices_ = &vertices;
     vertices.clear();
     pieces_.clear();
@@ -213,7 +217,7 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
             unpacked(ground_.vertices[corner[1]].colour) * static_cast<float>(share_b) +
             unpacked(ground_.vertices[corner[2]].colour) *
                 static_cast<float>(1.0 - share_a - share_b);
-        vertices_->push_back({glm::vec3(at.at_m), shaded(colour)});
+        vertices_->push_back({glm::vec3(at.at_m), shaded(colour, alpha_is_light_)});
     }
     for (std::uint32_t i = 2; i < part_.size(); ++i) {
         indices_.insert(indices_.end(), {base, base + i - 1, base + i});

@@ -32,8 +32,12 @@ public:
     explicit ShadowCaster(const glm::dvec3& to_sun);
 
     /// Forgets the last frame. `triangles` are GroundMesher::triangles before facing; the pieces'
-    /// corners go to `vertices` and are numbered on after the ground's.
-    void begin(const scene::TriangleDraw& triangles, std::vector<models::ColourVertex>& vertices);
+    /// corners go to `vertices` and are numbered on after the ground's. Where alpha is the light
+    /// that is left, it is darkened, too.
+    void begin(
+        const scene::TriangleDraw& triangles,
+        bool alpha_is_light,
+        std::vector<models::ColourVertex>& vertices);
 
     /// Adds the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view.
     void cast(
@@ -66,6 +70,7 @@ private:
     glm::dvec3 to_sun_;
     bool high_enough_;
     scene::TriangleDraw ground_;
+    bool alpha_is_light_ = false;
     std::vector<models::ColourVertex>* vertices_ = nullptr;
     std::vector<ShadowPieces> pieces_;
     std::vector<std::uint32_t> indices_;

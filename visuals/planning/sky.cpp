@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -32,7 +33,7 @@ constexpr int sun_spokes = 32;
 constexpr std::array glare_rings_deg = {0.2665, 0.5, 0.9, 1.5, 2.5, 4.0, 7.0, 12.0, 18.0, 24.0};
 
 models::ColourVertex dome_vertex(const glm::dvec3& direction, const glm::vec3& colour) {
-    return {glm::vec3(dome_radius_m * direction), models::packed_colour(colour)};
+    return {glm::vec3(dome_radius_m * direction), models::packed_colour(colour) & 0x00ffffffU};
 }
 
 /// Mean density of the haze between the eye and a place `rise_m` above it, by that at the eye.
@@ -186,8 +187,10 @@ void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dve
         if (plain.earth_radius_m > 0.0) {
             at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * plain.earth_radius_m);
         }
-        *vertex++ = {
-            glm::vec3(at_m), models::packed_colour(seen_through(haze, at_m, corner.colour))};
+        const auto covers = static_cast<std::uint32_t>(std::lround(corner.covers));
+        const std::uint32_t colour =
+            models::packed_colour(seen_through(haze, at_m, corner.colour)) & 0x00ffffffU;
+        *vertex++ = {glm::vec3(at_m), colour | covers << 24U};
     }
 }
 

@@ -59,6 +59,7 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
             {.indices = plan.overlay.indices.subspan(step.first, step.count), .style = style});
         break;
     case PaintStep::What::Sky:
+        style.has_grain = plan.grain.has_value();
         add_slice(
             {.indices = plan.sky.indices.subspan(step.first, step.count),
              .style = style,

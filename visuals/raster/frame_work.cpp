@@ -112,7 +112,6 @@ void FrameWork::place_corners(const FrameInput& input) {
     }
     Light clear_sky = light_;
     clear_sky.per_m = 0.0F;
-    clear_sky.grain_per_m = 0.0F;
     workers_.run(static_cast<int>(tasks.size()), [&](int number, int) {
         const Task& task = tasks[static_cast<std::size_t>(number)];
         const CornerBlock& block = *task.block;

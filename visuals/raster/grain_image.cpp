@@ -8,7 +8,6 @@
 
 #include <cassert>
 #include <cstddef>
-#include <utility>
 
 namespace octant::visuals::raster {
 
@@ -50,10 +49,9 @@ ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::d
 
 GrainImage::GrainImage()
     : texels_(std::size_t{2 * side} * stride) {
-    GrainPattern pattern = scene::grain_pattern();
-    for (int level = 0; level < levels; ++level) {
-        pattern = level == 0 ? std::move(pattern) : half_of(pattern);
-        write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level)) * stride]);
+    int level = 0;
+    for (const GrainPattern& pattern : scene::grain_levels()) {
+        write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level++)) * stride]);
     }
 }
 
@@ -63,19 +61,28 @@ const GrainImage& grain_image() {
 }
 
 GrainRays grain_rays(const scene::FramePlan& plan, const Projection& projection) {
-    assert(plan.grain);
+    assert(plan.grain && plan.grain->contrast);
     const glm::dmat3 world_to_view(glm::mat3(plan.world_to_view));
     const glm::dmat4 view_to_clip(plan.view_to_clip);
     const glm::dvec2 half_px(projection.half_px);
-    const auto per_m = static_cast<double>(GrainPattern::texels_per_m);
-    const glm::dvec2 lean(GrainPattern::lean);
+    GrainRays rays;
     // Columns of world_to_view: what the world's axes are in the view's.
-    const glm::dvec3 east = (world_to_view[0] + lean.x * world_to_view[2]) * per_m;
-    const glm::dvec3 north = (world_to_view[1] + lean.y * world_to_view[2]) * per_m;
-    return {
-        ray_part(east, view_to_clip, half_px),
-        ray_part(north, view_to_clip, half_px),
-        glm::dvec2(plan.grain->at_eye) * static_cast<double>(GrainPattern::texels_a_side)};
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        rays.way[static_cast<std::size_t>(axis)] =
+            ray_part(world_to_view[axis], view_to_clip, half_px);
+    }
+    constexpr std::size_t scales = GrainPattern::scales;
+    for (std::size_t scale = 0; scale < scales; ++scale) {
+        const glm::vec2 texels =
+            plan.grain->at_eye[scale] * static_cast<float>(GrainPattern::texels_a_side);
+        rays.at_eye[scale] = texels.x;
+        rays.at_eye[scales + scale] = texels.y;
+    }
+    const scene::Haze& haze = plan.haze;
+    rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;
+    rays.haze_falloff_per_m = haze.falloff_per_m;
+    rays.contrast = plan.grain->contrast->table().data();
+    return rays;
 }
 
 } // namespace octant::visuals::raster

@@ -5,8 +5,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/grain_pattern.h"
 
-#include <glm/vec2.hpp>
-
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +19,6 @@ class GrainImage {
 public:
     static constexpr int side = scene::GrainPattern::texels_a_side;
     static constexpr int stride = side + 1; ///< texels from row to row, of all levels
-    static constexpr int levels = 9;        ///< the last one has four texels a side
 
     GrainImage();
 
@@ -36,12 +34,15 @@ private:
 /// The one that all renderers share.
 const GrainImage& grain_image();
 
-/// Where pixels look in the pattern: at_eye + ray * depth, in texels of the finest level, where
-/// depth is that along the line of sight.
+/// What pixels need to look into the pattern, and how much of it the haze leaves.
 struct GrainRays {
-    RealPlane x;
-    RealPlane y;
-    glm::dvec2 at_eye{0.0};
+    /// World directions of the lines of sight, one unit deep: east, north and up.
+    std::array<RealPlane, 3> way{};
+    /// The eye's place in the pattern at each scale, in texels: x of each, then y of each.
+    alignas(16) std::array<float, 2 * std::size_t{scene::GrainPattern::scales}> at_eye{};
+    float haze_per_m = 0.0F; ///< as Light
+    float haze_falloff_per_m = 0.0F;
+    const std::uint32_t* contrast = nullptr; ///< scene::CoverContrast::table()
 };
 
 /// Of a plan that has grain.

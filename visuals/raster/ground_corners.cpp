@@ -198,23 +198,13 @@ HWY_INLINE void place_each(
     }
 }
 
-/// The share of the fine pattern that places have without haze, as a level.
-HWY_INLINE Real grain_share(const Places& at, const Light& light) {
-    const auto squares =
-        hn::Add(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)), hn::Mul(at.z, at.z));
-    const auto left =
-        hn::Mul(hn::Sub(set(light.grain_reach_m), hn::Sqrt(squares)), set(light.grain_per_m));
-    const auto near = hn::Min(hn::Max(left, hn::Zero(Reals())), set(1.0F));
-    return hn::Mul(at.level<24>(), near);
-}
-
 void PlaceColoured(
     std::span<const models::ColourVertex> from,
     const Projection& projection,
     const Light& light,
     const ScreenCorners& to) {
     const auto own = [&](const Places& at, CornerStore& store) HWY_ATTR {
-        store.put_values(at.level<0>(), at.level<8>(), at.level<16>(), grain_share(at, light));
+        store.put_values(at.level<0>(), at.level<8>(), at.level<16>(), at.level<24>());
     };
     const auto in_haze = [&](const Places& at, CornerStore& store) HWY_ATTR {
         const Haze haze(at, light);
@@ -222,7 +212,7 @@ void PlaceColoured(
             mixed(at.level<0>(), haze.levels[0], haze.share),
             mixed(at.level<8>(), haze.levels[1], haze.share),
             mixed(at.level<16>(), haze.levels[2], haze.share),
-            hn::Mul(grain_share(at, light), hn::Sub(set(1.0F), haze.share)));
+            at.level<24>());
     };
     if (light.per_m > 0.0F) {
         place_each(from, projection, to, in_haze);

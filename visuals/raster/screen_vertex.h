@@ -15,8 +15,9 @@ struct ScreenVertex {
     std::int32_t y = 0;
     float inverse_w = 0.0F;    ///< one over the depth along the line of sight, 1/m
     std::uint32_t outside = 0; ///< bits of Outside
-    /// Red, green, blue and on ground the share of grain, 0..255; on textured ground its place in
-    /// the texture's texels (x, y), the share of light that a shadow leaves, and that of haze.
+    /// Red, green, blue and on ground the number of its covers, 0..255; on textured ground its
+    /// place in the texture's texels (x, y), the share of light that a shadow leaves, and that of
+    /// haze.
     std::array<float, 4> value{};
 };
 

@@ -91,7 +91,7 @@ struct StripLevel {
     HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const { return from_level(level(part)); }
 };
 
-/// Red, green and blue; behind them the share of grain where a triangle has any.
+/// Red, green and blue; behind them the number of its covers where it is ground.
 template <bool has_grain>
 constexpr std::size_t level_planes = has_grain ? 4 : 3;
 

@@ -25,13 +25,13 @@ namespace HWY_NAMESPACE {
 
 /// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1.
 HWY_INLINE hn::Vec<TwosWhole>
-grain_of_level(const GrainImage& image, const GrainPlaces& places, hn::Vec<TwosBits> level) {
+grain_of_level(const GrainImage& image, const GrainPlace& place, hn::Vec<TwosBits> level) {
     const TwosBits bits;
     const hn::Repartition<std::uint16_t, TwosBits> halves;
     const auto last = hn::Shr(twos_of(GrainImage::side - 1), level);
     const auto half_texel = twos_of(128);
-    const auto x = hn::Sub(hn::Shr(places.x, level), half_texel);
-    const auto y = hn::Sub(hn::Shr(places.y, level), half_texel);
+    const auto x = hn::Sub(hn::Shr(place.x, level), half_texel);
+    const auto y = hn::Sub(hn::Shr(place.y, level), half_texel);
     const auto column = hn::And(hn::ShiftRight<8>(x), last);
     const auto in_level = hn::And(hn::ShiftRight<8>(y), last);
     const auto first_row =
@@ -59,84 +59,144 @@ grain_of_level(const GrainImage& image, const GrainPlaces& places, hn::Vec<TwosB
     return hn::Sub(mean, hn::Set(TwosWhole(), 128 * 256));
 }
 
+/// Both scales of the pattern together. The squares of their shares are about one, so that the
+/// contrast stays while one gives way to the other.
 HWY_INLINE hn::Vec<TwosWhole> grain_of(const GrainImage& image, const GrainPlaces& places) {
-    const auto fine = grain_of_level(image, places, places.level);
-    if (hn::AllTrue(TwosBits(), hn::Eq(places.coarse, hn::Zero(TwosBits())))) {
-        return fine;
+    const TwosWhole whole;
+    const auto share_of = [&](hn::Vec<TwosWhole> value, hn::Vec<TwosWhole> share)
+                              HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
+    auto fine = grain_of_level(image, places.fine, places.level);
+    const auto coarse = grain_of_level(image, places.coarse, hn::Zero(TwosBits()));
+    if (!hn::AllTrue(TwosBits(), hn::Eq(places.next_level, hn::Zero(TwosBits())))) {
+        const auto next = grain_of_level(image, places.fine, hn::Add(places.level, twos_of(1)));
+        fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, places.next_level)));
     }
-    const auto coarse = grain_of_level(image, places, hn::Add(places.level, twos_of(1)));
-    const auto share = hn::BitCast(TwosWhole(), places.coarse);
-    return hn::Add(fine, hn::ShiftRight<8>(hn::Mul(hn::Sub(coarse, fine), share)));
+    const auto all = hn::Set(whole, 256);
+    const auto through = hn::BitCast(whole, places.through);
+    const auto left = hn::Sub(all, through);
+    const auto both = hn::Add(
+        share_of(fine, hn::Sub(all, share_of(through, through))),
+        share_of(coarse, hn::Sub(all, share_of(left, left))));
+    return hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
 }
 
 /// What is known of a row's pairs of pixels and of the one beside it: first where they look in the
 /// pattern, then, in `x`, the pattern there.
 struct GrainRow {
-    using Numbers = std::array<std::uint32_t, twos_a_row + twos_at_once>;
-    static constexpr std::uint32_t is_ground = 0x100;
+    using Numbers = std::array<std::uint32_t, twos_a_row>;
+    using NumbersAndOne = std::array<std::uint32_t, twos_a_row + 4>;
+    static constexpr std::uint32_t is_ground = 0x8000;
 
-    alignas(64) Numbers x;
-    Numbers y;
-    Numbers how; ///< share of the coarser level, whether there is ground, level; 0 = no ground
+    alignas(64) NumbersAndOne x;
+    alignas(64) NumbersAndOne left; ///< by the haze, and whether there is ground; 0 = none
+    alignas(64) Numbers y;
+    Numbers coarse_x;
+    Numbers coarse_y;
+    Numbers how; ///< level, share of the next level, how far the levels are gone through
 
-    HWY_INLINE void set(std::size_t two, const GrainPlaces& places) {
-        const auto ground = hn::And(places.ground, twos_of(is_ground));
-        const auto levels = hn::Or(hn::ShiftLeft<9>(places.level), places.coarse);
-        hn::StoreU(places.x, TwosBits(), &x[two]);
-        hn::StoreU(places.y, TwosBits(), &y[two]);
-        hn::StoreU(hn::Or(levels, ground), TwosBits(), &how[two]);
+    HWY_INLINE void look(
+        std::size_t two,
+        const GrainRays& rays,
+        const GrainWays& ways,
+        const GrainWay& way,
+        const Nearness& near) {
+        const TwosBits bits;
+        const GrainLook look(rays, ways, way, near);
+        const GrainPlaces& places = look.places();
+        const auto ground = hn::RebindMask(bits, hn::Gt(near.here, hn::Zero(Twos())));
+        const auto levels = hn::Or(hn::ShiftLeft<16>(places.level), places.next_level);
+        hn::StoreU(places.fine.x, bits, &x[two]);
+        hn::StoreU(places.fine.y, bits, &y[two]);
+        hn::StoreU(places.coarse.x, bits, &coarse_x[two]);
+        hn::StoreU(places.coarse.y, bits, &coarse_y[two]);
+        hn::StoreU(hn::Or(levels, hn::ShiftLeft<8>(places.through)), bits, &how[two]);
+        hn::StoreU(
+            hn::IfThenElseZero(ground, hn::Or(look.left(rays), twos_of(is_ground))),
+            bits,
+            &left[two]);
     }
 
     HWY_INLINE GrainPlaces places(std::size_t two) const {
         const TwosBits bits;
         const auto here = hn::LoadU(bits, &how[two]);
         return {
-            hn::LoadU(bits, &x[two]),
-            hn::LoadU(bits, &y[two]),
-            hn::ShiftRight<9>(here),
+            {hn::LoadU(bits, &x[two]), hn::LoadU(bits, &y[two])},
+            {hn::LoadU(bits, &coarse_x[two]), hn::LoadU(bits, &coarse_y[two])},
+            hn::ShiftRight<16>(here),
             hn::And(here, twos_of(0xff)),
-            ground(two)};
+            hn::And(hn::ShiftRight<8>(here), twos_of(0xff))};
     }
 
     /// All bits where there is any, else none.
     HWY_INLINE hn::Vec<TwosBits> ground(std::size_t two) const {
-        const auto here = hn::And(hn::LoadU(TwosBits(), &how[two]), twos_of(is_ground));
-        return hn::Sub(hn::Zero(TwosBits()), hn::ShiftRight<8>(here));
+        const auto here = hn::And(hn::LoadU(TwosBits(), &left[two]), twos_of(is_ground));
+        return hn::Sub(hn::Zero(TwosBits()), hn::ShiftRight<15>(here));
     }
 };
 
-/// Adds the pattern to colours of a row of pixels from `first` on: each changes by the pattern
-/// times its share of it.
-HWY_INLINE void change_row(const GrainRow& grain, std::size_t first, TileBuffer& buffer) {
-    const StripSigned sign;
-    constexpr auto twice_most = static_cast<std::int16_t>(
-        2.0 * 32768.0 * static_cast<double>(scene::GrainPattern::most_share));
-    constexpr std::uint16_t white = 255 * 256;
-    alignas(64) std::array<std::int16_t, tile_width> each;
-    for (std::size_t i = 0; i < twos_a_row; i += twos_at_once) {
-        const auto here = hn::LoadU(TwosBits(), &grain.x[i]);
-        const auto beside = hn::LoadU(TwosBits(), &grain.x[i + 1]);
-        const auto ground = grain.ground(i + 1);
+using TwosHalves = hn::Repartition<std::int16_t, TwosBits>;
+
+/// By how much each part of the colours of pairs of pixels changes, 2^-15 of itself.
+struct ContrastOfTwos {
+    std::array<hn::Vec<TwosHalves>, 3> part;
+
+    /// `numbers`: those of the pixels' covers, 2^-8.
+    HWY_INLINE ContrastOfTwos(
+        const GrainRow& grain,
+        std::size_t two,
+        hn::Vec<TwosBits> numbers,
+        const std::uint32_t* table) {
+        const TwosBits bits;
+        const TwosWhole whole;
+        const auto here = hn::LoadU(whole, reinterpret_cast<const std::int32_t*>(&grain.x[two]));
+        const auto beside =
+            hn::LoadU(whole, reinterpret_cast<const std::int32_t*>(&grain.x[two + 1]));
+        const auto ground = hn::BitCast(whole, grain.ground(two + 1));
         const auto next = hn::Or(hn::And(beside, ground), hn::AndNot(ground, here));
-        const auto low = hn::And(here, twos_of(0xffff));
-        const auto high = hn::AndNot(twos_of(0xffff), hn::ShiftLeft<15>(hn::Add(here, next)));
-        const hn::Repartition<std::int16_t, TwosBits> halves;
-        hn::Store(hn::BitCast(halves, hn::Or(low, high)), halves, &each[2 * i]);
+        const auto between = hn::ShiftRight<1>(hn::Add(here, next));
+        static_assert(scene::CoverContrast::patterns == 64 && scene::CoverContrast::kinds == 128);
+        const auto entry = [&](hn::Vec<TwosBits> kind, hn::Vec<TwosWhole> pattern) HWY_ATTR {
+            const auto column = hn::ShiftRight<10>(hn::Add(pattern, hn::Set(whole, 32768)));
+            const auto at = hn::Or(hn::ShiftLeft<6>(kind), hn::BitCast(bits, column));
+            return hn::GatherIndex(bits, table, hn::BitCast(whole, at));
+        };
+        const auto first = entry(hn::And(hn::ShiftRight<9>(numbers), twos_of(0x7f)), here);
+        const auto second = entry(hn::ShiftRight<25>(numbers), between);
+        const auto low = twos_of(0xffc0);
+        const auto high = twos_of(0xffc00000U);
+        const auto both = [&](hn::Vec<TwosBits> of_first, hn::Vec<TwosBits> of_second) HWY_ATTR {
+            return hn::BitCast(
+                TwosHalves(), hn::Or(hn::And(of_first, low), hn::And(of_second, high)));
+        };
+        part[0] = both(hn::ShiftRight<16>(first), second);
+        part[1] = both(hn::ShiftRight<6>(first), hn::ShiftLeft<10>(second));
+        part[2] = both(hn::ShiftLeft<4>(first), hn::ShiftLeft<20>(second));
     }
-    for (std::size_t i = 0; i < tile_width; i += part_px) {
-        const auto share = hn::BitCast(
-            sign, hn::ShiftRight<1>(hn::LoadU(Strip(), buffer.sums[3].data() + first + i)));
-        const auto seen = hn::ShiftLeft<1>(hn::MulHigh(hn::Load(sign, &each[i]), share));
-        const auto twice = hn::ShiftLeft<1>(hn::MulHigh(seen, hn::Set(sign, twice_most)));
+};
+
+/// Changes colours of a row of pixels from `first` on by the pattern.
+HWY_INLINE void change_row(
+    const GrainRow& grain, const std::uint32_t* table, std::size_t first, TileBuffer& buffer) {
+    const TwosHalves halves;
+    const hn::RebindToUnsigned<TwosHalves> values;
+    const auto white = hn::Set(values, std::uint16_t{255 * 256});
+    for (std::size_t two = 0; two < twos_a_row; two += twos_at_once) {
+        const std::size_t at = first + 2 * two;
+        const auto numbers = hn::LoadU(values, buffer.sums[3].data() + at);
+        const ContrastOfTwos contrast(grain, two, hn::BitCast(TwosBits(), numbers), table);
+        const auto left = hn::And(hn::LoadU(TwosBits(), &grain.left[two]), twos_of(0x7fff));
+        const auto left_of_both = hn::BitCast(halves, hn::Or(left, hn::ShiftLeft<16>(left)));
         for (std::size_t k = 0; k < 3; ++k) {
-            std::uint16_t* const sums = buffer.sums[k].data() + first + i;
-            const auto own = hn::LoadU(Strip(), sums);
-            const auto half_own = hn::BitCast(sign, hn::ShiftRight<1>(own));
-            const auto change = hn::ShiftLeft<1>(hn::MulHigh(half_own, twice));
-            const auto more = hn::BitCast(Strip(), hn::Max(change, hn::Zero(sign)));
-            const auto less = hn::BitCast(Strip(), hn::Max(hn::Neg(change), hn::Zero(sign)));
-            const auto brighter = hn::Min(hn::SaturatedAdd(own, more), hn::Set(Strip(), white));
-            hn::StoreU(hn::SaturatedSub(brighter, less), Strip(), sums);
+            std::uint16_t* const sums = buffer.sums[k].data() + at;
+            const auto own = hn::LoadU(values, sums);
+            const auto half_own = hn::BitCast(halves, hn::ShiftRight<1>(own));
+            const auto seen = hn::ShiftLeft<1>(hn::MulHigh(contrast.part[k], left_of_both));
+            const auto quarter = hn::MulHigh(half_own, seen);
+            const auto times_four = [&](hn::Vec<TwosHalves> value) HWY_ATTR {
+                return hn::ShiftLeft<2>(hn::BitCast(values, hn::Max(value, hn::Zero(halves))));
+            };
+            const auto brighter = hn::Min(hn::SaturatedAdd(own, times_four(quarter)), white);
+            hn::StoreU(hn::SaturatedSub(brighter, times_four(hn::Neg(quarter))), values, sums);
         }
     }
 }
@@ -147,20 +207,22 @@ constexpr std::size_t parts_a_row = twos_a_row / twos_at_once;
 /// ground.
 HWY_INLINE std::uint32_t
 look_at_row(const TileJob& job, const TileBuffer& buffer, int row, GrainRow& grain) {
-    const GrainRayPair rays(*job.grain, job.first_px + glm::ivec2(0, row));
-    const bool is_last = row + 1 == job.size_px.y;
+    const GrainWays ways(*job.grain, job.first_px + glm::ivec2(0, row));
     const float* const near = buffer.nearness.data() + static_cast<std::size_t>(row) * tile_width;
-    const float* const other = is_last && row > 0 ? near - tile_width : near + tile_width;
+    const float* const below = row + 1 < job.size_px.y ? near + tile_width : near;
+    const float* const above = row > 0 ? near - tile_width : near;
     std::uint32_t parts = 0;
     for (std::size_t part = 0; part < parts_a_row; ++part) {
         const std::size_t two = part * twos_at_once;
-        const Nearness nearness(near + 2 * two, other + 2 * two, is_last);
+        const Nearness nearness = nearness_of_row(near + 2 * two, above + 2 * two, below + 2 * two);
         if (hn::AllTrue(Twos(), hn::Eq(nearness.here, hn::Zero(Twos())))) {
-            hn::StoreU(hn::Zero(TwosBits()), TwosBits(), &grain.how[two]);
+            hn::StoreU(hn::Zero(TwosBits()), TwosBits(), &grain.left[two]);
             continue;
         }
         parts |= std::uint32_t{1} << part;
-        grain.set(two, GrainLook(rays, rays.x.in_row(two), rays.y.in_row(two), nearness).places());
+        const GrainWay way{
+            ways.part[0].in_row(two), ways.part[1].in_row(two), ways.part[2].in_row(two)};
+        grain.look(two, *job.grain, ways, way, nearness);
     }
     return parts;
 }
@@ -184,10 +246,15 @@ look_beside(const TileJob& job, const TileBuffer& buffer, GrainRow& grain) {
             down[row] = is_last ? -step : step;
         }
     }
-    const GrainRayPair rays(*job.grain, job.first_px);
+    const GrainWays ways(*job.grain, job.first_px);
     for (std::size_t row = 0; row < twos_a_row; row += twos_at_once) {
-        const Nearness nearness(&here[row], &across[row], &down[row]);
-        grain.set(row, GrainLook(rays, rays.x.beside(row), rays.y.beside(row), nearness).places());
+        const Nearness nearness{
+            hn::LoadU(Twos(), &here[row]),
+            hn::LoadU(Twos(), &across[row]),
+            hn::LoadU(Twos(), &down[row])};
+        const GrainWay way{
+            ways.part[0].beside(row), ways.part[1].beside(row), ways.part[2].beside(row)};
+        grain.look(row, *job.grain, ways, way, nearness);
     }
     return (std::uint32_t{1} << parts_a_row) - 1;
 }
@@ -199,16 +266,15 @@ HWY_INLINE void find_in_row(std::uint32_t parts, GrainRow& grain) {
         const std::size_t two = part * twos_at_once;
         auto seen = hn::Zero(TwosWhole());
         if ((parts >> part & 1U) != 0) {
-            const GrainPlaces places = grain.places(two);
-            const auto ground = hn::BitCast(TwosWhole(), places.ground);
-            seen = hn::And(grain_of(image, places), ground);
+            seen = grain_of(image, grain.places(two));
         }
         hn::StoreU(hn::BitCast(TwosBits(), seen), TwosBits(), &grain.x[two]);
     }
 }
 
-/// Adds the fine pattern to what a tile's pixels have summed up, where its triangles are painted.
-/// Each step is done for all rows before the next one: within a step no row waits for another.
+/// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are
+/// painted. Each step is done for all rows before the next one: within a step no row waits for
+/// another.
 HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
     std::array<GrainRow, tile_height> grain;
     std::array<std::uint32_t, tile_height> parts{};
@@ -231,8 +297,8 @@ HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
     for (std::size_t row = 0; row < rows; ++row) {
         if (parts[row] != 0) {
             grain[row].x[twos_a_row] = beside.x[row];
-            grain[row].how[twos_a_row] = beside.how[row];
-            change_row(grain[row], row * tile_width, buffer);
+            grain[row].left[twos_a_row] = beside.left[row];
+            change_row(grain[row], job.grain->contrast, row * tile_width, buffer);
         }
     }
 }

@@ -24,7 +24,8 @@ constexpr std::int32_t first_row_of(std::int32_t y) {
 }
 
 /// Red, green, blue and a fourth value over the picture: base + per_x * column + per_y * row at
-/// pixel middles, wrapping. The fourth is alpha over the picture, on the ground the share of grain.
+/// pixel middles, wrapping. The fourth is alpha over the picture, on the ground the number of its
+/// covers.
 struct Levels {
     alignas(16) std::array<std::int32_t, 4> base{}; ///< 2^-16 level, from the level 128
     alignas(16) std::array<std::int32_t, 4> per_x{};

@@ -74,8 +74,6 @@ void set_three(const glm::vec3& from, std::span<float> to) {
 
 Light light_of(const scene::FramePlan& plan) {
     const float visibility_m = plan.haze.visibility_m;
-    const scene::Grain grain = plan.grain.value_or(scene::Grain());
-    const float fades_over_m = grain.reach_m - grain.fades_from_m;
     return {
         plan.ambient,
         plan.sunlight,
@@ -84,9 +82,7 @@ Light light_of(const scene::FramePlan& plan) {
         visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F,
         plan.haze.falloff_per_m,
         plan.haze.to_sun_level,
-        plan.haze.sunward,
-        grain.reach_m,
-        fades_over_m > 0.0F ? 1.0F / fades_over_m : 0.0F};
+        plan.haze.sunward};
 }
 
 void place_aircraft(

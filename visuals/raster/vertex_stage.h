@@ -21,9 +21,7 @@ struct Light {
     float per_m = 0.0F;   ///< one over the visibility; 0: no haze
     float falloff_per_m = 0.0F;
     glm::vec2 to_sun_level{0.0F};
-    glm::vec3 sunward{0.0F};    ///< display values 0..1
-    float grain_reach_m = 0.0F; ///< as scene::Grain
-    float grain_per_m = 0.0F;   ///< by which its share falls; 0: no grain
+    glm::vec3 sunward{0.0F}; ///< display values 0..1
 };
 
 // Where the fall of the haze's density is looked at as a straight line, and where it ends; powers

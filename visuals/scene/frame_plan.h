@@ -1,6 +1,8 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/grain_pattern.h"
 #include "visuals/scene/index_range.h"
 #include "visuals/scene/model_buffers.h"
 #include "visuals/scene/paint_step.h"
@@ -9,7 +11,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -111,14 +115,13 @@ struct Haze {
     glm::vec3 sunward{0.0F};
 };
 
-/// The fine pattern (grain_pattern.h) on ground that its vertices colour. A vertex has it by its
-/// alpha, times what the haze leaves of the vertex, times a share that falls from 1 to 0 on the way
-/// from `fades_from_m` to `reach_m`.
+/// The fine pattern (grain_pattern.h) on ground that its vertices colour. By it and by a vertex's
+/// alpha, the number of a mixture of covers, a pixel differs from its colour, and by so much less
+/// as haze lies before it.
 struct Grain {
-    /// Where the eye stands in the pattern, in tiles, 0..1.
-    glm::vec2 at_eye{0.0F};
-    float fades_from_m = 0.0F;
-    float reach_m = 0.0F;
+    /// Where the eye stands in the pattern at each scale, in tiles, 0..1.
+    std::array<glm::vec2, GrainPattern::scales> at_eye{};
+    std::shared_ptr<const CoverContrast> contrast;
 };
 
 /// What a surface that is lit in each pixel has beside the light of all others, where it faces the

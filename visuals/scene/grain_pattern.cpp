@@ -25,9 +25,6 @@ constexpr std::array octaves = {
     Octave{64, 0.6F},
     Octave{128, 0.45F}};
 
-/// Levels a unit of noise: what lies beyond a byte is cut, a few texels in a thousand.
-constexpr float contrast = 105.0F;
-
 /// Sixteen directions around, so that no lattice line is seen.
 constexpr std::array<glm::vec2, 16> directions = {
     glm::vec2(1.0F, 0.0F),
@@ -87,48 +84,85 @@ void add_octave(const Octave& octave, int row, std::vector<float>& sums) {
     }
 }
 
-GrainPattern made_pattern() {
-    GrainPattern pattern;
-    const auto size = static_cast<std::size_t>(pattern.size);
-    pattern.texels.reserve(size * size);
+/// Values of a level, row by row.
+std::vector<float> made_noise() {
+    const auto size = static_cast<std::size_t>(GrainPattern::texels_a_side);
+    std::vector<float> noise;
+    noise.reserve(size * size);
     std::vector<float> sums(size);
-    for (int row = 0; row < pattern.size; ++row) {
+    for (int row = 0; row < GrainPattern::texels_a_side; ++row) {
         std::ranges::fill(sums, 0.0F);
         for (const Octave& octave : octaves) {
             add_octave(octave, row, sums);
         }
-        for (const float sum : sums) {
-            const float level = std::clamp(128.5F + contrast * sum, 0.0F, 255.0F);
-            pattern.texels.push_back(static_cast<std::uint8_t>(level));
+        noise.insert(noise.end(), sums.begin(), sums.end());
+    }
+    return noise;
+}
+
+std::vector<float> half_of(const std::vector<float>& noise, std::size_t size) {
+    std::vector<float> half;
+    half.reserve(noise.size() / 4);
+    for (std::size_t row = 0; row < size; row += 2) {
+        for (std::size_t at = row * size; at < (row + 1) * size; at += 2) {
+            half.push_back(
+                0.25F * ((noise[at] + noise[at + 1]) + (noise[at + size] + noise[at + size + 1])));
         }
     }
+    return half;
+}
+
+/// Bytes of the mean and the deviation that all levels have; what lies beyond a byte is cut, a few
+/// texels in a thousand.
+GrainPattern level_of(const std::vector<float>& noise, int size) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const float value : noise) {
+        sum += static_cast<double>(value);
+        squares += static_cast<double>(value) * static_cast<double>(value);
+    }
+    const double mean = sum / static_cast<double>(noise.size());
+    const double deviation = std::sqrt(squares / static_cast<double>(noise.size()) - mean * mean);
+    const double contrast = 128.0 * GrainPattern::deviation / deviation;
+    GrainPattern pattern;
+    pattern.size = size;
+    pattern.texels.reserve(noise.size());
+    for (const float value : noise) {
+        const double level = 128.5 + contrast * (static_cast<double>(value) - mean);
+        pattern.texels.push_back(static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0)));
+    }
     return pattern;
+}
+
+using Levels = std::array<GrainPattern, GrainPattern::levels_a_scale + 1>;
+
+Levels made_levels() {
+    Levels levels;
+    std::vector<float> noise = made_noise();
+    int size = GrainPattern::texels_a_side;
+    for (GrainPattern& level : levels) {
+        level = level_of(noise, size);
+        noise = half_of(noise, static_cast<std::size_t>(size));
+        size /= 2;
+    }
+    return levels;
 }
 
 } // namespace
 
-const GrainPattern& grain_pattern() {
-    static const GrainPattern pattern = made_pattern();
-    return pattern;
+const Levels& grain_levels() {
+    static const Levels levels = made_levels();
+    return levels;
 }
 
-GrainPattern half_of(const GrainPattern& pattern) {
-    GrainPattern half;
-    half.size = pattern.size / 2;
-    const auto texel = [&](int column, int row) {
-        return static_cast<unsigned>(
-            pattern.texels
-                [static_cast<std::size_t>(row) * static_cast<std::size_t>(pattern.size) +
-                 static_cast<std::size_t>(column)]);
-    };
-    for (int row = 0; row < pattern.size; row += 2) {
-        for (int column = 0; column < pattern.size; column += 2) {
-            const unsigned sum = texel(column, row) + texel(column + 1, row) +
-                                 texel(column, row + 1) + texel(column + 1, row + 1);
-            half.texels.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
-        }
-    }
-    return half;
+glm::dvec2 place_in_grain(const glm::dvec3& place_m, int scale) {
+    const bool is_even = scale % 2 == 0;
+    const glm::dvec2 lean_m = glm::dvec2(GrainPattern::lean) * place_m.z;
+    const glm::dvec2 level_m = glm::dvec2(place_m) + (is_even ? lean_m : -lean_m);
+    const glm::dvec2 turned_m = is_even ? level_m : glm::dvec2(level_m.y, -level_m.x);
+    return turned_m *
+           (std::exp2(-GrainPattern::levels_a_scale * scale) *
+            static_cast<double>(GrainPattern::texels_per_m) / GrainPattern::texels_a_side);
 }
 
 } // namespace octant::visuals::scene

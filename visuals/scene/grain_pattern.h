@@ -1,32 +1,43 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace octant::visuals::scene {
 
 /// The fine pattern of ground: a square tile of texels that repeats each way without a seam. A
-/// texel of 128 leaves a colour as it is, 0 and 256 would change it by `most_share` of itself.
+/// texel of 128 is the mean. It is laid over the ground several times, from the finest scale on
+/// each `scale_step` times as wide as the one before and turned by a right angle: a pixel sees two
+/// of them, so that it has contrast however large it is.
 struct GrainPattern {
     static constexpr int texels_a_side = 1024;
-    static constexpr float texels_per_m = 8.0F;
-    static constexpr float most_share = 0.32F;
+    static constexpr float texels_per_m = 8.0F; ///< at the finest scale
+    static constexpr int scales = 4;
+    static constexpr int levels_a_scale = 4; ///< halvings of size from one scale to the next
+    static constexpr int scale_step = 1 << levels_a_scale;
     /// How far a place moves east and north in the pattern for each metre that it lies higher, so
-    /// that steep ground has the pattern, too.
-    static constexpr glm::vec2 lean{0.6F, -0.8F};
+    /// that steep ground has the pattern, too; at every second scale as far the other way: where
+    /// one of them runs in streaks down a slope, the next one does not.
+    static constexpr glm::vec2 lean{0.22F, -0.27F};
+    /// Standard deviation of all levels; the pattern goes from -1 to 1.
+    static constexpr double deviation = 0.36;
 
     int size = texels_a_side;
     /// Texels row by row from the south.
     std::vector<std::uint8_t> texels;
 };
 
-/// Noise of features between a quarter of a metre and sixteen metres, none of them stronger than
-/// the others. The same bytes on every machine. Made when it is first asked for.
-const GrainPattern& grain_pattern();
+/// The pattern with features between two and 128 texels, none of them stronger than the others;
+/// then levels with half as many texels a side each, the means of four with the contrast of the
+/// first, as many as a scale has. The same bytes on every machine. Made when they are first asked
+/// for.
+const std::array<GrainPattern, GrainPattern::levels_a_scale + 1>& grain_levels();
 
-/// The pattern with half as many texels a side, each the mean of four.
-GrainPattern half_of(const GrainPattern& pattern);
+/// Where a place lies in the pattern at a scale, in tiles; metres, world axes.
+glm::dvec2 place_in_grain(const glm::dvec3& place_m, int scale);
 
 } // namespace octant::visuals::scene

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "small_world.h"
 
@@ -165,11 +166,18 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
 }
 
 TEST_CASE("all of a shadow has one darkness and says for textures what light is left") {
-    Shadowed world;
-    Planner planner(world.scene, world.settings);
-    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
-    for (const models::ColourVertex& vertex : plan.shadow_vertices) {
-        CHECK(vertex.colour == 0x8c464646U);
+    for (const bool textured : {false, true}) {
+        Shadowed world;
+        if (textured) {
+            world.scene.ground_texture = std::make_shared<const GroundTexture>(
+                GroundTexture{.albedo = {1, 1, {9, 9, 9}}, .normal = {1, 1, {128, 128}}});
+        }
+        Planner planner(world.scene, world.settings);
+        const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
+        CHECK(!plan.shadow_vertices.empty());
+        for (const models::ColourVertex& vertex : plan.shadow_vertices) {
+            CHECK(vertex.colour == (textured ? 0x8c464646U : 0xff464646U));
+        }
     }
 }
 

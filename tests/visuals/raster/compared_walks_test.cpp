@@ -75,7 +75,7 @@ TEST_CASE("from far to near, each over what is there, the picture is the same") 
     plan.paint(many_triangles(4));
     for (const bool has_grain : {false, true}) {
         if (has_grain) {
-            plan.plan().grain = scene::Grain{glm::vec2(0.2F, 0.6F), 30.0F, 90.0F};
+            plan.plan().grain = strong_grain();
         }
         const scene::Picture near_to_far = drawn(plan.plan(), size_px, 1);
         Renderer renderer(std::make_shared<Workers>(2), size_px, 1);

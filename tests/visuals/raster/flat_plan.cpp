@@ -1,5 +1,6 @@
 #include "tests/visuals/raster/flat_plan.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 
@@ -33,6 +34,14 @@ void FlatPlan::paint(
 scene::FramePlan& FlatPlan::plan() {
     plan_.ground = {vertices_, indices_};
     return plan_;
+}
+
+scene::Grain strong_grain() {
+    const scene::Cover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
+    const scene::Cover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
+    return {
+        {glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
+        std::make_shared<const scene::CoverContrast>(std::array{dark, bright, dark, bright})};
 }
 
 scene::Picture drawn(

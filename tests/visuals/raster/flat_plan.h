@@ -48,6 +48,9 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
+/// A fine pattern of covers that differ much, for any alpha.
+scene::Grain strong_grain();
+
 /// The plan's picture.
 scene::Picture drawn(
     const scene::FramePlan& plan,

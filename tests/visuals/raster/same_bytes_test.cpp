@@ -62,11 +62,6 @@ void put_in_haze(FlatPlan& plan) {
         .sunward = glm::vec3(0.9F, 0.8F, 0.6F)};
 }
 
-/// The fine pattern on triangles to 60 m, less from 20 m on.
-void put_grain(FlatPlan& plan) {
-    plan.plan().grain = scene::Grain{glm::vec2(0.4F, 0.7F), 20.0F, 60.0F};
-}
-
 /// A texture of noise, and where it lies under the plan's triangles.
 scene::GroundTexture put_on_noise(FlatPlan& plan) {
     Dice dice(9);
@@ -121,7 +116,7 @@ TEST_CASE("any number of threads makes the same bytes") {
     paint_much(plan);
     check_threads(plan.plan(), nullptr);
     put_in_haze(plan);
-    put_grain(plan);
+    plan.plan().grain = strong_grain();
     check_threads(plan.plan(), nullptr);
     plan.plan().grain.reset();
     const scene::GroundTexture texture = put_on_noise(plan);
@@ -134,7 +129,7 @@ TEST_CASE("all instruction sets make the same bytes") {
     check_sets(plan.plan(), nullptr);
     put_in_haze(plan);
     check_sets(plan.plan(), nullptr);
-    put_grain(plan);
+    plan.plan().grain = strong_grain();
     check_sets(plan.plan(), nullptr);
     plan.plan().grain.reset();
     const scene::GroundTexture texture = put_on_noise(plan);

@@ -1,0 +1,98 @@
+#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/grain_pattern.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+constexpr Cover wood{glm::vec3(0.14F, 0.25F, 0.12F), 0.17F};
+constexpr Cover meadow{glm::vec3(0.37F, 0.47F, 0.22F), 0.08F};
+constexpr Cover rock{glm::vec3(0.47F, 0.44F, 0.41F), 0.15F};
+constexpr Cover snow{glm::vec3(0.93F, 0.94F, 0.96F), 0.03F};
+
+/// How often the pattern has a value within an entry, by the texels themselves.
+std::array<double, CoverContrast::patterns> share_of_patterns() {
+    std::array<double, CoverContrast::patterns> shares{};
+    const auto& texels = grain_levels()[0].texels;
+    for (const std::uint8_t texel : texels) {
+        shares[texel / 4U] += 1.0 / static_cast<double>(texels.size());
+    }
+    return shares;
+}
+
+glm::vec3 shares_at(const CoverContrast& contrast, int kind, int pattern) {
+    return CoverContrast::shares_of(
+        contrast.table()[static_cast<std::size_t>(kind * CoverContrast::patterns + pattern)]);
+}
+
+} // namespace
+
+TEST_CASE("over the fine pattern colours change by nothing, of whatever covers they are mixed") {
+    const CoverContrast contrast({wood, meadow, rock, snow});
+    const auto shares = share_of_patterns();
+    for (int kind = 0; kind < CoverContrast::kinds; ++kind) {
+        glm::dvec3 mean(0.0);
+        for (int i = 0; i < CoverContrast::patterns; ++i) {
+            mean += shares[static_cast<std::size_t>(i)] * glm::dvec3(shares_at(contrast, kind, i));
+        }
+        CAPTURE(kind);
+        for (glm::length_t part = 0; part < 3; ++part) {
+            CHECK(std::abs(mean[part]) < 0.02);
+        }
+    }
+}
+
+TEST_CASE("where two covers are mixed, each is seen on its share of the ground") {
+    const CoverContrast contrast({wood, meadow, rock, snow});
+    const auto shares = share_of_patterns();
+    for (const double meadows : {0.25, 0.5, 0.75}) {
+        const int kind = 32 + static_cast<int>(32 * meadows);
+        double bright = 0.0;
+        for (int i = 0; i < CoverContrast::patterns; ++i) {
+            const bool is_bright = shares_at(contrast, kind, i).y > 0.0F;
+            bright += is_bright ? shares[static_cast<std::size_t>(i)] : 0.0;
+        }
+        CAPTURE(meadows);
+        CHECK(bright == Approx(meadows).margin(0.12));
+    }
+}
+
+TEST_CASE("nothing changes where there is no cover, and one alone is mottled by its own share") {
+    const CoverContrast contrast({wood, meadow, rock, snow});
+    for (int i = 0; i < CoverContrast::patterns; ++i) {
+        CHECK(shares_at(contrast, 0, i) == glm::vec3(0.0F));
+    }
+    const auto shares = share_of_patterns();
+    double squares = 0.0;
+    for (int i = 0; i < CoverContrast::patterns; ++i) {
+        const auto share = static_cast<double>(shares_at(contrast, 32, i).y);
+        squares += shares[static_cast<std::size_t>(i)] * share * share;
+    }
+    CHECK(std::sqrt(squares) == Approx(0.17).margin(0.02));
+}
+
+TEST_CASE("all levels of the fine pattern have one mean and one contrast") {
+    for (const GrainPattern& level : grain_levels()) {
+        double sum = 0.0;
+        double squares = 0.0;
+        for (const std::uint8_t texel : level.texels) {
+            const double value = texel / 128.0 - 1.0;
+            sum += value;
+            squares += value * value;
+        }
+        const auto count = static_cast<double>(level.texels.size());
+        CAPTURE(level.size);
+        CHECK(std::abs(sum / count) < 0.01);
+        CHECK(std::sqrt(squares / count) == Approx(GrainPattern::deviation).margin(0.02));
+    }
+}
+
+} // namespace octant::visuals::scene
