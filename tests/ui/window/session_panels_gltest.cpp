@@ -4,13 +4,13 @@
 
 #include <catch2/catch.hpp>
 #include <glm/vec2.hpp>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <imgui_internal.h>
 #include <vector>
 
 #include "headless_gui.h"

@@ -67,8 +67,8 @@ TEST_CASE("a strip of ground that is reduced to one row or column has its light 
         const ReliefLight light = light_of(strip, sun_at(37.0, 20.0));
         for (const double at_m : {0.0, 4444.0, end_m}) {
             const auto along = static_cast<float>(at_m);
-            const auto left = size.x > size.y ? light.at(along, 10.0F, 1.0F)
-                                              : light.at(10.0F, along, 1.0F);
+            const auto left =
+                size.x > size.y ? light.at(along, 10.0F, 1.0F) : light.at(10.0F, along, 1.0F);
             CHECK(left.sun == Approx(1.0));
             CHECK(left.sky == Approx(1.0));
         }
