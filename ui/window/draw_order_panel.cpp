@@ -42,9 +42,7 @@ void show_pixel_check(ViewState& state) {
     const bool clean = found.wrong == 0;
     ImGui::SameLine();
     ImGui::TextColored(
-        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour,
-        "%ld wrong",
-        found.wrong);
+        clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour, "%ld wrong", found.wrong);
     ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);
     explain("with those along edges, where two right pictures may differ");
 }

@@ -252,19 +252,21 @@ LightLeft ReliefLight::at(float east_m, float north_m, float footprint_m) const 
     const Level& level = levels_[number];
     const float x = std::clamp(east_m / step_m, 0.0F, static_cast<float>(level.columns - 1));
     const float y = std::clamp(north_m / step_m, 0.0F, static_cast<float>(level.rows - 1));
-    const int column = std::min(static_cast<int>(x), level.columns - 2);
-    const int row = std::min(static_cast<int>(y), level.rows - 2);
+    // A narrow ground may be reduced to a single row or column.
+    const int column = std::min(static_cast<int>(x), std::max(level.columns - 2, 0));
+    const int row = std::min(static_cast<int>(y), std::max(level.rows - 2, 0));
+    const std::size_t east = level.columns > 1 ? 1 : 0;
     const float u = x - static_cast<float>(column);
     const float v = y - static_cast<float>(row);
     const auto width = static_cast<std::size_t>(level.columns);
     const Cell* const south =
         &level.cells[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
-    const Cell* const north = south + width;
+    const Cell* const north = level.rows > 1 ? south + width : south;
     const auto between = [&](std::uint8_t Cell::*part) {
         const float below = static_cast<float>(south[0].*part) * (1.0F - u) +
-                            static_cast<float>(south[1].*part) * u;
+                            static_cast<float>(south[east].*part) * u;
         const float above = static_cast<float>(north[0].*part) * (1.0F - u) +
-                            static_cast<float>(north[1].*part) * u;
+                            static_cast<float>(north[east].*part) * u;
         return (below * (1.0F - v) + above * v) * (1.0F / 255.0F);
     };
     return {between(&Cell::sun), between(&Cell::sky)};

@@ -2,8 +2,10 @@
 #include "visuals/nature/relief_light.h"
 
 #include <catch2/catch.hpp>
+#include <glm/vec2.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -46,6 +48,27 @@ TEST_CASE("level ground keeps all light under every sun") {
         const ReliefLight light = light_of(level, sun_at(37.0, elevation_deg));
         for (const double at_m : {0.0, 133.0, 800.0}) {
             const auto left = light.at(static_cast<float>(at_m), 400.0F, 1.0F);
+            CHECK(left.sun == Approx(1.0));
+            CHECK(left.sky == Approx(1.0));
+        }
+    }
+}
+
+TEST_CASE("a strip of ground that is reduced to one row or column has its light from end to end") {
+    constexpr int length = 8194;
+    constexpr double end_m = (length - 1) * spacing_m;
+    for (const glm::ivec2& size : {glm::ivec2(length, 2), {length, 8}, {2, length}, {8, length}}) {
+        CAPTURE(size.x, size.y);
+        const models::heights::HeightField strip(
+            size.x,
+            size.y,
+            spacing_m,
+            std::vector<float>(static_cast<std::size_t>(size.x * size.y), 5.0F));
+        const ReliefLight light = light_of(strip, sun_at(37.0, 20.0));
+        for (const double at_m : {0.0, 4444.0, end_m}) {
+            const auto along = static_cast<float>(at_m);
+            const auto left =
+                size.x > size.y ? light.at(along, 10.0F, 1.0F) : light.at(10.0F, along, 1.0F);
             CHECK(left.sun == Approx(1.0));
             CHECK(left.sky == Approx(1.0));
         }
