@@ -215,8 +215,9 @@ HWY_INLINE bool is_painted_over(const TileJob& job, const SampleLanes& lanes) {
     }
     const std::uint16_t first = job.triangles.front().triangle->group;
     const bool one_group = first != 0 && first == job.triangles.back().triangle->group;
-    return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_clear) &&
-           std::ranges::none_of(job.triangles, is_veil);
+    const auto is_noted_apart = [](const TileTriangle& one)
+                                    HWY_ATTR { return is_clear(one) || is_veil(one); };
+    return (job.far_to_near || one_group) && std::ranges::none_of(job.triangles, is_noted_apart);
 }
 
 /// All triangles of a tile, from the first to the last.
