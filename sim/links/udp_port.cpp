@@ -83,11 +83,13 @@ struct UdpPort::Batch {
     }
 };
 
-std::uint32_t address_from_text(const std::string& text) {
+std::uint32_t address_from_text(const std::string& option, const std::string& text) {
     in_addr address{};
     if (inet_pton(AF_INET, text.c_str(), &address) != 1) {
         throw Error(fmt::format(
-            "expected an IPv4 address such as 127.0.0.1 or 0.0.0.0, got '{}'", printable(text)));
+            "{}: expected an IPv4 address such as 127.0.0.1 or 0.0.0.0, got '{}'",
+            option,
+            printable(text)));
     }
     return ntohl(address.s_addr);
 }

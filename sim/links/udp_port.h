@@ -10,8 +10,8 @@
 
 namespace octant::sim::links {
 
-/// "127.0.0.1", "0.0.0.0" or another IPv4 address of this machine as a number. Throws Error.
-std::uint32_t address_from_text(const std::string& text);
+/// "127.0.0.1", "0.0.0.0" or another IPv4 address as a number. Throws Error that names `option`.
+std::uint32_t address_from_text(const std::string& option, const std::string& text);
 
 /// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error
 /// "option: ...".

@@ -73,7 +73,7 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
 
 void take_from(const std::string& from, flight::LiveInputOptions& input) {
     if (from != "-") {
-        sim::links::address_from_text(from);
+        sim::links::address_from_text("--from", from);
         input.only_from = from;
         return;
     }

@@ -13,7 +13,7 @@ namespace links = sim::links;
 
 LiveInput::LiveInput(const LiveInputOptions& options)
     : bind_(options.bind) {
-    const std::uint32_t address = links::address_from_text(options.bind);
+    const std::uint32_t address = links::address_from_text("--bind", options.bind);
     const auto usual = [&](std::uint16_t port) { return options.is_channel ? -1 : int{port}; };
     const auto open = [&](links::Protocol protocol, const char* name, int port) {
         if (port >= 0) {
@@ -32,7 +32,7 @@ LiveInput::LiveInput(const LiveInputOptions& options)
         open(links::Protocol::Cigi, "CIGI", options.cigi_port);
     }
     if (!options.only_from.empty()) {
-        only_from_ = links::address_from_text(options.only_from);
+        only_from_ = links::address_from_text("--from", options.only_from);
     }
     if (options.lines_port >= 0) {
         line_server_.emplace(address, static_cast<std::uint16_t>(options.lines_port), only_from_);
