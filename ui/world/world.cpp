@@ -4,8 +4,10 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/hidden_height.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -232,10 +234,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     check_place(settings.path);
     const bool is_live = settings.path.name == settings::live_path;
     check_own_paths(settings, is_live);
-    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
-    // first.
-    std::future<SceneGround> coming_ground =
-        std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
+    // Paths and names of files are quickly looked at: what is wrong with them is told at once.
     std::optional<LoadedPath> script;
     if (!is_live) {
         script = load_path(
@@ -243,8 +242,16 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
             settings::shape_of(settings.path.aircraft.front()),
             settings.path.lenient);
     }
-    LoadedAircraft aircraft = load_aircraft(
-        settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
+    const std::vector<std::string> shapes =
+        shapes_of(settings, script ? script->other_shapes : std::vector<std::string>());
+    for (const std::string& shape : shapes) {
+        const LineReader opened(base::aircraft_file(shape));
+    }
+    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
+    // first.
+    std::future<SceneGround> coming_ground =
+        std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
+    LoadedAircraft aircraft = load_aircraft(settings, shapes);
     SceneGround ground = coming_ground.get();
     check_clouds(settings.air, *ground.ground);
     World world;
