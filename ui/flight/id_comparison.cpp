@@ -41,14 +41,17 @@ class LargeReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    explicit LargeReference(const settings::RunSettings& settings)
-        : settings_(settings) {
+    /// `beside` stays where it is.
+    LargeReference(const settings::RunSettings& settings, const world::World& beside)
+        : settings_(settings)
+        , beside_(beside) {
         settings_.view.size_px *= scale;
     }
 
     const scene::Picture& picture(int frame) {
         if (!session_) {
-            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers);
+            session_ =
+                std::make_unique<Session>(settings_, Shows::PolygonNumbers, nullptr, &beside_);
         }
         session_->draw(frame);
         return session_->picture();
@@ -56,6 +59,7 @@ public:
 
 private:
     settings::RunSettings settings_;
+    const world::World& beside_;
     std::unique_ptr<Session> session_;
 };
 
@@ -113,8 +117,8 @@ IdComparison compare_with_depth_buffer(
     const std::function<void(int compared, int frames)>& seen) {
     const auto [painted, by_depth] = compared_settings(settings);
     Session painter(painted, Shows::PolygonNumbers);
-    Session reference(by_depth, Shows::PolygonNumbers);
-    LargeReference large(by_depth);
+    Session reference(by_depth, Shows::PolygonNumbers, nullptr, &painter.world());
+    LargeReference large(by_depth, painter.world());
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {

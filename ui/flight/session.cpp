@@ -25,10 +25,13 @@ given_or_made(std::unique_ptr<scene::Renderer> given, const settings::RunSetting
 } // namespace
 
 Session::Session(
-    const settings::RunSettings& settings, Shows shows, std::unique_ptr<scene::Renderer> renderer)
+    const settings::RunSettings& settings,
+    Shows shows,
+    std::unique_ptr<scene::Renderer> renderer,
+    const world::World* beside)
     : settings_(settings)
     , renderer_(given_or_made(std::move(renderer), settings))
-    , world_(world::load_world(settings, drawn_by()))
+    , world_(world::load_world(settings, drawn_by(), beside))
     , pictures_(*renderer_, world_.scene, settings_)
     , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(

@@ -165,6 +165,25 @@ scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>&
         world.flight.place_m};
 }
 
+/// The ground of another world where it suits these settings, else one that is loaded.
+SceneGround
+ground_beside(const World* beside, const settings::RunSettings& settings, DrawnBy drawn_by) {
+    if (beside == nullptr || beside->scene.ground_texture) {
+        return load_scene_ground(settings, drawn_by);
+    }
+    const settings::RunSettings own = ground_settings(settings, beside->ground_place);
+    if (!beside->scene.ground->suits(own.ground, own.air)) {
+        return load_scene_ground(settings, drawn_by);
+    }
+    return {
+        .ground = beside->scene.ground,
+        .texture = nullptr,
+        .name = beside->ground_name,
+        .place = beside->ground_place,
+        .frame = beside->ground_frame,
+        .notes = {}};
+}
+
 } // namespace
 
 Formation formation_of(const planning::Scene& scene, const Flight& flight) {
@@ -229,7 +248,7 @@ void check_clouds(const scene::AirSettings& air, const visuals::landscape::Groun
     }
 }
 
-World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
+World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const World* beside) {
     settings::check_settings(settings);
     check_place(settings.path);
     const bool is_live = settings.path.name == settings::live_path;
@@ -250,7 +269,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
     // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
     // first.
     std::future<SceneGround> coming_ground =
-        std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
+        std::async(std::launch::async, [&] { return ground_beside(beside, settings, drawn_by); });
     LoadedAircraft aircraft = load_aircraft(settings, shapes);
     SceneGround ground = coming_ground.get();
     check_clouds(settings.air, *ground.ground);

@@ -31,14 +31,16 @@ std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
 /// are asked for.
 class Unrounded {
 public:
-    explicit Unrounded(const settings::RunSettings& painted)
-        : painted_(painted) {}
+    /// `beside` stays where it is.
+    Unrounded(const settings::RunSettings& painted, const ui::world::World& beside)
+        : painted_(painted)
+        , beside_(beside) {}
 
     const RayRenderer& at(int frame) {
         if (!session_) {
             auto renderer = std::make_unique<RayRenderer>(painted_.view.size_px);
             renderer_ = renderer.get();
-            session_.emplace(painted_, Shows::PolygonNumbers, std::move(renderer));
+            session_.emplace(painted_, Shows::PolygonNumbers, std::move(renderer), &beside_);
         }
         if (frame_ != frame) {
             session_->draw(frame);
@@ -49,6 +51,7 @@ public:
 
 private:
     settings::RunSettings painted_;
+    const ui::world::World& beside_;
     std::optional<Session> session_;
     const RayRenderer* renderer_ = nullptr; ///< of the session
     int frame_ = -1;
@@ -84,9 +87,10 @@ RayComparison compare_with_rays(
     std::array<std::unique_ptr<Session>, rayed_renderers.size()> painters;
     for (std::size_t i = 0; i < painters.size(); ++i) {
         painted.drawing.renderer = rayed_renderers[i];
-        painters[i] = std::make_unique<Session>(painted, Shows::PolygonNumbers);
+        painters[i] =
+            std::make_unique<Session>(painted, Shows::PolygonNumbers, nullptr, &reference.world());
     }
-    Unrounded unrounded(painted);
+    Unrounded unrounded(painted, reference.world());
     RayComparison sum;
     const int frames = (reference.frames() + every - 1) / every;
     for (int frame = 0; frame < reference.frames(); frame += every) {
