@@ -1,0 +1,72 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::draworder {
+
+/// A polygon of a model as the rays of a trial meet it, in radii of the model about its middle.
+struct TrialTarget {
+    std::uint32_t polygon = 0;
+    glm::dvec3 normal{0.0};
+    glm::dvec3 middle{0.0};
+    double radius = 0.0;
+    std::vector<glm::dvec3> corners;
+};
+
+/// Where a ray meets the front of a target.
+struct TrialHit {
+    /// Indices into TrialTargets::all.
+    std::size_t target = 0;
+    double away = 0.0;
+    /// How far inside the sides.
+    double inside = 0.0;
+    /// How far along the ray it would be met if the target were moved by a hair. That is more for a
+    /// ray that grazes it.
+    double doubt = 0.0;
+};
+
+/// The polygons of a model at one angle of its turning parts.
+class TrialTargets {
+public:
+    /// In radii of the model: what lies nearer to a side than this is not counted, nor differences
+    /// of depth below it. A little more than the inset of hiding tests (Tolerances).
+    static constexpr double hair = 3e-9;
+
+    explicit TrialTargets(const models::polygons::PolygonModel& model);
+
+    /// Turns the parts that have a pivot; without them unless `turning_parts`. Polygons without
+    /// area are left out.
+    void turn(double turn_rad, bool turning_parts);
+
+    const std::vector<TrialTarget>& all() const { return all_; }
+
+    /// The target of a polygon; null where it has none.
+    const TrialTarget* of(std::uint32_t polygon) const;
+
+    glm::dvec3 in_model_m(const glm::dvec3& at) const { return middle_m_ + at * radius_m_; }
+
+    double radius_m() const { return radius_m_; }
+
+    /// Replaces `hits` by all targets whose fronts a ray of unit length meets, in their order.
+    void meet(const glm::dvec3& eye, const glm::dvec3& ray, std::vector<TrialHit>& hits) const;
+
+private:
+    /// Around a target, a little larger: most rays miss it, and it is found out without the target.
+    struct Ball {
+        glm::dvec3 middle{0.0};
+        double square = 0.0;
+    };
+
+    const models::polygons::PolygonModel& model_;
+    glm::dvec3 middle_m_{0.0};
+    double radius_m_ = 1.0;
+    std::vector<TrialTarget> all_;
+    std::vector<Ball> balls_;
+};
+
+} // namespace octant::visuals::draworder
