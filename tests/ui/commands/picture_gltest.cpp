@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,7 @@ constexpr double most_outline_share = 0.002;
 // slopes beside the horizon, a pixel may show the next one.
 constexpr double most_other_outline_share = 0.006;
 
-ui::report::Picture drawn_picture(const RunSettings& settings) {
-    ui::flight::Session session(settings);
+ui::report::Picture last_picture(ui::flight::Session& session) {
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);
     }
@@ -78,9 +78,15 @@ void check_against_golden(
     const std::string& name, RunSettings settings, Golden golden = Golden::OfBoth) {
     using ui::settings::RendererKind;
     settings.view.samples = 1;
+    std::vector<std::unique_ptr<ui::flight::Session>> sessions; // on one ground
     for (const RendererKind kind : {RendererKind::Gl, RendererKind::Raster}) {
         settings.drawing.renderer = kind;
-        const ui::report::Picture actual = drawn_picture(settings);
+        sessions.push_back(std::make_unique<ui::flight::Session>(
+            settings,
+            ui::flight::Shows::World,
+            nullptr,
+            sessions.empty() ? nullptr : &sessions.front()->world()));
+        const ui::report::Picture actual = last_picture(*sessions.back());
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;
         const auto file =
