@@ -17,8 +17,8 @@ namespace {
 /// Shares of the picture's height that the aircraft's sphere fills: as a rule, where the view
 /// widens for the skyline, and at the least where the lens must stay wide for the ground.
 constexpr double close_share = 0.5;
-constexpr double wide_share = 0.12;
-constexpr double least_share = 0.1;
+constexpr double wide_share = 0.16;
+constexpr double least_share = 0.14;
 constexpr double widest_fov_rad = rad_from_deg(55.0);
 /// How far from the picture's middle, in heights, the aircraft may stand, and the skyline.
 constexpr double aircraft_off = 0.24;

@@ -94,7 +94,7 @@ TEST_CASE("the tower looks at an aircraft overhead and zooms in on it") {
 
 TEST_CASE("the tower widens for the skyline below an aircraft that is far and low") {
     sim::AircraftState state = level_flight(0.0);
-    state.position_m = {100.0, 3000.0, 120.0};
+    state.position_m = {100.0, 3000.0, 95.0};
     const Camera camera = seen(View::Tower, state);
     const double look_rad = std::asin(looking(camera).z);
     const double aircraft_rad = std::asin(glm::normalize(state.position_m - camera.eye_m).z);
