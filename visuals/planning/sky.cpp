@@ -43,7 +43,7 @@ double mean_density(double rise_m, double falloff_per_m) {
 }
 
 /// Distance at which a look down meets the plain; nothing above its horizon.
-std::optional<double> distance_to_plain_m(double depression_rad, const Plain& plain) {
+std::optional<double> distance_as_if_endless_m(double depression_rad, const Plain& plain) {
     if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) {
         return std::nullopt;
     }
@@ -57,6 +57,13 @@ std::optional<double> distance_to_plain_m(double depression_rad, const Plain& pl
         return std::nullopt;
     }
     return 2.0 * plain.height_below_eye_m / (slope + std::sqrt(under)) / std::cos(depression_rad);
+}
+
+/// The same for a plain that begins at the map's edge: over low ground of the map a look goes on to
+/// there.
+std::optional<double> distance_to_plain_m(double depression_rad, const Plain& plain) {
+    const auto endless_m = distance_as_if_endless_m(depression_rad, plain);
+    return endless_m ? std::optional(std::max(*endless_m, plain.map_edge_m)) : std::nullopt;
 }
 
 /// What a look down at the plain shows; `ray` is of unit length.
@@ -103,6 +110,9 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     sky_vertices_ = vertices_.size();
     sky_indices_ = indices_.size();
     vertices_.resize(sky_vertices_ + land_.corners.size());
+    for (const nature::Backdrop::Corner& corner : land_.corners) {
+        land_half_m_ = glm::max(land_half_m_, glm::abs(glm::dvec2(corner.at_m)));
+    }
     for (const std::uint32_t corner : land_.indices) {
         indices_.push_back(static_cast<std::uint32_t>(sky_vertices_) + corner);
     }
@@ -197,6 +207,12 @@ void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dve
 scene::TriangleDraw
 Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     const double deepest = deepest_rad(plain);
+    const bool has_land = !land_.corners.empty() && plain.height_below_eye_m > 0.0;
+    Plain beyond = plain;
+    if (has_land) {
+        const glm::dvec2 to_rim_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
+        beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_rim_m.x, to_rim_m.y));
+    }
     auto* vertex = &vertices_[std::size_t{rings_above} * spokes];
     for (int ring = 1; ring <= rings_below; ++ring) {
         // The rings crowd towards the horizon, where the plain's colour changes fastest.
@@ -209,11 +225,11 @@ Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m
                 std::cos(elevation_rad) * level.x,
                 std::cos(elevation_rad) * level.y,
                 std::sin(elevation_rad));
-            *vertex = dome_vertex(ray, colour_below(ray, plain, haze));
+            *vertex = dome_vertex(ray, colour_below(ray, beyond, haze));
         }
     }
     const std::span indices(indices_);
-    if (land_.corners.empty() || !(plain.height_below_eye_m > 0.0)) {
+    if (!has_land) {
         return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)};
     }
     place_land(plain, haze, eye_m);

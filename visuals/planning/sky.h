@@ -48,6 +48,8 @@ private:
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;
     nature::Backdrop land_;
+    /// The land reaches so far from the world's origin along both axes.
+    glm::dvec2 land_half_m_{0.0};
     /// The vertices of dome and sun, then those of the land.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;

@@ -118,17 +118,32 @@ TEST_CASE("the sky has the haze's colour at the horizon and is bluer overhead") 
 TEST_CASE("below the horizon the plain fades into the haze with distance") {
     Sky sky(sun_at(90.0, 35.0));
     const Haze haze{{1.0F, 1.0F, 1.0F}, 20000.0F};
-    const TriangleDraw draw = sky.around({1000.0, 5000.0, {0.0F, 0.0F, 0.0F}}, haze);
+    constexpr double map_edge_m = 5000.0; // the plain begins there, however steep the look
+    const TriangleDraw draw = sky.around({1000.0, map_edge_m, {0.0F, 0.0F, 0.0F}}, haze);
     int last = 255 * 3 + 1;
     const models::ColourVertex* lowest = nullptr;
     for (std::size_t ring = 14; ring < 21; ++ring) {
         lowest = &draw.vertices[ring * 36];
-        CHECK(brightness(lowest->colour) < last);
+        CHECK(brightness(lowest->colour) <= last);
         last = brightness(lowest->colour);
+        const double distance_m =
+            std::max(1000.0 / -static_cast<double>(lowest->position_m.z) * 1000.0, map_edge_m);
+        CHECK(last / 765.0 == Approx(1.0 - std::exp(-distance_m / 20000.0)).margin(0.01));
     }
-    const double distance_m =
-        1000.0 / std::sin(std::asin(-static_cast<double>(lowest->position_m.z) / 1000.0));
-    CHECK(last / 765.0 == Approx(1.0 - std::exp(-distance_m / 20000.0)).margin(0.01));
+    CHECK(last < 255 * 3 / 3);
+}
+
+TEST_CASE("past the land around a map the plain begins where that land ends") {
+    visuals::nature::Backdrop land;
+    land.corners = {{{-30000.0, -20000.0, 0.0}, {}, 0.0F}, {{30000.0, 20000.0, 0.0}, {}, 0.0F}};
+    Sky sky(sun_at(90.0, 35.0), land);
+    const Haze haze{{1.0F, 1.0F, 1.0F}, 20000.0F};
+    const auto lowest = [&](const glm::dvec3& eye_m) {
+        const TriangleDraw draw = sky.around({1000.0, 5000.0, {0.0F, 0.0F, 0.0F}}, haze, eye_m);
+        return brightness(draw.vertices[std::size_t{20} * 36].colour) / 765.0;
+    };
+    CHECK(lowest({0.0, 0.0, 1000.0}) == Approx(1.0 - std::exp(-1.0)).margin(0.01));
+    CHECK(lowest({0.0, 12000.0, 1000.0}) == Approx(1.0 - std::exp(-0.4)).margin(0.01));
 }
 
 TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
