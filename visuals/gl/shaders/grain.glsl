@@ -55,5 +55,5 @@ vec3 grain_at(vec3 place_m, vec3 across, vec3 down, float covers) {
                   (1.0 - vec2(through * through, (1.0 - through) * (1.0 - through)));
     ivec2 entry = ivec2(
         clamp((sought.x + sought.y) * 32.0 + 32.0, 0.0, 63.0), clamp(covers * 127.5 + 0.02, 0.0, 127.0));
-    return texelFetch(contrast, entry, 0).rgb;
+    return texelFetch(contrast, entry, 0).rgb * (1023.0 / 512.0) - 1.0;
 }
