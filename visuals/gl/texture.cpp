@@ -116,15 +116,7 @@ Object make_texture(const Functions& gl, const scene::CoverContrast& contrast) {
     constexpr GLsizei height = scene::CoverContrast::kinds;
     gl.texture_storage_2d(texture.name(), 1, GL_RGB10_A2, width, height);
     gl.texture_sub_image_2d(
-        texture.name(),
-        0,
-        0,
-        0,
-        width,
-        height,
-        GL_RGBA,
-        GL_UNSIGNED_INT_10_10_10_2,
-        shares.data());
+        texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2, shares.data());
     return texture;
 }
 

@@ -65,7 +65,8 @@ void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope&
         triangles.push_back(triangle);
     };
     for (int y = 0; y < picture_px.y; y += cell_px) {
-        const int end = std::min(slope.columns + cell_px, picture_px.x); // no rim where it is judged
+        const int end =
+            std::min(slope.columns + cell_px, picture_px.x); // no rim where it is judged
         for (int x = 0; x < end; x += cell_px) {
             const int right = x + cell_px;
             const int below_it = y + cell_px;
