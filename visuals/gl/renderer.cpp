@@ -34,6 +34,7 @@ struct PictureValues {
     scene::TexturePlaces ground_texture;
     glm::vec4 grain_x;
     glm::vec4 grain_y;
+    glm::vec4 grain_up;
 };
 
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
@@ -60,7 +61,8 @@ glm::vec4 eye_in_grain(const std::optional<scene::Grain>& grain, glm::length_t p
     glm::vec4 at_eye(-1.0F);
     if (grain) {
         for (std::size_t scale = 0; scale < grain->at_eye.size(); ++scale) {
-            at_eye[static_cast<glm::length_t>(scale)] = grain->at_eye[scale][part];
+            at_eye[static_cast<glm::length_t>(scale)] =
+                part == 2 ? grain->up_at_eye[scale] : grain->at_eye[scale][part];
         }
     }
     return at_eye;
@@ -79,7 +81,8 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
         ray_from_pixel(plan, rect, rows),
         plan.ground_texture.value_or(scene::TexturePlaces()),
         eye_in_grain(plan.grain, 0),
-        eye_in_grain(plan.grain, 1)};
+        eye_in_grain(plan.grain, 1),
+        eye_in_grain(plan.grain, 2)};
 }
 
 } // namespace

@@ -105,16 +105,18 @@ Object make_grain_texture(const Functions& gl) {
 
 Object make_texture(const Functions& gl, const scene::CoverContrast& contrast) {
     Object texture = make_texture(gl, "contrast of ground's covers");
-    std::vector<glm::vec3> shares;
+    // As the table has them, but from -1 on: one word is read for three shares.
+    constexpr std::uint32_t signs = 0x80200800U;
+    std::vector<std::uint32_t> shares;
     shares.reserve(contrast.table().size());
     for (const std::uint32_t entry : contrast.table()) {
-        shares.push_back(scene::CoverContrast::shares_of(entry));
+        shares.push_back(entry ^ signs);
     }
     constexpr GLsizei width = scene::CoverContrast::patterns;
     constexpr GLsizei height = scene::CoverContrast::kinds;
-    gl.texture_storage_2d(texture.name(), 1, GL_RGB32F, width, height);
+    gl.texture_storage_2d(texture.name(), 1, GL_RGB10_A2, width, height);
     gl.texture_sub_image_2d(
-        texture.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, shares.data());
+        texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2, shares.data());
     return texture;
 }
 

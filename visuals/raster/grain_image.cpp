@@ -71,12 +71,11 @@ GrainRays grain_rays(const scene::FramePlan& plan, const Projection& projection)
         rays.way[static_cast<std::size_t>(axis)] =
             ray_part(world_to_view[axis], view_to_clip, half_px);
     }
-    constexpr std::size_t scales = GrainPattern::scales;
-    for (std::size_t scale = 0; scale < scales; ++scale) {
-        const glm::vec2 texels =
-            plan.grain->at_eye[scale] * static_cast<float>(GrainPattern::texels_a_side);
-        rays.at_eye[scale] = texels.x;
-        rays.at_eye[scales + scale] = texels.y;
+    constexpr auto parts_a_tile = static_cast<float>(256 * GrainPattern::texels_a_side);
+    for (std::size_t scale = 0; scale < GrainPattern::scales; ++scale) {
+        rays.at_eye[0][scale] = plan.grain->at_eye[scale].x * parts_a_tile;
+        rays.at_eye[1][scale] = plan.grain->at_eye[scale].y * parts_a_tile;
+        rays.at_eye[2][scale] = plan.grain->up_at_eye[scale] * parts_a_tile;
     }
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;

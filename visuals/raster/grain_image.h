@@ -38,8 +38,8 @@ const GrainImage& grain_image();
 struct GrainRays {
     /// World directions of the lines of sight, one unit deep: east, north and up.
     std::array<RealPlane, 3> way{};
-    /// The eye's place in the pattern at each scale, in texels: x of each, then y of each.
-    alignas(16) std::array<float, 2 * std::size_t{scene::GrainPattern::scales}> at_eye{};
+    /// The eye's place in the pattern, 1/256 texel: x at each scale, then y, then how high it is.
+    alignas(16) std::array<std::array<float, scene::GrainPattern::scales>, 3> at_eye{};
     float haze_per_m = 0.0F; ///< as Light
     float haze_falloff_per_m = 0.0F;
     const std::uint32_t* contrast = nullptr; ///< scene::CoverContrast::table()

@@ -1,4 +1,4 @@
-// Where pairs of pixels look in the fine pattern of ground, and at which level: by how near the
+// Where every second pixel looks in the fine pattern of ground, and at which level: by how near the
 // ground is there, and how that changes to the pixels beside and below.
 // Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -12,6 +12,7 @@
 #include "visuals/raster/tile_counting-inl.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -37,22 +38,23 @@ HWY_INLINE hn::Vec<TwosBits> twos_of(unsigned value) {
 
 /// A part of the lines of sight over a tile, from a row on.
 struct GrainRay {
-    float first; ///< between the row's first two pixels
+    float first; ///< of the row's first pixel
     float per_x; ///< from pixel to pixel
     float per_y;
 
     HWY_INLINE GrainRay(const RealPlane& ray, const glm::ivec2& first_px)
-        : first(static_cast<float>(ray.at(first_px.x + 0.5, first_px.y)))
+        : first(static_cast<float>(ray.at(first_px.x, first_px.y)))
         , per_x(static_cast<float>(ray.per_x))
         , per_y(static_cast<float>(ray.per_y)) {}
 
-    /// Between pairs of pixels of the row, from one on.
+    /// Of the first pixels of every second pair of the row, from one on.
     HWY_INLINE hn::Vec<Twos> in_row(std::size_t first_two) const {
-        const auto numbers = hn::Add(twos(static_cast<float>(first_two)), counting_from(Twos(), 0));
-        return hn::Add(twos(first), hn::Mul(hn::Add(numbers, numbers), twos(per_x)));
+        const auto columns = hn::Add(
+            hn::Mul(counting_from(Twos(), 0), twos(4.0F)), twos(static_cast<float>(2 * first_two)));
+        return hn::Add(twos(first), hn::Mul(columns, twos(per_x)));
     }
 
-    /// Between the pixels right of the tile, in rows from one on.
+    /// Of the pixels right of the tile, in rows from one on.
     HWY_INLINE hn::Vec<Twos> beside(std::size_t first_row) const {
         const auto rows = hn::Add(twos(static_cast<float>(first_row)), counting_from(Twos(), 0));
         const float right = first + static_cast<float>(tile_width) * per_x;
@@ -60,34 +62,55 @@ struct GrainRay {
     }
 };
 
-/// How near the ground is at pairs of pixels, and how that changes to the pixels beside and below.
+/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside
+/// and below.
 struct Nearness {
-    hn::Vec<Twos> here; ///< 1/m
+    hn::Vec<Twos> here; ///< 1/m; 0: no ground
     hn::Vec<Twos> across;
     hn::Vec<Twos> down;
 };
 
-/// Of pairs of a row. Above the first row and below the last one is the row itself. None where what
-/// lies beside is no ground: a pixel at the rim may be half sky.
-HWY_INLINE Nearness nearness_of_row(const float* row, const float* above, const float* below) {
+/// Of two changes the smaller one: at a rim the larger one leads to other ground.
+HWY_INLINE hn::Vec<Twos> smaller_change(hn::Vec<Twos> one, hn::Vec<Twos> other) {
+    return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
+}
+
+/// Of every second pair of a row, from one on. Beyond the tile the ground goes on as within it.
+/// None where what lies beside is no ground: a pixel at the rim may be half sky.
+HWY_INLINE Nearness
+nearness_of_row(const TileJob& job, const TileBuffer& buffer, int row, std::size_t first_two) {
     const Twos real;
-    using Pair = std::array<hn::Vec<Twos>, 2>;
-    const auto load = [&](const float* from) HWY_ATTR {
-        Pair pair;
-        hn::LoadInterleaved2(real, from, pair[0], pair[1]);
-        return pair;
+    const float* const near = buffer.nearness_of_row(row) + first_two;
+    constexpr std::size_t stride = twos_a_row;
+    hn::Vec<Twos> own;
+    hn::Vec<Twos> after;
+    hn::LoadInterleaved2(real, near, own, after);
+    const auto every_second = [&](const float* from) HWY_ATTR {
+        hn::Vec<Twos> first;
+        hn::Vec<Twos> second;
+        hn::LoadInterleaved2(real, from, first, second);
+        return first;
     };
-    const Pair own = load(row);
-    const Pair upper = load(above);
-    const Pair lower = load(below);
-    const auto least = [](const Pair& pair) HWY_ATTR { return hn::Min(pair[0], pair[1]); };
-    const auto is_ground =
-        hn::Gt(hn::Min(least(own), hn::Min(least(upper), least(lower))), hn::Zero(real));
-    const auto down = below == row ? hn::Sub(own[0], upper[0]) : hn::Sub(lower[0], own[0]);
+    const auto mirrored = [&](hn::Vec<Twos> other)
+                              HWY_ATTR { return hn::Sub(hn::Add(own, own), other); };
+    const bool is_first = row == 0;
+    const bool is_last = row + 1 == job.size_px.y;
+    auto below = is_last ? own : every_second(near + stride);
+    const auto above = is_first ? mirrored(below) : every_second(near - stride);
+    below = is_last ? mirrored(above) : below;
+    const auto numbers = counting_from(real, 0);
+    const auto number = hn::Add(hn::Add(numbers, numbers), twos(static_cast<float>(first_two)));
+    const auto last = twos(static_cast<float>((job.size_px.x - 1) / 2));
+    const auto before =
+        hn::IfThenElse(hn::Eq(number, twos(0.0F)), mirrored(after), every_second(near - 1));
+    const auto next = hn::IfThenElse(hn::Eq(number, last), mirrored(before), after);
+    const auto least = hn::Min(own, hn::Min(hn::Min(above, below), hn::Min(before, next)));
+    const auto is_ground = hn::Gt(least, hn::Zero(real));
+    const auto of_two = smaller_change(hn::Sub(next, own), hn::Sub(own, before));
     return {
-        hn::IfThenElseZero(is_ground, hn::Max(own[0], own[1])),
-        hn::IfThenElseZero(is_ground, hn::Sub(own[1], own[0])),
-        hn::IfThenElseZero(is_ground, down)};
+        hn::IfThenElseZero(is_ground, own),
+        hn::Mul(of_two, twos(0.5F)),
+        smaller_change(hn::Sub(below, own), hn::Sub(own, above))};
 }
 
 /// The lines of sight of a row of a tile, or of all its rows: east, north and up.
@@ -99,9 +122,20 @@ struct GrainWays {
               GrainRay(rays.way[0], first_px),
               GrainRay(rays.way[1], first_px),
               GrainRay(rays.way[2], first_px)} {}
+
+    /// How far away ground one unit deep is in the middle of a tile.
+    HWY_INLINE float length() const {
+        float squares = 0.0F;
+        for (const GrainRay& ray : part) {
+            const float middle =
+                ray.first + 0.5F * (tile_width * ray.per_x + tile_height * ray.per_y);
+            squares += middle * middle;
+        }
+        return std::sqrt(squares);
+    }
 };
 
-/// A part of the lines of sight at pairs of pixels.
+/// A part of the lines of sight at the first pixels of pairs.
 using GrainWay = std::array<hn::Vec<Twos>, 3>;
 
 /// A place in the pattern at one scale, 1/256 texel of its finest level.
@@ -110,8 +144,8 @@ struct GrainPlace {
     hn::Vec<TwosBits> y;
 };
 
-/// What pairs of pixels see of the pattern: a scale at the level of their size, and the next
-/// coarser scale at its finest level.
+/// What the first pixels of pairs see of the pattern: a scale at the level of their size, and the
+/// next coarser scale at its finest level.
 struct GrainPlaces {
     GrainPlace fine;
     GrainPlace coarse;
@@ -125,55 +159,88 @@ class GrainLook {
 public:
     HWY_INLINE GrainLook(
         const GrainRays& rays, const GrainWays& ways, const GrainWay& way, const Nearness& near) {
-        const auto depth = hn::Div(twos(1.0F), hn::Max(near.here, twos(1e-9F)));
-        auto across2 = hn::Zero(Twos());
-        auto down2 = hn::Zero(Twos());
+        is_ground_ = hn::Gt(near.here, hn::Zero(Twos()));
+        depth_ = hn::Div(twos(1.0F), hn::Max(near.here, twos(1e-9F)));
+        GrainWay across;
+        GrainWay down;
         for (std::size_t i = 0; i < 3; ++i) {
-            at_[i] = hn::Mul(way[i], depth);
+            at_[i] = hn::Mul(way[i], depth_);
             const auto moves = [&](float per_px, hn::Vec<Twos> change) HWY_ATTR {
-                return hn::Mul(hn::Sub(twos(per_px), hn::Mul(at_[i], change)), depth);
+                return hn::Sub(twos(per_px), hn::Mul(at_[i], change));
             };
-            const auto across = moves(ways.part[i].per_x, near.across);
-            const auto down = moves(ways.part[i].per_y, near.down);
-            across2 = hn::Add(across2, hn::Mul(across, across));
-            down2 = hn::Add(down2, hn::Mul(down, down));
+            across[i] = moves(ways.part[i].per_x, near.across);
+            down[i] = moves(ways.part[i].per_y, near.down);
         }
         // The pattern's finest features are two texels wide: half a level finer than usual will do.
-        choose_levels(hn::Max(across2, hn::Mul(down2, twos(0.5F))));
+        const auto widest = hn::Max(square(across), hn::Mul(square(down), twos(0.5F)));
+        const auto depth2 = hn::Mul(depth_, depth_);
+        choose_levels(hn::Mul(widest, depth2));
+        // Four pixels span less than three texels of the level.
+        constexpr float texel2 =
+            1.0F / (scene::GrainPattern::texels_per_m * scene::GrainPattern::texels_per_m);
+        const auto wide2 = hn::Max(hn::Mul(widest, depth2), twos(texel2));
+        is_even_ = hn::AllTrue(
+            Twos(), hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(2.0F)), wide2));
+        choose_sides(across, down);
         look_at(rays);
     }
 
     HWY_INLINE const GrainPlaces& places() const { return places_; }
 
-    /// What the haze leaves, 2^-15. As scene::Haze, by polynomials: the pattern need not fade to
-    /// the bit.
-    HWY_INLINE hn::Vec<TwosBits> left(const GrainRays& rays) const {
-        const auto squares = hn::Add(
-            hn::Add(hn::Mul(at_[0], at_[0]), hn::Mul(at_[1], at_[1])), hn::Mul(at_[2], at_[2]));
+    HWY_INLINE hn::Mask<Twos> is_ground() const { return is_ground_; }
+
+    /// Whether what they see changes so slowly along the row that it is even between every second
+    /// pair.
+    HWY_INLINE bool is_even() const { return is_even_; }
+
+    /// What the haze leaves, 2^-15, where ground one unit deep dims by so much. As scene::Haze, by
+    /// polynomials: the pattern need not fade to the bit.
+    HWY_INLINE hn::Vec<TwosBits> left(const GrainRays& rays, float haze_per_depth) const {
         const auto fallen = hn::Mul(at_[2], twos(-rays.haze_falloff_per_m));
-        const auto one = twos(1.0F);
-        const auto series = [&](hn::Vec<Twos> x, float a, float b, float c, float d) HWY_ATTR {
-            auto sum = hn::Add(twos(c), hn::Mul(x, twos(d)));
-            sum = hn::Add(twos(b), hn::Mul(x, sum));
-            sum = hn::Add(twos(a), hn::Mul(x, sum));
-            return hn::Add(one, hn::Mul(x, sum));
-        };
         const auto within = hn::Min(hn::Max(fallen, twos(-1.5F)), twos(6.0F));
-        const auto density = series(within, 1.0F / 2.0F, 1.0F / 6.0F, 1.0F / 24.0F, 1.0F / 120.0F);
-        const auto distance = hn::Mul(hn::Sqrt(squares), twos(rays.haze_per_m));
-        const auto depth = hn::Mul(distance, density);
-        const auto share =
-            hn::Div(one, series(depth, 1.0F, 1.0F / 2.0F, 1.0F / 6.0F, 1.0F / 24.0F));
+        auto density = hn::Add(twos(1.0F / 24.0F), hn::Mul(within, twos(1.0F / 120.0F)));
+        for (const float factor : {1.0F / 6.0F, 1.0F / 2.0F, 1.0F}) {
+            density = hn::Add(twos(factor), hn::Mul(within, density));
+        }
+        const auto haze = hn::Mul(hn::Mul(depth_, twos(haze_per_depth)), density);
+        // (1 - x / 16)^16
+        const auto sixteenth = hn::Mul(haze, twos(1.0F / 16.0F));
+        auto share = hn::Max(hn::Sub(twos(1.0F), sixteenth), hn::Zero(Twos()));
+        for (int i = 0; i < 4; ++i) {
+            share = hn::Mul(share, share);
+        }
         return hn::BitCast(TwosBits(), hn::ConvertTo(TwosWhole(), hn::Mul(share, twos(32767.0F))));
     }
 
 private:
+    static HWY_INLINE hn::Vec<Twos> square(const GrainWay& way) {
+        return hn::Add(
+            hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
+    }
+
+    /// From which side the pattern is laid over steep ground: by the normal of what is seen, which
+    /// lies across both changes.
+    HWY_INLINE void choose_sides(const GrainWay& across, const GrainWay& down) {
+        const auto normal2 = [&](std::size_t one, std::size_t other) HWY_ATTR {
+            const auto part =
+                hn::Sub(hn::Mul(across[one], down[other]), hn::Mul(across[other], down[one]));
+            return hn::Mul(part, part);
+        };
+        const auto east2 = normal2(1, 2);
+        const auto north2 = normal2(2, 0);
+        constexpr float least2 =
+            scene::GrainPattern::upright_from * scene::GrainPattern::upright_from;
+        const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), twos(least2)));
+        const auto is_east = hn::Ge(east2, north2);
+        upright_in_x_ = hn::And(is_steep, is_east);
+        upright_in_y_ = hn::AndNot(is_east, is_steep);
+        any_upright_ = !hn::AllFalse(Twos(), is_steep);
+    }
+
     /// Not negative: whole tiles are added.
-    static HWY_INLINE hn::Vec<TwosBits> fixed(hn::Vec<Twos> texels) {
-        constexpr float most_texels = 4194304.0F;
+    static HWY_INLINE hn::Vec<TwosBits> fixed(hn::Vec<Twos> parts_of_texels) {
         constexpr int tiles = 1 << 30;
-        const auto within = hn::Min(hn::Max(texels, twos(-most_texels)), twos(most_texels));
-        const auto parts = hn::ConvertTo(TwosWhole(), hn::Mul(within, twos(256.0F)));
+        const auto parts = hn::ConvertTo(TwosWhole(), parts_of_texels);
         return hn::BitCast(TwosBits(), hn::Add(parts, hn::Set(TwosWhole(), tiles)));
     }
 
@@ -208,48 +275,63 @@ private:
     }
 
     HWY_INLINE void look_at(const GrainRays& rays) {
-        using scene::GrainPattern;
-        const auto lean_x = hn::Mul(at_[2], twos(GrainPattern::lean.x));
-        const auto lean_y = hn::Mul(at_[2], twos(GrainPattern::lean.y));
-        // As it lies at even scales, then at odd ones.
-        const auto even_x = hn::Add(at_[0], lean_x);
-        const auto even_y = hn::Add(at_[1], lean_y);
-        const auto odd_x = hn::Sub(at_[1], lean_y);
-        const auto odd_y = hn::Sub(lean_x, at_[0]);
-        const auto is_odd = hn::RebindMask(Twos(), hn::Ne(hn::And(scale_, twos_of(1)), twos_of(0)));
-        places_.fine = place_of(
-            rays,
-            scale_,
-            hn::IfThenElse(is_odd, odd_x, even_x),
-            hn::IfThenElse(is_odd, odd_y, even_y));
-        places_.coarse = place_of(
-            rays,
-            hn::Add(scale_, twos_of(1)),
-            hn::IfThenElse(is_odd, even_x, odd_x),
-            hn::IfThenElse(is_odd, even_y, odd_y));
+        places_.fine = place_of(rays, scale_);
+        places_.coarse = place_of(rays, hn::Add(scale_, twos_of(1)));
     }
 
-    static HWY_INLINE GrainPlace
-    place_of(const GrainRays& rays, hn::Vec<TwosBits> scale, hn::Vec<Twos> x_m, hn::Vec<Twos> y_m) {
+    /// The eye's part `part` of its place at scales.
+    static HWY_INLINE hn::Vec<Twos>
+    at_eye(const GrainRays& rays, std::size_t part, hn::Vec<TwosBits> scale) {
+        const Twos real;
+        const auto which = hn::IndicesFromVec(real, hn::BitCast(TwosWhole(), scale));
+        const float* const of_scales = rays.at_eye[part].data();
+        return hn::TableLookupLanes(hn::LoadDup128(real, of_scales), which);
+    }
+
+    /// At odd scales the pattern is turned by a right angle, and leans the other way.
+    HWY_INLINE GrainPlace place_of(const GrainRays& rays, hn::Vec<TwosBits> scale) const {
         using scene::GrainPattern;
         const Twos real;
         static_assert(GrainPattern::scales == 4 && GrainPattern::texels_per_m == 8.0F);
         static_assert(GrainPattern::scale_step == 16);
-        const auto exponent = hn::Sub(twos_of(127 + 3), hn::ShiftLeft<2>(scale));
-        const auto texels_per_m = hn::BitCast(real, hn::ShiftLeft<23>(exponent));
-        const auto at_eye = [&](const float* of_scales) HWY_ATTR {
-            const auto which = hn::IndicesFromVec(real, hn::BitCast(TwosWhole(), scale));
-            return hn::TableLookupLanes(hn::LoadDup128(real, of_scales), which);
-        };
+        const auto is_odd = hn::RebindMask(real, hn::Ne(hn::And(scale, twos_of(1)), twos_of(0)));
+        const auto turned = hn::BitCast(real, hn::ShiftLeft<31>(scale)); // the sign of odd ones
+        const auto lean = [&](float per_m)
+                              HWY_ATTR { return hn::Xor(hn::Mul(at_[2], twos(per_m)), turned); };
+        const auto east = hn::Add(at_[0], lean(GrainPattern::lean.x));
+        const auto north = hn::Add(at_[1], lean(GrainPattern::lean.y));
+        auto x_m = hn::IfThenElse(is_odd, north, east);
+        auto y_m = hn::Xor(hn::IfThenElse(is_odd, east, north), turned);
+        auto eye_x = at_eye(rays, 0, scale);
+        auto eye_y = at_eye(rays, 1, scale);
+        if (any_upright_) {
+            const auto in_turn = [&](hn::Mask<Twos> odd, hn::Mask<Twos> even) HWY_ATTR {
+                return hn::Or(hn::And(is_odd, odd), hn::AndNot(is_odd, even));
+            };
+            const auto in_x = in_turn(upright_in_y_, upright_in_x_);
+            const auto in_y = in_turn(upright_in_x_, upright_in_y_);
+            const auto eye_up = at_eye(rays, 2, scale);
+            x_m = hn::IfThenElse(in_x, at_[2], x_m);
+            y_m = hn::IfThenElse(in_y, hn::Xor(at_[2], turned), y_m);
+            eye_x = hn::IfThenElse(in_x, eye_up, eye_x);
+            eye_y = hn::IfThenElse(in_y, hn::Xor(eye_up, turned), eye_y);
+        }
+        const auto exponent = hn::Sub(twos_of(127 + 3 + 8), hn::ShiftLeft<2>(scale));
+        const auto parts_per_m = hn::BitCast(real, hn::ShiftLeft<23>(exponent));
         return {
-            fixed(hn::Add(hn::Mul(x_m, texels_per_m), at_eye(rays.at_eye.data()))),
-            fixed(hn::Add(
-                hn::Mul(y_m, texels_per_m), at_eye(rays.at_eye.data() + GrainPattern::scales)))};
+            fixed(hn::Add(hn::Mul(x_m, parts_per_m), eye_x)),
+            fixed(hn::Add(hn::Mul(y_m, parts_per_m), eye_y))};
     }
 
+    hn::Mask<Twos> is_ground_;
+    hn::Vec<Twos> depth_;
     GrainWay at_; ///< metres from the eye
     hn::Vec<TwosBits> scale_;
     GrainPlaces places_;
+    hn::Mask<Twos> upright_in_x_; ///< the pattern's east is up
+    hn::Mask<Twos> upright_in_y_; ///< its north is
+    bool any_upright_ = false;
+    bool is_even_ = false;
 };
 
 } // namespace HWY_NAMESPACE

@@ -102,9 +102,11 @@ struct TileBuffer {
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
     /// Red, green, blue, 1/256 level; and, where the picture has grain, the share of it likewise.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
-    /// Where the picture has grain: of each pixel one over the depth of the ground that was painted
-    /// there last, 1/m; 0: none.
-    alignas(64) std::array<float, pixels + padding> nearness{};
+    /// Where the picture has grain: of each row's first pixel, third, and so on, one over the depth
+    /// of the ground that was painted there last, 1/m; 0: none. Rows follow each other without
+    /// gaps; there is room before the first one and behind the last.
+    static constexpr std::size_t nearness_room = 16;
+    alignas(64) std::array<float, pixels / 2 + 2 * nearness_room> nearness{};
     /// A bit for each column that is covered whole; one row more than there are.
     std::array<std::uint64_t, tile_height + 1> full{};
     std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole
@@ -123,6 +125,13 @@ struct TileBuffer {
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> waiting;
     std::vector<std::uint32_t> waiting_colour;
+
+    float* nearness_of_row(int row) {
+        return nearness.data() + nearness_room + static_cast<std::size_t>(row) * (tile_width / 2);
+    }
+    const float* nearness_of_row(int row) const {
+        return const_cast<TileBuffer*>(this)->nearness_of_row(row);
+    }
 };
 
 /// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples

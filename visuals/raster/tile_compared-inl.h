@@ -82,14 +82,15 @@ HWY_INLINE void colour_over(
 }
 
 /// Puts the grain of a triangle over pixels of a strip, a bit each: none of one without. The strip
-/// begins at a column and row of the picture.
+/// begins at a column and row of the tile.
 HWY_INLINE void grain_over(
     std::uint32_t pixels,
     const Triangle& triangle,
     const StripLevel& share,
+    const TileJob& job,
     const glm::ivec2& at,
-    std::size_t first,
     TileBuffer& buffer) {
+    const auto first = static_cast<std::size_t>(at.y * tile_width + at.x);
     alignas(8) std::array<std::uint8_t, 8> bits{};
     std::memcpy(bits.data(), &pixels, sizeof pixels);
     for (std::size_t i = 0; i < strip_parts; ++i) {
@@ -100,15 +101,20 @@ HWY_INLINE void grain_over(
         std::uint16_t* const sums = buffer.sums[3].data() + first + part;
         hn::StoreU(hn::IfThenElse(is_drawn, value, hn::LoadU(Strip(), sums)), Strip(), sums);
         if (triangle.has_grain) {
-            put_nearness_of_part(
+            put_nearness(
+                Strip(),
                 triangle,
+                job,
                 at + glm::ivec2(static_cast<int>(part), 0),
                 hn::VecFromMask(Strip(), is_drawn),
-                buffer.nearness.data() + first + part);
+                buffer);
         }
     }
     for (std::uint32_t left = triangle.has_grain ? 0 : pixels; left != 0; left &= left - 1) {
-        buffer.nearness[first + static_cast<std::size_t>(std::countr_zero(left))] = 0.0F;
+        const int column = at.x + std::countr_zero(left);
+        if (column % 2 == 0) {
+            buffer.nearness_of_row(at.y)[column / 2] = 0.0F;
+        }
     }
 }
 
@@ -145,8 +151,7 @@ HWY_INLINE void paint_strip_over(
         if (drawn != 0 && rule.colours) {
             colour_over(drawn, levels, pixel, buffer);
             if (job.grain != nullptr) {
-                const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-                grain_over(drawn, triangle, levels[3], at, pixel, buffer);
+                grain_over(drawn, triangle, levels[3], job, {left, row}, buffer);
             }
         }
         whole.x += whole.slope;
@@ -196,8 +201,10 @@ HWY_INLINE void paint_pixels_over(
                 const Triangle& triangle = *one.triangle;
                 buffer.sums[3][pixel] =
                     static_cast<std::uint16_t>(grain_share_of(one, at.x, at.y) * 16U);
-                buffer.nearness[pixel] =
-                    triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;
+                if (column % 2 == 0) {
+                    buffer.nearness_of_row(row)[column / 2] =
+                        triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;
+                }
             }
         }
     }

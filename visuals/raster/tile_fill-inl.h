@@ -117,18 +117,6 @@ HWY_INLINE void add_pixel_by_pixel(
     }
 }
 
-/// Writes how near a triangle is where a few pixels have new samples.
-HWY_INLINE void
-put_nearness_of_pixels(const Triangle& triangle, const glm::ivec2& at, Counts counts, float* to) {
-    constexpr std::size_t px_at_once = hn::MaxLanes(Pixels());
-    alignas(32) std::array<std::uint16_t, px_at_once> each;
-    hn::Store(counts, Pixels(), each.data());
-    for (std::size_t i = 0; i < px_at_once; i += half_part_px) {
-        const glm::ivec2 first = at + glm::ivec2(static_cast<int>(i), 0);
-        put_nearness(triangle, first, hn::LoadU(HalfStrip(), &each[i]), to + i);
-    }
-}
-
 /// Adds a triangle's colour where TileBuffer::masks has samples that are free.
 HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
     const Coverage& coverage = buffer.coverage;
@@ -186,11 +174,8 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                         walk, triangle.levels, k, i, counts, buffer.sums[k].data() + pixel + i);
                 }
                 if (triangle.has_grain) {
-                    put_nearness_of_pixels(
-                        triangle,
-                        {column + static_cast<int>(i), row},
-                        counts,
-                        buffer.nearness.data() + pixel + i);
+                    const glm::ivec2 from(in_tile + static_cast<int>(i), at);
+                    put_nearness(Pixels(), triangle, job, from, counts, buffer);
                 }
             }
         }

@@ -37,8 +37,8 @@ grain_of_level(const GrainImage& image, const GrainPlace& place, hn::Vec<TwosBit
     const auto first_row =
         hn::Sub(twos_of(2 * GrainImage::side), hn::Shr(twos_of(2 * GrainImage::side), level));
     const auto row = hn::Add(first_row, in_level);
-    static_assert(GrainImage::stride == (1 << 10) + 1);
-    const auto texel = hn::Add(hn::Add(hn::ShiftLeft<10>(row), row), column);
+    static_assert(GrainImage::stride == (1 << 9) + 1);
+    const auto texel = hn::Add(hn::Add(hn::ShiftLeft<9>(row), row), column);
     const auto four = hn::GatherOffset(
         bits,
         reinterpret_cast<const std::uint32_t*>(image.texels()),
@@ -80,57 +80,21 @@ HWY_INLINE hn::Vec<TwosWhole> grain_of(const GrainImage& image, const GrainPlace
     return hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
 }
 
-/// What is known of a row's pairs of pixels and of the one beside it: first where they look in the
-/// pattern, then, in `x`, the pattern there.
+/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the
+/// lower half what the haze leaves of it, likewise; 0: no ground.
+HWY_INLINE hn::Vec<TwosBits>
+grain_seen(const GrainRays& rays, const GrainLook& look, float haze_per_depth) {
+    const auto pattern = hn::BitCast(TwosBits(), grain_of(grain_image(), look.places()));
+    const auto seen = hn::Or(hn::ShiftLeft<16>(pattern), look.left(rays, haze_per_depth));
+    return hn::IfThenElseZero(hn::RebindMask(TwosBits(), look.is_ground()), seen);
+}
+
+/// What a row's pairs of pixels see, and what the one beside it does.
 struct GrainRow {
-    using Numbers = std::array<std::uint32_t, twos_a_row>;
-    using NumbersAndOne = std::array<std::uint32_t, twos_a_row + 4>;
-    static constexpr std::uint32_t is_ground = 0x8000;
+    alignas(64) std::array<std::uint32_t, twos_a_row + 4> seen;
 
-    alignas(64) NumbersAndOne x;
-    alignas(64) NumbersAndOne left; ///< by the haze, and whether there is ground; 0 = none
-    alignas(64) Numbers y;
-    Numbers coarse_x;
-    Numbers coarse_y;
-    Numbers how; ///< level, share of the next level, how far the levels are gone through
-
-    HWY_INLINE void look(
-        std::size_t two,
-        const GrainRays& rays,
-        const GrainWays& ways,
-        const GrainWay& way,
-        const Nearness& near) {
-        const TwosBits bits;
-        const GrainLook look(rays, ways, way, near);
-        const GrainPlaces& places = look.places();
-        const auto ground = hn::RebindMask(bits, hn::Gt(near.here, hn::Zero(Twos())));
-        const auto levels = hn::Or(hn::ShiftLeft<16>(places.level), places.next_level);
-        hn::StoreU(places.fine.x, bits, &x[two]);
-        hn::StoreU(places.fine.y, bits, &y[two]);
-        hn::StoreU(places.coarse.x, bits, &coarse_x[two]);
-        hn::StoreU(places.coarse.y, bits, &coarse_y[two]);
-        hn::StoreU(hn::Or(levels, hn::ShiftLeft<8>(places.through)), bits, &how[two]);
-        hn::StoreU(
-            hn::IfThenElseZero(ground, hn::Or(look.left(rays), twos_of(is_ground))),
-            bits,
-            &left[two]);
-    }
-
-    HWY_INLINE GrainPlaces places(std::size_t two) const {
-        const TwosBits bits;
-        const auto here = hn::LoadU(bits, &how[two]);
-        return {
-            {hn::LoadU(bits, &x[two]), hn::LoadU(bits, &y[two])},
-            {hn::LoadU(bits, &coarse_x[two]), hn::LoadU(bits, &coarse_y[two])},
-            hn::ShiftRight<16>(here),
-            hn::And(here, twos_of(0xff)),
-            hn::And(hn::ShiftRight<8>(here), twos_of(0xff))};
-    }
-
-    /// All bits where there is any, else none.
-    HWY_INLINE hn::Vec<TwosBits> ground(std::size_t two) const {
-        const auto here = hn::And(hn::LoadU(TwosBits(), &left[two]), twos_of(is_ground));
-        return hn::Sub(hn::Zero(TwosBits()), hn::ShiftRight<15>(here));
+    HWY_INLINE hn::Vec<TwosWhole> at(std::size_t two) const {
+        return hn::LoadU(TwosWhole(), reinterpret_cast<const std::int32_t*>(&seen[two]));
     }
 };
 
@@ -148,11 +112,10 @@ struct ContrastOfTwos {
         const std::uint32_t* table) {
         const TwosBits bits;
         const TwosWhole whole;
-        const auto here = hn::LoadU(whole, reinterpret_cast<const std::int32_t*>(&grain.x[two]));
-        const auto beside =
-            hn::LoadU(whole, reinterpret_cast<const std::int32_t*>(&grain.x[two + 1]));
-        const auto ground = hn::BitCast(whole, grain.ground(two + 1));
-        const auto next = hn::Or(hn::And(beside, ground), hn::AndNot(ground, here));
+        const auto here = hn::ShiftRight<16>(grain.at(two));
+        const auto seen_beside = grain.at(two + 1);
+        const auto is_ground = hn::Ne(seen_beside, hn::Zero(whole));
+        const auto next = hn::IfThenElse(is_ground, hn::ShiftRight<16>(seen_beside), here);
         const auto between = hn::ShiftRight<1>(hn::Add(here, next));
         static_assert(scene::CoverContrast::patterns == 64 && scene::CoverContrast::kinds == 128);
         const auto entry = [&](hn::Vec<TwosBits> kind, hn::Vec<TwosWhole> pattern) HWY_ATTR {
@@ -184,7 +147,7 @@ HWY_INLINE void change_row(
         const std::size_t at = first + 2 * two;
         const auto numbers = hn::LoadU(values, buffer.sums[3].data() + at);
         const ContrastOfTwos contrast(grain, two, hn::BitCast(TwosBits(), numbers), table);
-        const auto left = hn::And(hn::LoadU(TwosBits(), &grain.left[two]), twos_of(0x7fff));
+        const auto left = hn::And(hn::LoadU(TwosBits(), &grain.seen[two]), twos_of(0x7fff));
         const auto left_of_both = hn::BitCast(halves, hn::Or(left, hn::ShiftLeft<16>(left)));
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + at;
@@ -201,104 +164,153 @@ HWY_INLINE void change_row(
     }
 }
 
-constexpr std::size_t parts_a_row = twos_a_row / twos_at_once;
+/// Every second pair of a row, and the one beside the row.
+using EverySecond = std::array<std::uint32_t, twos_a_row / 2 + 16>;
 
-/// Where the pairs of a row of a tile look in the pattern, a bit for each few that have any
-/// ground.
-HWY_INLINE std::uint32_t
-look_at_row(const TileJob& job, const TileBuffer& buffer, int row, GrainRow& grain) {
-    const GrainWays ways(*job.grain, job.first_px + glm::ivec2(0, row));
-    const float* const near = buffer.nearness.data() + static_cast<std::size_t>(row) * tile_width;
-    const float* const below = row + 1 < job.size_px.y ? near + tile_width : near;
-    const float* const above = row > 0 ? near - tile_width : near;
-    std::uint32_t parts = 0;
-    for (std::size_t part = 0; part < parts_a_row; ++part) {
-        const std::size_t two = part * twos_at_once;
-        const Nearness nearness = nearness_of_row(near + 2 * two, above + 2 * two, below + 2 * two);
-        if (hn::AllTrue(Twos(), hn::Eq(nearness.here, hn::Zero(Twos())))) {
-            hn::StoreU(hn::Zero(TwosBits()), TwosBits(), &grain.left[two]);
-            continue;
+/// Finds what every second pair of a row of a tile sees, from one on.
+struct RowLook {
+    bool any = false;    ///< of them sees ground
+    bool is_even = true; ///< all of them do, and what lies between is even
+
+    HWY_INLINE RowLook(
+        const TileJob& job,
+        const TileBuffer& buffer,
+        const glm::ivec2& first_two,
+        float haze_per_depth,
+        std::uint32_t* to) {
+        const int row = first_two.y;
+        const GrainWays ways(*job.grain, job.first_px + glm::ivec2(0, row));
+        for (std::size_t i = 0; i < twos_a_row / 2; i += twos_at_once) {
+            const std::size_t two = static_cast<std::size_t>(first_two.x) + 2 * i;
+            const Nearness near = nearness_of_row(job, buffer, row, two);
+            const auto is_ground = hn::Gt(near.here, hn::Zero(Twos()));
+            auto seen = hn::Zero(TwosBits());
+            if (hn::AllFalse(Twos(), is_ground)) {
+                is_even = false;
+            } else {
+                const GrainWay way{
+                    ways.part[0].in_row(two), ways.part[1].in_row(two), ways.part[2].in_row(two)};
+                const GrainLook look(*job.grain, ways, way, near);
+                seen = grain_seen(*job.grain, look, haze_per_depth);
+                any = true;
+                is_even = is_even && look.is_even() && hn::AllTrue(Twos(), is_ground);
+            }
+            hn::StoreU(seen, TwosBits(), to + i);
         }
-        parts |= std::uint32_t{1} << part;
-        const GrainWay way{
-            ways.part[0].in_row(two), ways.part[1].in_row(two), ways.part[2].in_row(two)};
-        grain.look(two, *job.grain, ways, way, nearness);
     }
-    return parts;
+};
+
+/// Between neighbours that see ground, in both halves.
+HWY_INLINE void put_between(const EverySecond& from, EverySecond& to) {
+    const TwosBits bits;
+    const auto lower = twos_of(0xffff);
+    for (std::size_t i = 0; i < twos_a_row / 2; i += twos_at_once) {
+        const auto before = hn::LoadU(bits, &from[i]);
+        const auto beside = hn::LoadU(bits, &from[i + 1]);
+        const auto after = hn::IfThenElse(hn::Eq(beside, hn::Zero(bits)), before, beside);
+        const auto pattern = hn::ShiftRight<1>(hn::Add(
+            hn::ShiftRight<16>(hn::BitCast(TwosWhole(), before)),
+            hn::ShiftRight<16>(hn::BitCast(TwosWhole(), after))));
+        const auto left = hn::ShiftRight<1>(hn::Add(hn::And(before, lower), hn::And(after, lower)));
+        hn::StoreU(hn::Or(hn::ShiftLeft<16>(hn::BitCast(bits, pattern)), left), bits, &to[i]);
+    }
 }
 
-/// The same of the pairs right of a tile, one of each row, where the ground goes on as it ends.
-HWY_INLINE std::uint32_t
-look_beside(const TileJob& job, const TileBuffer& buffer, GrainRow& grain) {
+/// Whether all pairs of a row may see ground.
+HWY_INLINE bool is_ground_row(const TileBuffer& buffer, int row) {
+    const Twos real;
+    const float* const near = buffer.nearness_of_row(row);
+    auto least = hn::LoadU(real, near);
+    for (std::size_t two = twos_at_once; two < twos_a_row; two += twos_at_once) {
+        least = hn::Min(least, hn::LoadU(real, near + two));
+    }
+    return hn::AllTrue(real, hn::Gt(least, hn::Zero(real)));
+}
+
+/// Finds what the pairs of a row of a tile see, the one beside it known; whether any sees ground.
+/// Pairs between others are looked at where that is worth it.
+HWY_INLINE bool look_at_row(
+    const TileJob& job, const TileBuffer& buffer, int row, float haze_per_depth, GrainRow& grain) {
+    alignas(64) EverySecond even;
+    alignas(64) EverySecond odd;
+    const RowLook first(job, buffer, {0, row}, haze_per_depth, even.data());
+    bool any = first.any;
+    if (first.is_even && is_ground_row(buffer, row)) {
+        even[twos_a_row / 2] = grain.seen[twos_a_row];
+        put_between(even, odd);
+    } else {
+        any |= RowLook(job, buffer, {1, row}, haze_per_depth, odd.data()).any;
+    }
+    for (std::size_t i = 0; i < twos_a_row / 2; i += twos_at_once) {
+        hn::StoreInterleaved2(
+            hn::LoadU(TwosBits(), &even[i]),
+            hn::LoadU(TwosBits(), &odd[i]),
+            TwosBits(),
+            &grain.seen[2 * i]);
+    }
+    return any;
+}
+
+/// The same of the pixels right of a tile, one of each row, where the ground goes on as it ends.
+HWY_INLINE void
+look_beside(const TileJob& job, const TileBuffer& buffer, float haze_per_depth, GrainRow& grain) {
     static_assert(tile_height <= twos_a_row);
     std::array<float, twos_a_row> here{};
     std::array<float, twos_a_row> across{};
     std::array<float, twos_a_row> down{};
-    const auto rows = static_cast<std::size_t>(job.size_px.y);
-    for (std::size_t row = 0; row < rows; ++row) {
-        const float* const last = &buffer.nearness[row * tile_width + tile_width - 2];
-        const bool is_last = row + 1 == rows;
-        const float other = is_last && row > 0 ? *(last - tile_width) : *(last + tile_width);
-        if (std::min(last[0], last[1]) > 0.0F) {
-            across[row] = last[1] - last[0];
-            here[row] = last[1] + std::max(across[row], across[row] + across[row]);
+    for (int row = 0; row < job.size_px.y; ++row) {
+        const auto at = static_cast<std::size_t>(row);
+        const float* const last = buffer.nearness_of_row(row) + twos_a_row - 1;
+        const bool is_last = row + 1 == job.size_px.y;
+        const float other = is_last && row > 0 ? *(last - twos_a_row) : *(last + twos_a_row);
+        if (std::min(last[0], last[-1]) > 0.0F) {
+            across[at] = 0.5F * (last[0] - last[-1]);
+            here[at] = last[0] + 2.0F * across[at];
             const float step = other > 0.0F ? other - last[0] : 0.0F;
-            down[row] = is_last ? -step : step;
+            down[at] = is_last ? -step : step;
         }
     }
     const GrainWays ways(*job.grain, job.first_px);
     for (std::size_t row = 0; row < twos_a_row; row += twos_at_once) {
-        const Nearness nearness{
+        const Nearness near{
             hn::LoadU(Twos(), &here[row]),
             hn::LoadU(Twos(), &across[row]),
             hn::LoadU(Twos(), &down[row])};
         const GrainWay way{
             ways.part[0].beside(row), ways.part[1].beside(row), ways.part[2].beside(row)};
-        grain.look(row, *job.grain, ways, way, nearness);
+        const GrainLook look(*job.grain, ways, way, near);
+        hn::StoreU(grain_seen(*job.grain, look, haze_per_depth), TwosBits(), &grain.seen[row]);
     }
-    return (std::uint32_t{1} << parts_a_row) - 1;
 }
 
-/// Puts the pattern in the places' stead.
-HWY_INLINE void find_in_row(std::uint32_t parts, GrainRow& grain) {
-    const GrainImage& image = grain_image();
-    for (std::size_t part = 0; part < parts_a_row; ++part) {
-        const std::size_t two = part * twos_at_once;
-        auto seen = hn::Zero(TwosWhole());
-        if ((parts >> part & 1U) != 0) {
-            seen = grain_of(image, grain.places(two));
+HWY_INLINE bool has_ground(const TileBuffer& buffer) {
+    const Twos real;
+    auto most = hn::Zero(real);
+    for (int row = 0; row < tile_height; ++row) {
+        const float* const near = buffer.nearness_of_row(row);
+        for (std::size_t two = 0; two < twos_a_row; two += twos_at_once) {
+            most = hn::Max(most, hn::LoadU(real, near + two));
         }
-        hn::StoreU(hn::BitCast(TwosBits(), seen), TwosBits(), &grain.x[two]);
     }
+    return !hn::AllTrue(real, hn::Eq(most, hn::Zero(real)));
 }
 
 /// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are
-/// painted. Each step is done for all rows before the next one: within a step no row waits for
-/// another.
+/// painted.
 HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
-    std::array<GrainRow, tile_height> grain;
-    std::array<std::uint32_t, tile_height> parts{};
-    std::uint32_t any = 0;
-    const auto rows = static_cast<std::size_t>(job.size_px.y);
-    for (std::size_t row = 0; row < rows; ++row) {
-        parts[row] = look_at_row(job, buffer, static_cast<int>(row), grain[row]);
-        any |= parts[row];
-    }
-    if (any == 0) {
+    if (!has_ground(buffer)) {
         return;
     }
+    const float haze_per_depth =
+        job.grain->haze_per_m * GrainWays(*job.grain, job.first_px).length();
     GrainRow beside;
-    find_in_row(look_beside(job, buffer, beside), beside);
-    for (std::size_t row = 0; row < rows; ++row) {
-        if (parts[row] != 0) {
-            find_in_row(parts[row], grain[row]);
-        }
-    }
-    for (std::size_t row = 0; row < rows; ++row) {
-        if (parts[row] != 0) {
-            grain[row].x[twos_a_row] = beside.x[row];
-            grain[row].left[twos_a_row] = beside.left[row];
-            change_row(grain[row], job.grain->contrast, row * tile_width, buffer);
+    look_beside(job, buffer, haze_per_depth, beside);
+    GrainRow grain;
+    for (int row = 0; row < job.size_px.y; ++row) {
+        const auto at = static_cast<std::size_t>(row);
+        grain.seen[twos_a_row] = beside.seen[at];
+        if (look_at_row(job, buffer, row, haze_per_depth, grain)) {
+            change_row(grain, job.grain->contrast, at * tile_width, buffer);
         }
     }
 }

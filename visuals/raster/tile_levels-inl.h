@@ -59,11 +59,8 @@ HWY_INLINE void paint_strip(
                 }
                 if constexpr (has_grain) {
                     const auto columns_right = static_cast<int>(i * part_px);
-                    put_nearness_of_part(
-                        triangle,
-                        job.first_px + glm::ivec2(left + columns_right, row),
-                        fresh,
-                        buffer.nearness.data() + at);
+                    put_nearness(
+                        Strip(), triangle, job, {left + columns_right, row}, fresh, buffer);
                 }
             }
             full |= std::uint64_t{full_bits(after)} << left;
@@ -139,11 +136,13 @@ HWY_INLINE void paint_strip_of_middles(
                 }
                 if constexpr (has_grain) {
                     const auto columns_right = static_cast<int>(i * part_px);
-                    put_nearness_of_part(
+                    put_nearness(
+                        Strip(),
                         triangle,
-                        job.first_px + glm::ivec2(left + columns_right, row),
+                        job,
+                        {left + columns_right, row},
                         hn::VecFromMask(Strip(), is_fresh),
-                        buffer.nearness.data() + at);
+                        buffer);
                 }
             }
         }

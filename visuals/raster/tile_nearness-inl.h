@@ -1,5 +1,5 @@
-// How near the ground is at each pixel that is newly covered: what its fine pattern is placed by
-// when the tile's triangles are painted.
+// How near the ground is at every second pixel that is newly covered: what its fine pattern is
+// placed by when the tile's triangles are painted.
 // Included once for each instruction set.
 #if defined(OCTANT_RASTER_NEARNESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_NEARNESS_INL
@@ -19,30 +19,33 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
 using HalfStrip = hn::Half<Strip>;
-constexpr std::size_t half_part_px = part_px / 2;
 
-/// Writes it for half a part of a strip, which begins at a column and row of the picture, where
-/// samples are fresh.
-HWY_INLINE void
-put_nearness(const Triangle& triangle, const glm::ivec2& at, hn::Vec<HalfStrip> fresh, float* to) {
-    const hn::Rebind<float, HalfStrip> real;
-    const hn::Rebind<std::uint32_t, HalfStrip> bits;
+/// Writes it for those of a row's pixels that lie in even columns of the tile, where samples are
+/// fresh. The row begins at a column and row of the tile.
+template <class Tag>
+HWY_INLINE void put_nearness(
+    Tag /*pixels*/,
+    const Triangle& triangle,
+    const TileJob& job,
+    const glm::ivec2& at,
+    hn::Vec<Tag> fresh,
+    TileBuffer& buffer) {
+    const hn::Repartition<std::uint32_t, Tag> bits;
+    const hn::RebindToFloat<decltype(bits)> real;
+    const int odd = at.x & 1;
+    const glm::ivec2 first = job.first_px + at + glm::ivec2(odd, 0);
     const NearnessPlane& plane = triangle.nearness;
-    const float in_row = plane.first + plane.per_y * static_cast<float>(at.y - triangle.first_row);
-    const auto first_column = hn::Set(real, static_cast<float>(at.x - triangle.left));
-    const auto columns = hn::Add(first_column, counting_from(real, 0));
+    const float in_row =
+        plane.first + plane.per_y * static_cast<float>(first.y - triangle.first_row);
+    const auto two_each = hn::Add(counting_from(real, 0), counting_from(real, 0));
+    const auto columns =
+        hn::Add(hn::Set(real, static_cast<float>(first.x - triangle.left)), two_each);
     const auto raw = hn::Add(hn::Set(real, in_row), hn::Mul(columns, hn::Set(real, plane.per_x)));
     const auto value = hn::Min(hn::Max(raw, hn::Set(real, plane.least)), hn::Set(real, plane.most));
-    const auto is_fresh = hn::RebindMask(real, hn::Ne(hn::PromoteTo(bits, fresh), hn::Zero(bits)));
+    const auto in_even = hn::And(hn::BitCast(bits, fresh), hn::Set(bits, 0xffffU << (16 * odd)));
+    const auto is_fresh = hn::RebindMask(real, hn::Ne(in_even, hn::Zero(bits)));
+    float* const to = buffer.nearness_of_row(at.y) + (at.x + 1) / 2;
     hn::StoreU(hn::IfThenElse(is_fresh, value, hn::LoadU(real, to)), real, to);
-}
-
-/// The same for a whole part.
-HWY_INLINE void put_nearness_of_part(
-    const Triangle& triangle, const glm::ivec2& at, hn::Vec<Strip> fresh, float* to) {
-    const glm::ivec2 second = at + glm::ivec2(static_cast<int>(half_part_px), 0);
-    put_nearness(triangle, at, hn::LowerHalf(HalfStrip(), fresh), to);
-    put_nearness(triangle, second, hn::UpperHalf(HalfStrip(), fresh), to + half_part_px);
 }
 
 } // namespace HWY_NAMESPACE

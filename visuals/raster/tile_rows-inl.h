@@ -278,8 +278,7 @@ HWY_INLINE void paint_levels_in_pairs(
         if constexpr (has_grain) {
             const auto put = [&](std::size_t which, hn::Vec<HalfStrip> of_row) HWY_ATTR {
                 const glm::ivec2 at(window.first[which], window.row + static_cast<int>(which));
-                float* const to = buffer.nearness.data() + window.pixel(which);
-                put_nearness(triangle, job.first_px + at, of_row, to);
+                put_nearness(HalfStrip(), triangle, job, at, of_row, buffer);
             };
             put(0, hn::LowerHalf(HalfStrip(), fresh));
             put(1, hn::UpperHalf(HalfStrip(), fresh));

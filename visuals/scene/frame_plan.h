@@ -121,6 +121,8 @@ struct Haze {
 struct Grain {
     /// Where the eye stands in the pattern at each scale, in tiles, 0..1.
     std::array<glm::vec2, GrainPattern::scales> at_eye{};
+    /// How high the eye is above the pattern's origin, likewise: for slopes that show it upright.
+    std::array<float, GrainPattern::scales> up_at_eye{};
     std::shared_ptr<const CoverContrast> contrast;
 };
 

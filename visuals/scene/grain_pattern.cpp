@@ -155,14 +155,17 @@ const Levels& grain_levels() {
     return levels;
 }
 
+double grain_tile_m(int scale) {
+    return std::exp2(GrainPattern::levels_a_scale * scale) * GrainPattern::texels_a_side /
+           static_cast<double>(GrainPattern::texels_per_m);
+}
+
 glm::dvec2 place_in_grain(const glm::dvec3& place_m, int scale) {
     const bool is_even = scale % 2 == 0;
     const glm::dvec2 lean_m = glm::dvec2(GrainPattern::lean) * place_m.z;
     const glm::dvec2 level_m = glm::dvec2(place_m) + (is_even ? lean_m : -lean_m);
     const glm::dvec2 turned_m = is_even ? level_m : glm::dvec2(level_m.y, -level_m.x);
-    return turned_m *
-           (std::exp2(-GrainPattern::levels_a_scale * scale) *
-            static_cast<double>(GrainPattern::texels_per_m) / GrainPattern::texels_a_side);
+    return turned_m / grain_tile_m(scale);
 }
 
 } // namespace octant::visuals::scene

@@ -14,7 +14,7 @@ namespace octant::visuals::scene {
 /// each `scale_step` times as wide as the one before and turned by a right angle: a pixel sees two
 /// of them, so that it has contrast however large it is.
 struct GrainPattern {
-    static constexpr int texels_a_side = 1024;
+    static constexpr int texels_a_side = 512;
     static constexpr float texels_per_m = 8.0F; ///< at the finest scale
     static constexpr int scales = 4;
     static constexpr int levels_a_scale = 4; ///< halvings of size from one scale to the next
@@ -23,6 +23,10 @@ struct GrainPattern {
     /// that steep ground has the pattern, too; at every second scale as far the other way: where
     /// one of them runs in streaks down a slope, the next one does not.
     static constexpr glm::vec2 lean{0.22F, -0.27F};
+    /// Ground whose normal leans more than by this tangent from the vertical shows the pattern
+    /// upright, as on a wall that faces east or north, whichever is nearer: from above it would
+    /// run in streaks down the slope. At this tangent both are stretched alike, by 1.7 at most.
+    static constexpr float upright_from = 0.8F;
     /// Standard deviation of all levels; the pattern goes from -1 to 1.
     static constexpr double deviation = 0.36;
 
@@ -36,6 +40,9 @@ struct GrainPattern {
 /// first, as many as a scale has. The same bytes on every machine. Made when they are first asked
 /// for.
 const std::array<GrainPattern, GrainPattern::levels_a_scale + 1>& grain_levels();
+
+/// How wide a tile of the pattern is at a scale.
+double grain_tile_m(int scale);
 
 /// Where a place lies in the pattern at a scale, in tiles; metres, world axes.
 glm::dvec2 place_in_grain(const glm::dvec3& place_m, int scale);

@@ -41,6 +41,7 @@ scene::Grain strong_grain() {
     const scene::Cover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
     return {
         {glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
+        {0.3F, 0.8F, 0.1F, 0.6F},
         std::make_shared<const scene::CoverContrast>(std::array{dark, bright, dark, bright})};
 }
 

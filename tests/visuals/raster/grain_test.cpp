@@ -25,6 +25,7 @@ constexpr std::uint32_t second_cover = 0x80808080U;
 constexpr std::uint32_t water = 0x00808080U;
 constexpr std::array at_eye{
     glm::vec2(0.3F, 0.8F), glm::vec2(0.55F, 0.1F), glm::vec2(0.7F, 0.4F), glm::vec2(0.2F, 0.9F)};
+constexpr std::array up_at_eye{0.15F, 0.65F, 0.35F, 0.85F};
 
 std::shared_ptr<const scene::CoverContrast> dark_and_bright() {
     const scene::Cover dark{glm::vec3(0.2F), 0.05F};
@@ -32,25 +33,41 @@ std::shared_ptr<const scene::CoverContrast> dark_and_bright() {
     return std::make_shared<const scene::CoverContrast>(std::array{dark, bright, dark, bright});
 }
 
-/// One over the distance of a slope that falls away from the lower left corner.
-double slope_nearness(const glm::dvec2& at_px) {
-    return 1.0 / 30.0 - 0.016 * at_px.x / picture_px.x + 0.012 * at_px.y / picture_px.y;
-}
+/// A slope, by one over its distance in the picture's upper left corner and by how much that
+/// changes to the right one and to the lower one.
+struct Slope {
+    double at_corner;
+    double across;
+    double down;
+    int columns = picture_px.x; ///< of the picture in which it is seen
+    bool is_upright = false;    ///< so steep that it shows the pattern upright
+
+    double nearness(const glm::dvec2& at_px) const {
+        return at_corner + across * at_px.x / picture_px.x + down * at_px.y / picture_px.y;
+    }
+};
+
+/// Falls away from the lower left corner, seen from above.
+constexpr Slope gentle{1.0 / 30.0, -0.016, 0.012};
+/// Its normal leans towards the west by two and a half times as much as it reaches up.
+constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, true};
 
 /// The slope, cut into triangles of so many pixels.
-void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour) {
+void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope& slope = gentle) {
     std::vector<FlatTriangle> triangles;
     const auto add = [&](const std::array<glm::ivec2, 3>& at_px) {
         FlatTriangle triangle;
         triangle.colour.fill(colour);
         for (std::size_t i = 0; i < 3; ++i) {
             triangle.at_px[i] = glm::vec2(at_px[i]);
-            triangle.depth_m[i] = static_cast<float>(1.0 / slope_nearness(glm::dvec2(at_px[i])));
+            triangle.depth_m[i] = static_cast<float>(1.0 / slope.nearness(glm::dvec2(at_px[i])));
         }
         triangles.push_back(triangle);
     };
     for (int y = 0; y < picture_px.y; y += cell_px) {
-        for (int x = 0; x < picture_px.x; x += cell_px) {
+        const int end =
+            std::min(slope.columns + cell_px, picture_px.x); // no rim where it is judged
+        for (int x = 0; x < end; x += cell_px) {
             const int right = x + cell_px;
             const int below_it = y + cell_px;
             add({glm::ivec2(x, y), {right, y}, {x, below_it}});
@@ -61,27 +78,34 @@ void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour) {
 }
 
 void put_grain(FlatPlan& plan) {
-    plan.plan().grain = scene::Grain{at_eye, dark_and_bright()};
+    plan.plan().grain = scene::Grain{at_eye, up_at_eye, dark_and_bright()};
 }
 
 /// Where a pixel's middle sees the slope, metres from the eye.
-glm::dvec3 seen_from_eye_m(const glm::dvec2& at_px) {
-    const double depth_m = 1.0 / slope_nearness(at_px);
+glm::dvec3 seen_from_eye_m(const glm::dvec2& at_px, const Slope& slope) {
+    const double depth_m = 1.0 / slope.nearness(at_px);
     const glm::dvec2 share = at_px / glm::dvec2(picture_px) * 2.0 - 1.0;
     return {share.x * depth_m, -share.y * depth_m, -depth_m};
 }
 
 /// Where that lies in the pattern at a scale, in texels of its finest level.
-glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale) {
+glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale, bool is_upright) {
     using scene::GrainPattern;
-    const double sign = scale % 2 == 0 ? 1.0 : -1.0;
+    const auto at = static_cast<std::size_t>(scale);
+    const bool is_odd = scale % 2 != 0;
+    const double sign = is_odd ? -1.0 : 1.0;
     const double east =
         from_eye_m.x + sign * static_cast<double>(GrainPattern::lean.x) * from_eye_m.z;
     const double north =
         from_eye_m.y + sign * static_cast<double>(GrainPattern::lean.y) * from_eye_m.z;
     const double texels_per_m = 8.0 / std::pow(16.0, scale);
-    const glm::dvec2 turned = scale % 2 == 0 ? glm::dvec2(east, north) : glm::dvec2(north, -east);
-    return turned * texels_per_m + glm::dvec2(at_eye[static_cast<std::size_t>(scale)]) * 1024.0;
+    glm::dvec2 turned = is_odd ? glm::dvec2(north, -east) : glm::dvec2(east, north);
+    glm::dvec2 eye(at_eye[at]);
+    if (is_upright) {
+        (is_odd ? turned.y : turned.x) = sign * from_eye_m.z;
+        (is_odd ? eye.y : eye.x) = sign * static_cast<double>(up_at_eye[at]);
+    }
+    return turned * texels_per_m + eye * static_cast<double>(GrainPattern::texels_a_side);
 }
 
 /// The pattern between the four texels around a place, -1 to 1.
@@ -109,10 +133,13 @@ struct Range {
     double most = -1.0;
 };
 
-Range pattern_around(const glm::dvec2& at_px) {
-    const glm::dvec3 here = seen_from_eye_m(at_px);
-    const double across = glm::length(seen_from_eye_m(at_px + glm::dvec2(1.0, 0.0)) - here);
-    const double down = glm::length(seen_from_eye_m(at_px + glm::dvec2(0.0, 1.0)) - here);
+Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
+    const auto seen_from = [&](double columns, double rows) {
+        return seen_from_eye_m(at_px + glm::dvec2(columns, rows), slope);
+    };
+    const glm::dvec3 here = seen_from(0.0, 0.0);
+    const double across = glm::length(seen_from(1.0, 0.0) - here);
+    const double down = glm::length(seen_from(0.0, 1.0) - here);
     const double wide_m = std::max(across, down);
     Range range;
     for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
@@ -120,9 +147,10 @@ Range pattern_around(const glm::dvec2& at_px) {
         const int scale = static_cast<int>(level / 4.0);
         const double through = level / 4.0 - scale;
         for (const double beside : {-1.0, 0.0, 1.0}) { // between two pixels it is even
-            const glm::dvec3 seen = seen_from_eye_m(at_px + glm::dvec2(beside, 0.0));
-            const glm::dvec2 fine = texels_at(seen, scale);
-            const double coarse = pattern_at(scene::grain_levels()[0], texels_at(seen, scale + 1));
+            const glm::dvec3 seen = seen_from(beside, 0.0);
+            const glm::dvec2 fine = texels_at(seen, scale, slope.is_upright);
+            const double coarse =
+                pattern_at(scene::grain_levels()[0], texels_at(seen, scale + 1, slope.is_upright));
             for (const double rounded : {std::floor(4.0 * through), std::ceil(4.0 * through)}) {
                 const auto& in_level = scene::grain_levels()[static_cast<std::size_t>(rounded)];
                 const double value =
@@ -134,6 +162,30 @@ Range pattern_around(const glm::dvec2& at_px) {
         }
     }
     return range;
+}
+
+/// How many pixels of a slope must be dark or bright, and how many of them are not.
+struct Chosen {
+    int dark = 0;
+    int bright = 0;
+    int wrong = 0;
+};
+
+Chosen chosen_in(const scene::Picture& picture, const Slope& slope) {
+    const double border = 0.35 * scene::GrainPattern::deviation;
+    Chosen chosen;
+    for (int y = 0; y < picture_px.y; ++y) {
+        for (int x = 0; x < slope.columns; ++x) {
+            const int level = pixel(picture, x, y).y;
+            const Range range = pattern_around(glm::dvec2(x, y) + 0.5, slope);
+            const bool is_bright = range.least > border;
+            const bool is_dark = range.most < -border;
+            chosen.bright += is_bright ? 1 : 0;
+            chosen.dark += is_dark ? 1 : 0;
+            chosen.wrong += (is_bright && level < 140) || (is_dark && level > 116) ? 1 : 0;
+        }
+    }
+    return chosen;
 }
 
 /// Mean of the red bytes.
@@ -148,36 +200,25 @@ double mean_level(const scene::Picture& picture) {
 } // namespace
 
 TEST_CASE("each pixel has the cover that the fine pattern chooses at its place in the world") {
-    for (const int cell_px : {8, 48}) {
-        FlatPlan plan(picture_px);
-        paint_slope(plan, cell_px, half_and_half);
-        put_grain(plan);
-        for (const int samples : {1, 16}) {
-            const scene::Picture picture = drawn(plan.plan(), picture_px, samples);
-            int wrong = 0;
-            int dark = 0;
-            int bright = 0;
-            for (int y = 0; y < picture_px.y; ++y) {
-                for (int x = 0; x < picture_px.x; ++x) {
-                    const int level = pixel(picture, x, y).y;
-                    const Range range = pattern_around(glm::dvec2(x, y) + 0.5);
-                    const double border = 0.35 * scene::GrainPattern::deviation;
-                    wrong += range.least > border && level < 140 ? 1 : 0;
-                    wrong += range.most < -border && level > 116 ? 1 : 0;
-                    bright += range.least > border ? 1 : 0;
-                    dark += range.most < -border ? 1 : 0;
-                }
+    for (const Slope& slope : {gentle, steep}) {
+        for (const int cell_px : {8, 32}) {
+            FlatPlan plan(picture_px);
+            paint_slope(plan, cell_px, half_and_half, slope);
+            put_grain(plan);
+            for (const int samples : {1, 16}) {
+                const Chosen chosen = chosen_in(drawn(plan.plan(), picture_px, samples), slope);
+                const int pixels = slope.columns * picture_px.y;
+                CAPTURE(slope.is_upright, cell_px, samples);
+                CHECK(chosen.wrong < pixels / 500);
+                CHECK(chosen.dark > pixels / 10);
+                CHECK(chosen.bright > pixels / 10);
             }
-            CAPTURE(cell_px, samples);
-            CHECK(wrong < picture_px.x * picture_px.y / 500);
-            CHECK(dark > picture_px.x * picture_px.y / 10);
-            CHECK(bright > picture_px.x * picture_px.y / 10);
         }
     }
 }
 
 TEST_CASE("the fine pattern leaves the mean colour as it is, whatever the ground is mixed of") {
-    constexpr int places = 16; // a picture is too small to show every feature of the pattern
+    constexpr int places = 64; // a picture is too small to show every feature of the pattern
     for (const std::uint32_t covers : {0x48U, 0x60U, 0x78U, 0xa0U, 0xc0U, 0xe0U}) {
         FlatPlan plan(picture_px);
         paint_slope(plan, 16, covers << 24U | 0x808080U);
@@ -237,7 +278,7 @@ TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
         put_grain(plan);
         for (std::size_t scale = 0; scale < at_eye.size(); ++scale) {
             const float tiles =
-                px * px_m * 8.0F / 1024.0F / std::exp2(4.0F * static_cast<float>(scale));
+                px * px_m * 8.0F / 512.0F / std::exp2(4.0F * static_cast<float>(scale));
             glm::vec2& eye = plan.plan().grain->at_eye[scale];
             (scale % 2 == 0 ? eye.x : eye.y) += scale % 2 == 0 ? tiles : -tiles;
         }

@@ -14,5 +14,6 @@ layout(std140, binding = 0) uniform Picture {
     vec4 normal_place;
     vec4 grain_x; // the eye's place in the fine pattern at each scale, in tiles; negative = none
     vec4 grain_y;
+    vec4 grain_up;
 };
 #endif
