@@ -41,14 +41,15 @@ class LargeReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    explicit LargeReference(const settings::RunSettings& settings)
-        : settings_(settings) {
+    LargeReference(const settings::RunSettings& settings, const world::World& world)
+        : settings_(settings)
+        , world_(world) {
         settings_.view.size_px *= scale;
     }
 
     const scene::Picture& picture(int frame) {
         if (!session_) {
-            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers);
+            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers, nullptr, world_);
         }
         session_->draw(frame);
         return session_->picture();
@@ -56,6 +57,7 @@ public:
 
 private:
     settings::RunSettings settings_;
+    const world::World& world_;
     std::unique_ptr<Session> session_;
 };
 
@@ -107,14 +109,20 @@ ComparedSettings compared_settings(const settings::RunSettings& settings) {
     return compared;
 }
 
+ComparedWorlds compared_worlds(const settings::RunSettings& settings) {
+    const auto [painted, by_depth] = compared_settings(settings);
+    return {world::load_world(painted), world::load_world(by_depth)};
+}
+
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
+    const ComparedWorlds& worlds,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
     const auto [painted, by_depth] = compared_settings(settings);
-    Session painter(painted, Shows::PolygonNumbers);
-    Session reference(by_depth, Shows::PolygonNumbers);
-    LargeReference large(by_depth);
+    Session painter(painted, Shows::PolygonNumbers, nullptr, worlds.painted);
+    Session reference(by_depth, Shows::PolygonNumbers, nullptr, worlds.by_depth);
+    LargeReference large(by_depth, worlds.by_depth);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {
