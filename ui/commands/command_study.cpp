@@ -137,7 +137,7 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
             "NAME|FILE",
             "compare this one in place of f15 and 500md",
             study.aircraft),
-        jobs_option(study.jobs, "flights compared at once; the race is one at a time"),
+        jobs_option(study.jobs, "views of a flight compared at once; the race is one at a time"),
         read_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
         read_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
 }

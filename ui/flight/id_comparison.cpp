@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace octant::ui::flight {
 
@@ -41,17 +42,15 @@ class LargeReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    /// `beside` stays where it is.
-    LargeReference(const settings::RunSettings& settings, const world::World& beside)
+    LargeReference(const settings::RunSettings& settings, const world::World& world)
         : settings_(settings)
-        , beside_(beside) {
+        , world_(world) {
         settings_.view.size_px *= scale;
     }
 
     const scene::Picture& picture(int frame) {
         if (!session_) {
-            session_ =
-                std::make_unique<Session>(settings_, Shows::PolygonNumbers, nullptr, &beside_);
+            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers, nullptr, world_);
         }
         session_->draw(frame);
         return session_->picture();
@@ -59,7 +58,7 @@ public:
 
 private:
     settings::RunSettings settings_;
-    const world::World& beside_;
+    const world::World& world_;
     std::unique_ptr<Session> session_;
 };
 
@@ -111,14 +110,22 @@ ComparedSettings compared_settings(const settings::RunSettings& settings) {
     return compared;
 }
 
+ComparedWorlds compared_worlds(const settings::RunSettings& settings) {
+    const auto [painted, by_depth] = compared_settings(settings);
+    world::World world = world::load_world(painted);
+    world::World other = world::load_world(by_depth, world::DrawnBy::Processor, &world);
+    return {std::move(world), std::move(other)};
+}
+
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
+    const ComparedWorlds& worlds,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
     const auto [painted, by_depth] = compared_settings(settings);
-    Session painter(painted, Shows::PolygonNumbers);
-    Session reference(by_depth, Shows::PolygonNumbers, nullptr, &painter.world());
-    LargeReference large(by_depth, painter.world());
+    Session painter(painted, Shows::PolygonNumbers, nullptr, worlds.painted);
+    Session reference(by_depth, Shows::PolygonNumbers, nullptr, worlds.by_depth);
+    LargeReference large(by_depth, worlds.by_depth);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {

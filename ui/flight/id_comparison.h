@@ -58,13 +58,24 @@ struct ComparedSettings {
 
 ComparedSettings compared_settings(const settings::RunSettings& settings);
 
+/// What both ways of drawing show, loaded. It serves all views of the same flight.
+struct ComparedWorlds {
+    world::World painted;
+    world::World by_depth;
+};
+
+/// Throws Error.
+ComparedWorlds compared_worlds(const settings::RunSettings& settings);
+
 /// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing
 /// hidden surfaces and with the depth buffer, and compares. Renderers round corners to 1/256 pixel,
 /// so that along an edge either of two polygons may be seen, and a tip be lost: where a number is
-/// missing, the reference is drawn again three times as large. Shadows are left out. `seen` is
-/// told of each frame that was compared and of how many there are. Throws Error.
+/// missing, the reference is drawn again three times as large. Shadows are left out. `worlds` are
+/// those of the settings, but for the view's. `seen` is told of each frame that was compared and of
+/// how many there are. Throws Error.
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
+    const ComparedWorlds& worlds,
     int every,
     const std::function<void(int compared, int frames)>& seen);
 

@@ -22,16 +22,26 @@ given_or_made(std::unique_ptr<scene::Renderer> given, const settings::RunSetting
     return given ? std::move(given) : make_renderer(settings);
 }
 
+/// The world of the settings, loaded unless one is given that differs in nothing but its view.
+world::World given_or_loaded(
+    std::optional<world::World> given, const settings::RunSettings& settings, world::DrawnBy by) {
+    if (!given) {
+        return world::load_world(settings, by);
+    }
+    given->points = world::fixed_points(settings, *given);
+    return std::move(*given);
+}
+
 } // namespace
 
 Session::Session(
     const settings::RunSettings& settings,
     Shows shows,
     std::unique_ptr<scene::Renderer> renderer,
-    const world::World* beside)
+    std::optional<world::World> loaded)
     : settings_(settings)
     , renderer_(given_or_made(std::move(renderer), settings))
-    , world_(world::load_world(settings, drawn_by(), beside))
+    , world_(given_or_loaded(std::move(loaded), settings, drawn_by()))
     , pictures_(*renderer_, world_.scene, settings_)
     , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(

@@ -38,13 +38,14 @@ namespace octant::ui::flight {
 class Session {
 public:
     /// Loads the world and draws once in every drawing state, with this renderer, which must be of
-    /// the settings' picture size, or with one that it makes as the settings say. `beside` as of
-    /// world::load_world. Throws Error. Stays in its place: parts of it point at others.
+    /// the settings' picture size, or with one that it makes as the settings say. Loads no world
+    /// where it is given one, which must be of these settings but for the view's. Throws Error.
+    /// Stays in its place: parts of it point at others.
     explicit Session(
         const settings::RunSettings& settings,
         Shows shows = Shows::World,
         std::unique_ptr<visuals::scene::Renderer> renderer = nullptr,
-        const world::World* beside = nullptr);
+        std::optional<world::World> loaded = std::nullopt);
     ~Session() = default;
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;

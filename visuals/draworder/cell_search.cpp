@@ -30,8 +30,10 @@ const std::array<TreeSearch, 4> tree_searches{
      {.forks = {.power = 0.5}, .keeps_part = true},
      {.forks = {.power = 1.5}, .keeps_part = true},
      {.planes_first = true, .keeps_part = true}}};
+/// Halves first: a plane that only takes something off a large graph leaves nearly all of the work
+/// to its children.
 const TreeSearch quick_search{
-    .forks = {.edge_planes = 300, .closer = 48, .exact = 2}, .keeps_part = true};
+    .forks = {.power = 3.0, .edge_planes = 300, .closer = 48, .exact = 2}, .keeps_part = true};
 
 TreeCost cost_of(const FoundCells& orders) {
     return {orders.work.twins.size(), orders.cells.size()};

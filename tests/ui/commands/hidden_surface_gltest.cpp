@@ -39,7 +39,14 @@ canyon_flight(const char* path, const char* aircraft, visuals::scene::View view)
 }
 
 ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int every) {
-    return ui::flight::compare_with_depth_buffer(settings, every, [](int, int) {});
+    return ui::flight::compare_with_depth_buffer(
+        settings, ui::flight::compared_worlds(settings), every, [](int, int) {});
+}
+
+ui::studies::draw_order::RayComparison
+with_rays(const ui::settings::RunSettings& settings, int every) {
+    return ui::studies::draw_order::compare_with_rays(
+        settings, ui::flight::compared_worlds(settings), every, [](int, int) {});
 }
 
 /// Compares more frames than `fewest`, each of which must show what the depth buffer shows.
@@ -165,8 +172,7 @@ TEST_CASE("models of hundreds of polygons are painted as rays see them") {
         }
         settings.surface.order_seconds = 0.2;
         constexpr int every = 200;
-        const auto result =
-            ui::studies::draw_order::compare_with_rays(settings, every, [](int, int) {});
+        const auto result = with_rays(settings, every);
         INFO(path << ": " << result.renderers[0].first_wrong);
         CHECK(result.frames > 2);
         CHECK(result.wrong() == 0);
@@ -188,8 +194,7 @@ TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer sh
 TEST_CASE("both renderers show the polygons that rays find, but for rounding") {
     using visuals::scene::View;
     for (const View view : {View::Chase, View::Cockpit}) {
-        const auto result = ui::studies::draw_order::compare_with_rays(
-            canyon_flight("pop-up", "f15", view), 200, [](int, int) {});
+        const auto result = with_rays(canyon_flight("pop-up", "f15", view), 200);
         REQUIRE(result.frames > 5);
         CHECK(result.wrong() == 0);
         for (const auto& renderer : result.renderers) {
@@ -201,7 +206,7 @@ TEST_CASE("both renderers show the polygons that rays find, but for rounding") {
 TEST_CASE("a picture in file order has pixels that no rounding explains") {
     ui::settings::RunSettings settings = canyon_flight("turn", "f15", visuals::scene::View::Orbit);
     settings.surface.hidden_surface = visuals::scene::HiddenSurface::BackFace;
-    const auto result = ui::studies::draw_order::compare_with_rays(settings, 100, [](int, int) {});
+    const auto result = with_rays(settings, 100);
     for (const auto& renderer : result.renderers) {
         CHECK(renderer.wrong > 0);
         CHECK_FALSE(renderer.first_wrong.empty());

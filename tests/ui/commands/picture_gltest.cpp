@@ -85,7 +85,10 @@ void check_against_golden(
             settings,
             ui::flight::Shows::World,
             nullptr,
-            sessions.empty() ? nullptr : &sessions.front()->world()));
+            ui::world::load_world(
+                settings,
+                ui::world::DrawnBy::Processor,
+                sessions.empty() ? nullptr : &sessions.front()->world())));
         const ui::report::Picture actual = last_picture(*sessions.back());
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;

@@ -21,7 +21,6 @@ bool shows_what_rays_find(const std::string& aircraft, int every) {
     study.race = false;
     study.pictures = false;
     study.every = every;
-    study.quiet = true;
     return ui::studies::draw_order::study_hidden_surface(study);
 }
 

@@ -60,11 +60,15 @@ TEST_CASE("every path, aircraft, view and built-in ground flies") {
         for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
             const std::string aircraft = (ground.size() + path.size()) % 2 == 1 ? "f15" : "500md";
             INFO(ground << " " << path << " " << aircraft);
+            const ui::settings::RunSettings settings = small_flight(path, aircraft, ground);
             sessions.push_back(std::make_unique<Session>(
-                small_flight(path, aircraft, ground),
+                settings,
                 ui::flight::Shows::World,
                 nullptr,
-                sessions.empty() ? nullptr : &sessions.front()->world()));
+                ui::world::load_world(
+                    settings,
+                    ui::world::DrawnBy::Processor,
+                    sessions.empty() ? nullptr : &sessions.front()->world())));
             Session& session = *sessions.back();
             REQUIRE(session.frames() > 5);
             std::set<visuals::scene::PictureBytes> pictures;

@@ -280,3 +280,13 @@ TEST_CASE("a model that is turned has the same lists") {
         }
     }
 }
+
+TEST_CASE("a pile of 60 bodies has a tree of nearly no cuts within a tenth of the usual search") {
+    OrderOptions options;
+    options.seconds = 2.0;
+    const OrderedModel found = ordered(octant::tests::pile(1989, 60), options);
+    CHECK(found.drawn_by == DrawnBy::Tree);
+    CHECK(found.splits <= 12);
+    CHECK(found.trial.wrong == 0);
+    CHECK(found.notes.empty());
+}

@@ -1,12 +1,10 @@
 #include "ui/studies/draw_order/ray_comparison.h"
 
-#include "ui/flight/id_comparison.h"
 #include "ui/flight/session.h"
 #include "ui/studies/draw_order/ray_renderer.h"
 
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace octant::ui::studies::draw_order {
@@ -26,36 +24,6 @@ std::string text_of(const RayRenderer::WrongPixel& wrong, int frame) {
         wrong.nearer ? fmt::format("the ray's is nearer by {:.1e} of the depth", *wrong.nearer)
                      : "what is shown is not there");
 }
-
-/// Frames of a run as they are painted, in order, but without rounding. They are drawn when they
-/// are asked for.
-class Unrounded {
-public:
-    /// `beside` stays where it is.
-    Unrounded(const settings::RunSettings& painted, const ui::world::World& beside)
-        : painted_(painted)
-        , beside_(beside) {}
-
-    const RayRenderer& at(int frame) {
-        if (!session_) {
-            auto renderer = std::make_unique<RayRenderer>(painted_.view.size_px);
-            renderer_ = renderer.get();
-            session_.emplace(painted_, Shows::PolygonNumbers, std::move(renderer), &beside_);
-        }
-        if (frame_ != frame) {
-            session_->draw(frame);
-            frame_ = frame;
-        }
-        return *renderer_;
-    }
-
-private:
-    settings::RunSettings painted_;
-    const ui::world::World& beside_;
-    std::optional<Session> session_;
-    const RayRenderer* renderer_ = nullptr; ///< of the session
-    int frame_ = -1;
-};
 
 } // namespace
 
@@ -78,31 +46,22 @@ void RayComparison::add(const RayComparison& other) {
 
 RayComparison compare_with_rays(
     const settings::RunSettings& settings,
+    const flight::ComparedWorlds& worlds,
     int every,
     const std::function<void(int compared, int frames)>& seen) {
-    auto [painted, by_depth] = flight::compared_settings(settings);
-    auto renderer = std::make_unique<RayRenderer>(painted.view.size_px);
-    const RayRenderer& rays = *renderer;
-    Session reference(by_depth, Shows::PolygonNumbers, std::move(renderer));
-    std::array<std::unique_ptr<Session>, rayed_renderers.size()> painters;
-    for (std::size_t i = 0; i < painters.size(); ++i) {
-        painted.drawing.renderer = rayed_renderers[i];
-        painters[i] =
-            std::make_unique<Session>(painted, Shows::PolygonNumbers, nullptr, &reference.world());
-    }
-    Unrounded unrounded(painted, reference.world());
+    const auto [painted, by_depth] = flight::compared_settings(settings);
+    auto renderer = std::make_unique<RayRenderer>(settings.view.size_px);
+    auto renderers = std::make_unique<JudgedRenderers>(painted, *renderer);
+    const JudgedRenderers& judged = *renderers;
+    Session reference(by_depth, Shows::PolygonNumbers, std::move(renderer), worlds.by_depth);
+    Session painter(painted, Shows::PolygonNumbers, std::move(renderers), worlds.painted);
     RayComparison sum;
     const int frames = (reference.frames() + every - 1) / every;
     for (int frame = 0; frame < reference.frames(); frame += every) {
         reference.draw(frame);
-        for (std::size_t i = 0; i < painters.size(); ++i) {
-            painters[i]->draw(frame);
-            const visuals::scene::Picture& picture = painters[i]->picture();
-            auto difference = rays.compare(picture, rounding_reach_px);
-            std::erase_if(difference.wrong, [&](const RayRenderer::WrongPixel& pixel) {
-                return unrounded.at(frame).is_rounding(
-                    pixel.at, pixel.number, rays.number_of(pixel.at), rounding_reach_px);
-            });
+        painter.draw(frame);
+        for (std::size_t i = 0; i < sum.renderers.size(); ++i) {
+            const RayRenderer::Difference& difference = judged.differences()[i];
             RayComparison::OfRenderer& own = sum.renderers[i];
             if (own.wrong == 0 && !difference.wrong.empty()) {
                 own.first_wrong = text_of(difference.wrong.front(), frame);

@@ -1,21 +1,14 @@
 #pragma once
 
+#include "ui/flight/id_comparison.h"
 #include "ui/settings/settings.h"
+#include "ui/studies/draw_order/judged_renderers.h"
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace octant::ui::studies::draw_order {
-
-/// The renderers whose pictures are held against rays, in this order everywhere.
-inline constexpr std::array rayed_renderers = {
-    settings::RendererKind::Raster, settings::RendererKind::Gl};
-
-/// How far a pixel's middle may lie from what it shows, pixels. Corners are rounded to 1/256 pixel
-/// and what is painted again is cut 1/100 pixel too wide where only that rounding could tell.
-inline constexpr double rounding_reach_px = 1.0 / 256.0 + 0.01;
 
 /// Sums over the frames of a run.
 struct RayComparison {
@@ -35,10 +28,11 @@ struct RayComparison {
 
 /// Draws every `every`th frame of a run as polygon numbers, painted as the settings say with one
 /// sample a pixel by each renderer, and compares each pixel with what a ray through its middle
-/// finds. Shadows are left out. `seen` is told of each frame that was compared and of how many
-/// there are. Throws Error.
+/// finds. Shadows are left out. `worlds` are those of the settings, but for the view's. `seen` is
+/// told of each frame that was compared and of how many there are. Throws Error.
 RayComparison compare_with_rays(
     const settings::RunSettings& settings,
+    const flight::ComparedWorlds& worlds,
     int every,
     const std::function<void(int compared, int frames)>& seen);
 

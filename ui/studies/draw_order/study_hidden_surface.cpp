@@ -1,21 +1,18 @@
 #include "ui/studies/draw_order/study_hidden_surface.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/worker_team.h"
 #include "ui/base/progress.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/table_text.h"
 #include "ui/studies/draw_order/ray_comparison.h"
-#include "ui/studies/draw_order/ridge_tower.h"
 #include "ui/studies/draw_order/surface_race.h"
+#include "ui/studies/draw_order/view_comparisons.h"
 #include "ui/world/world.h"
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,14 +23,6 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr std::array paths = {"straight", "jinking", "pop-up", "turn"};
-
-struct StudiedView {
-    scene::View kind;
-    const char* name;
-    bool behind_ridges = false; ///< from a tower that ridges hide the aircraft from now and then
-};
-
 constexpr std::array views = {
     StudiedView{scene::View::Chase, "chase"},
     StudiedView{scene::View::Tower, "tower"},
@@ -41,8 +30,14 @@ constexpr std::array views = {
     StudiedView{scene::View::Orbit, "orbit"}};
 constexpr StudiedView cockpit{scene::View::Cockpit, "cockpit"};
 
-std::string short_name(const std::string& terrain) {
-    return std::filesystem::path(terrain).stem().string();
+ComparedFlights flown_by(const HiddenSurfaceStudy& study) {
+    return {
+        study.settings,
+        study.aircraft.empty() ? std::vector<std::string>{"f15", "500md"}
+                               : std::vector<std::string>{study.aircraft},
+        study.every,
+        study.jobs,
+        study.quiet};
 }
 
 std::vector<Race> run_races(const HiddenSurfaceStudy& study) {
@@ -118,53 +113,6 @@ report::HtmlTable raster_times(const std::vector<Race>& races) {
     return raster_table({"scene", "aircraft", "size"}, names, times);
 }
 
-template <class Result>
-struct Compared {
-    std::vector<std::string> name; ///< path, aircraft, view
-    Result result;
-};
-
-/// A comparison of every path, aircraft and view: `compare` takes settings, every how many frames,
-/// and whom to tell.
-template <class Compare>
-auto run_comparisons(
-    const HiddenSurfaceStudy& study,
-    std::span<const StudiedView> studied_views,
-    const Compare& compare) {
-    using Result = decltype(compare(study.settings, 1, [](int, int) {}));
-    const std::vector<std::string> aircraft_names = study.aircraft.empty()
-                                                        ? std::vector<std::string>{"f15", "500md"}
-                                                        : std::vector<std::string>{study.aircraft};
-    std::vector<settings::RunSettings> flights;
-    std::vector<Compared<Result>> compared;
-    for (const char* path : paths) {
-        for (const std::string& aircraft : aircraft_names) {
-            for (const StudiedView& view : studied_views) {
-                settings::RunSettings& settings = flights.emplace_back(study.settings);
-                settings.path.name = path;
-                settings.path.aircraft = {aircraft};
-                settings.view.kind = view.kind;
-                if (view.behind_ridges) {
-                    settings.view.eye_m = ridge_tower(world::load_world(settings));
-                }
-                compared.push_back({{path, short_name(aircraft), view.name}, {}});
-            }
-        }
-    }
-    const bool quiet = study.quiet || study.jobs > 1; // progress of one at a time only
-    share_out(flights.size(), study.jobs, [&](std::size_t i, std::size_t /*worker*/) {
-        std::optional<base::Progress> progress;
-        compared[i].result = compare(flights[i], study.every, [&](int frame, int frames) {
-            if (!progress) {
-                progress.emplace(
-                    fmt::format("{}", fmt::join(compared[i].name, " ")), frames, quiet);
-            }
-            progress->show(frame);
-        });
-    });
-    return compared;
-}
-
 std::vector<std::string>
 cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
     name.push_back(fmt::format("{}", result.frames));
@@ -226,8 +174,13 @@ std::vector<Compared<RayComparison>> run_ray_comparisons(const HiddenSurfaceStud
     std::vector<StudiedView> all(views.begin(), views.end());
     all.push_back(cockpit);
     return run_comparisons(
-        study, all, [&](const settings::RunSettings& settings, int every, const auto& seen) {
-            RayComparison result = compare_with_rays(settings, every, seen);
+        flown_by(study),
+        all,
+        [&](const settings::RunSettings& settings,
+            const flight::ComparedWorlds& worlds,
+            int every,
+            const auto& seen) {
+            RayComparison result = compare_with_rays(settings, worlds, every, seen);
             for (const RayComparison::OfRenderer& one : result.renderers) {
                 if (one.wrong > 0) {
                     base::say(
@@ -302,7 +255,8 @@ bool study_hidden_surface(const HiddenSurfaceStudy& study) {
         write_file(study.out / "raster.csv", report::csv_of(tables.back()));
     }
     if (study.pictures) {
-        const auto compared = run_comparisons(study, views, flight::compare_with_depth_buffer);
+        const auto compared =
+            run_comparisons(flown_by(study), views, flight::compare_with_depth_buffer);
         for (const auto& run : compared) {
             right = right && run.result.wrong == 0;
         }

@@ -16,7 +16,7 @@ struct HiddenSurfaceStudy : base::StudyOutput {
     int race_frames = 200;
     int every = 10;       ///< every Nth frame is compared
     std::string aircraft; ///< compared in place of F-15 and 500MD, unless empty
-    int jobs = 1;         ///< flights compared at once; the race is always one at a time
+    int jobs = 1;         ///< views of a flight compared at once; the race is one at a time
 };
 
 /// Three tables. Frames a second of octant order, depth buffer and removal of back faces, drawn in

@@ -1,0 +1,14 @@
+#include "tests/order_shapes.h"
+#include "visuals/draworder/ordered_model.h"
+
+#include <catch2/catch.hpp>
+
+using namespace octant::visuals::draworder;
+
+TEST_CASE("the pile of 174 bodies has its whole tree within the usual search") {
+    const OrderedModel found = ordered(octant::tests::big_pile());
+    CHECK(found.drawn_by == DrawnBy::Tree);
+    CHECK(found.splits <= 31);
+    CHECK(found.trial.wrong == 0);
+    CHECK(found.notes.empty());
+}
