@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 using namespace octant;
 using namespace octant::visuals::landscape;
 using namespace octant::visuals::planning;
