@@ -33,14 +33,14 @@ std::shared_ptr<const scene::CoverContrast> dark_and_bright() {
     return std::make_shared<const scene::CoverContrast>(std::array{dark, bright, dark, bright});
 }
 
-/// A slope, by one over its distance in the picture's upper left corner and by how much that
-/// changes to the right one and to the lower one.
+/// A slope: one over its distance in the picture's upper left corner, its changes to the others.
 struct Slope {
     double at_corner;
     double across;
     double down;
-    int columns = picture_px.x; ///< of the picture in which it is seen
-    bool is_upright = false;    ///< so steep that it shows the pattern upright
+    int columns = picture_px.x; ///< of the picture that are judged
+    int drawn_columns = picture_px.x;
+    bool is_upright = false; ///< so steep that it shows the pattern upright
 
     double nearness(const glm::dvec2& at_px) const {
         return at_corner + across * at_px.x / picture_px.x + down * at_px.y / picture_px.y;
@@ -50,7 +50,7 @@ struct Slope {
 /// Falls away from the lower left corner, seen from above.
 constexpr Slope gentle{1.0 / 30.0, -0.016, 0.012};
 /// Its normal leans towards the west by two and a half times as much as it reaches up.
-constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, true};
+constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, picture_px.x / 2 + 32, true};
 
 /// The slope, cut into triangles of so many pixels.
 void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope& slope = gentle) {
@@ -65,13 +65,10 @@ void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope&
         triangles.push_back(triangle);
     };
     for (int y = 0; y < picture_px.y; y += cell_px) {
-        const int end =
-            std::min(slope.columns + cell_px, picture_px.x); // no rim where it is judged
-        for (int x = 0; x < end; x += cell_px) {
-            const int right = x + cell_px;
-            const int below_it = y + cell_px;
-            add({glm::ivec2(x, y), {right, y}, {x, below_it}});
-            add({glm::ivec2(right, y), {right, below_it}, {x, below_it}});
+        for (int x = 0; x < slope.drawn_columns; x += cell_px) {
+            const glm::ivec2 end_px(x + cell_px, y + cell_px);
+            add({glm::ivec2(x, y), {end_px.x, y}, {x, end_px.y}});
+            add({glm::ivec2(end_px.x, y), end_px, {x, end_px.y}});
         }
     }
     plan.paint(triangles);
@@ -108,9 +105,10 @@ glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale, bool is_upright) {
     return turned * texels_per_m + eye * static_cast<double>(GrainPattern::texels_a_side);
 }
 
-/// The pattern between the four texels around a place, -1 to 1.
-double pattern_at(const scene::GrainPattern& level, const glm::dvec2& texels) {
-    const glm::dvec2 at = texels - 0.5;
+/// The pattern in a level between four texels around a place in texels of the finest one, -1 to 1.
+double pattern_at(double in_level, const glm::dvec2& texels) {
+    const auto& level = scene::grain_levels()[static_cast<std::size_t>(in_level)];
+    const glm::dvec2 at = texels / std::exp2(in_level) - 0.5;
     const glm::dvec2 low = glm::floor(at);
     const auto texel = [&](int right, int up) {
         const auto within = [&](double place) {
@@ -138,9 +136,8 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
         return seen_from_eye_m(at_px + glm::dvec2(columns, rows), slope);
     };
     const glm::dvec3 here = seen_from(0.0, 0.0);
-    const double across = glm::length(seen_from(1.0, 0.0) - here);
-    const double down = glm::length(seen_from(0.0, 1.0) - here);
-    const double wide_m = std::max(across, down);
+    const double wide_m =
+        std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
     Range range;
     for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
         const double level = std::clamp(std::log2(8.0 * wide_m) + off, 0.0, 11.99);
@@ -149,15 +146,11 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
         for (const double beside : {-1.0, 0.0, 1.0}) { // between two pixels it is even
             const glm::dvec3 seen = seen_from(beside, 0.0);
             const glm::dvec2 fine = texels_at(seen, scale, slope.is_upright);
-            const double coarse =
-                pattern_at(scene::grain_levels()[0], texels_at(seen, scale + 1, slope.is_upright));
+            const double coarse = pattern_at(0.0, texels_at(seen, scale + 1, slope.is_upright));
             for (const double rounded : {std::floor(4.0 * through), std::ceil(4.0 * through)}) {
-                const auto& in_level = scene::grain_levels()[static_cast<std::size_t>(rounded)];
-                const double value =
-                    pattern_at(in_level, fine / std::exp2(rounded)) * (1.0 - through * through) +
-                    coarse * (1.0 - (1.0 - through) * (1.0 - through));
-                range.least = std::min(range.least, value);
-                range.most = std::max(range.most, value);
+                const double value = pattern_at(rounded, fine) * (1.0 - through * through) +
+                                     coarse * (1.0 - (1.0 - through) * (1.0 - through));
+                range = {std::min(range.least, value), std::max(range.most, value)};
             }
         }
     }
@@ -277,8 +270,7 @@ TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
         plan.paint({wall});
         put_grain(plan);
         for (std::size_t scale = 0; scale < at_eye.size(); ++scale) {
-            const float tiles =
-                px * px_m * 8.0F / 512.0F / std::exp2(4.0F * static_cast<float>(scale));
+            const float tiles = px * px_m / (64.0F * std::exp2(4.0F * static_cast<float>(scale)));
             glm::vec2& eye = plan.plan().grain->at_eye[scale];
             (scale % 2 == 0 ? eye.x : eye.y) += scale % 2 == 0 ? tiles : -tiles;
         }
