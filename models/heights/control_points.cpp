@@ -13,7 +13,7 @@ namespace octant::models::heights {
 namespace {
 
 /// Stands for no data where the source declares none; read_height_field takes it so, too.
-constexpr double no_height = -32768.0;
+constexpr double usual_no_data = -32768.0;
 
 /// A list of one, which GDAL frees.
 template <typename Number>
@@ -39,7 +39,7 @@ grid_by_control_points(const std::filesystem::path& file, void* source, const Gd
     options->nBandCount = 1;
     options->panSrcBands = list_of(1);
     options->panDstBands = list_of(1);
-    options->padfDstNoDataReal = list_of(declared != 0 ? value : no_height);
+    options->padfDstNoDataReal = list_of(declared != 0 ? value : usual_no_data);
     if (declared != 0) {
         options->padfSrcNoDataReal = list_of(value);
     }

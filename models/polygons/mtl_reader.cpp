@@ -14,7 +14,7 @@ namespace octant::models::polygons {
 
 namespace {
 
-constexpr std::size_t largest_file_bytes = std::size_t{16} << 20U;
+constexpr std::size_t largest_mtl_bytes = std::size_t{16} << 20U;
 
 class MtlReading {
 public:
@@ -22,7 +22,7 @@ public:
         : path_(path) {}
 
     std::vector<Material> read() {
-        const std::string text = read_text_file(path_, largest_file_bytes);
+        const std::string text = read_text_file(path_, largest_mtl_bytes);
         for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
             ++line_;
             const auto words = split_words(line);
@@ -83,7 +83,7 @@ std::vector<Material> read_mtl(const std::filesystem::path& path) {
 }
 
 std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path, largest_file_bytes);
+    const std::string text = read_text_file(path, largest_mtl_bytes);
     std::map<std::string, std::string> pictures;
     std::string material;
     for (const std::string_view line : split_lines(without_byte_order_mark(text))) {
@@ -100,7 +100,7 @@ std::map<std::string, std::string> pictures_of_mtl(const std::filesystem::path& 
 }
 
 std::map<std::string, float> opacities_of_mtl(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path, largest_file_bytes);
+    const std::string text = read_text_file(path, largest_mtl_bytes);
     std::map<std::string, float> by_d;
     std::map<std::string, float> all; // by Tr at first
     std::string material;

@@ -14,7 +14,7 @@ namespace octant::models::polygons {
 
 namespace {
 
-using Outline = std::vector<std::uint32_t>;
+using CornerVertices = std::vector<std::uint32_t>;
 
 class PolygonCutting {
 public:
@@ -27,12 +27,12 @@ public:
 
     void cut() {
         const std::vector<Polygon> polygons = std::exchange(model_.polygons, {});
-        const Outline corner_vertices = std::exchange(model_.corner_vertices, {});
+        const CornerVertices corner_vertices = std::exchange(model_.corner_vertices, {});
         std::vector<std::uint32_t> parents;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const auto corners = std::span(corner_vertices)
                                      .subspan(polygons[i].first_corner, polygons[i].corner_count);
-            for (const Outline& piece : pieces_of(corners, lines_[i])) {
+            for (const CornerVertices& piece : pieces_of(corners, lines_[i])) {
                 add(polygons[i], piece);
                 parents.push_back(static_cast<std::uint32_t>(i));
             }
@@ -52,8 +52,8 @@ public:
     }
 
 private:
-    std::vector<Outline> pieces_of(std::span<const std::uint32_t> corners, int line) {
-        const Outline outline = different_corners(corners);
+    std::vector<CornerVertices> pieces_of(std::span<const std::uint32_t> corners, int line) {
+        const CornerVertices outline = different_corners(corners);
         if (outline.size() < 3 || !has_area(outline)) {
             note(line, corners.size(), "has no area: left out");
             return {};
@@ -63,10 +63,10 @@ private:
         }
         const bool planar = is_planar(places_m_, tolerance_m_);
         const std::size_t count = outline.size();
-        std::vector<Outline> pieces;
+        std::vector<CornerVertices> pieces;
         const ConvexPieces convex = convex_pieces(places_m_, tolerance_m_);
         for (const std::vector<std::size_t>& places : convex.pieces) {
-            Outline& piece = pieces.emplace_back();
+            CornerVertices& piece = pieces.emplace_back();
             for (const std::size_t place : places) {
                 piece.push_back(outline[place]);
             }
@@ -82,8 +82,8 @@ private:
     }
 
     /// The corners without those in the place of the one before; their places in places_m_.
-    Outline different_corners(std::span<const std::uint32_t> corners) {
-        Outline outline;
+    CornerVertices different_corners(std::span<const std::uint32_t> corners) {
+        CornerVertices outline;
         places_m_.clear();
         for (const std::uint32_t vertex : corners) {
             const glm::dvec3& place_m = model_.vertices_m[vertex];
@@ -99,7 +99,7 @@ private:
         return outline;
     }
 
-    bool has_area(const Outline& outline) {
+    bool has_area(const CornerVertices& outline) {
         places_m_.clear();
         for (const std::uint32_t vertex : outline) {
             places_m_.push_back(model_.vertices_m[vertex]);
@@ -108,10 +108,10 @@ private:
     }
 
     /// The triangles between the first corner and each side that have an area.
-    std::vector<Outline> fan_of(const Outline& outline) {
-        std::vector<Outline> triangles;
+    std::vector<CornerVertices> fan_of(const CornerVertices& outline) {
+        std::vector<CornerVertices> triangles;
         for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-            const Outline triangle{outline[0], outline[i], outline[i + 1]};
+            const CornerVertices triangle{outline[0], outline[i], outline[i + 1]};
             if (has_area(triangle)) {
                 triangles.push_back(triangle);
             }
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    void add(Polygon polygon, const Outline& outline) {
+    void add(Polygon polygon, const CornerVertices& outline) {
         polygon.first_corner = static_cast<std::uint32_t>(model_.corner_vertices.size());
         polygon.corner_count = static_cast<std::uint32_t>(outline.size());
         model_.polygons.push_back(polygon);

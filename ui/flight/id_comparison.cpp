@@ -111,7 +111,9 @@ ComparedSettings compared_settings(const settings::RunSettings& settings) {
 
 ComparedWorlds compared_worlds(const settings::RunSettings& settings) {
     const auto [painted, by_depth] = compared_settings(settings);
-    return {world::load_world(painted), world::load_world(by_depth)};
+    ComparedWorlds worlds{.painted = world::load_world(painted), .by_depth = {}};
+    worlds.by_depth = world::load_world(by_depth, world::DrawnBy::Processor, &worlds.painted);
+    return worlds;
 }
 
 IdComparison compare_with_depth_buffer(

@@ -34,6 +34,18 @@ sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState
         .load_factor = glm::mix(a.load_factor, b.load_factor, share)};
 }
 
+/// The highest ground below the next quarter of a minute of a straight flight.
+double highest_ahead_m(const visuals::landscape::Ground& ground, const sim::AircraftState& state) {
+    constexpr double seconds_ahead = 15.0;
+    constexpr double tried_every_s = 0.1;
+    double highest_m = state.position_m.z;
+    for (double ahead_s = 0.0; ahead_s < seconds_ahead; ahead_s += tried_every_s) {
+        const glm::dvec3 at_m = state.position_m + ahead_s * state.velocity_mps;
+        highest_m = std::max(highest_m, ground.height_at(at_m.x, at_m.y).value_or(highest_m));
+    }
+    return highest_m;
+}
+
 } // namespace
 
 Simulation::Simulation(const world::World& world)
@@ -199,15 +211,16 @@ void Simulation::level_off() {
 void Simulation::start_level() {
     assert(by_hand());
     const sim::AircraftKind& kind = *kind_;
-    constexpr double off_the_ground_m = 200.0;
-    glm::dvec3 position_m = last_two_.back().position_m;
-    position_m.z += end_ == End::OnTheGround ? off_the_ground_m : 0.0;
     sim::AircraftState start = sim::trimmed_state(
         kind,
-        position_m,
+        last_two_.back().position_m,
         euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
         std::max(glm::length(last_two_.back().velocity_mps), kind.slowest_handed_over_mps));
     start.time_s = sim::time_of_step(step());
+    if (end_ == End::OnTheGround) {
+        constexpr double off_the_ground_m = 200.0;
+        start.position_m.z = highest_ahead_m(*world_.scene.ground, start) + off_the_ground_m;
+    }
     hand_to_pilot(kind, start);
 }
 

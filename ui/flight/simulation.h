@@ -75,7 +75,7 @@ public:
 
     /// By hand only (asserted): on from where it is, at once level and in trim, on the same course
     /// and at the same speed, unless that is too slow to fly; after its end on the ground 200 m
-    /// above it.
+    /// above all ground of the next 15 s.
     void start_level();
 
     /// By hand only (asserted): flies on by sim::Levelling until the aircraft is level or its

@@ -12,7 +12,7 @@ namespace octant::ui::report {
 namespace {
 
 constexpr std::size_t most_pictures = 12;
-constexpr int widest_px = 640;
+constexpr int widest_picture_px = 640;
 
 /// Mean of one channel over a square of side `side` with its top left corner at (x, y).
 std::byte square_mean(const PictureView& picture, int x, int y, int side, int channel) {
@@ -86,7 +86,7 @@ std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) 
     const auto chosen = evenly_spaced(pictures.size(), most_pictures);
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : chosen) {
-        html += picture_html(pictures[index], widest_px, pictures[index].filename().string());
+        html += picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
     }
     html += "</div>\n";
     if (chosen.size() < pictures.size()) {

@@ -56,7 +56,7 @@ constexpr std::array keys{
     ViewKey{ViewCommand::Help, GLFW_KEY_F1, "keys panel", "this help"},
     ViewKey{ViewCommand::Leave, GLFW_KEY_ESCAPE, "leave", "close the help, or leave"}};
 
-constexpr std::array held{
+constexpr std::array while_held{
     HeldKey{HeldAction::Pull, GLFW_KEY_DOWN, "stick back", ""},
     HeldKey{HeldAction::Push, GLFW_KEY_UP, "stick forward", ""},
     HeldKey{HeldAction::RollLeft, GLFW_KEY_LEFT, "stick left", ""},
@@ -92,7 +92,7 @@ std::span<const ViewKey> view_keys() {
 }
 
 std::span<const HeldKey> held_keys() {
-    return held;
+    return while_held;
 }
 
 } // namespace octant::ui::window

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_bytes = std::size_t{1} << 30U;
+constexpr std::size_t largest_model_bytes = std::size_t{1} << 30U;
 constexpr std::size_t most_files = 2'000;
 
 /// What is left of a line after its first word, without quotes.
@@ -55,7 +55,7 @@ public:
     std::vector<fs::path> files;
 
 private:
-    static std::string text_of(const fs::path& file) { return read_text_file(file, largest_bytes); }
+    static std::string text_of(const fs::path& file) { return read_text_file(file, largest_model_bytes); }
 
     bool add(const fs::path& named) {
         std::error_code ignored;

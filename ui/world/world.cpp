@@ -4,8 +4,10 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/hidden_height.h"
+#include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -163,6 +165,25 @@ scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>&
         world.flight.place_m};
 }
 
+/// The ground of another world where it suits these settings, else one that is loaded.
+SceneGround
+ground_beside(const World* beside, const settings::RunSettings& settings, DrawnBy drawn_by) {
+    if (beside == nullptr || beside->scene.ground_texture) {
+        return load_scene_ground(settings, drawn_by);
+    }
+    const settings::RunSettings own = ground_settings(settings, beside->ground_place);
+    if (!beside->scene.ground->suits(own.ground, own.air)) {
+        return load_scene_ground(settings, drawn_by);
+    }
+    return {
+        .ground = beside->scene.ground,
+        .texture = nullptr,
+        .name = beside->ground_name,
+        .place = beside->ground_place,
+        .frame = beside->ground_frame,
+        .notes = {}};
+}
+
 } // namespace
 
 Formation formation_of(const planning::Scene& scene, const Flight& flight) {
@@ -227,15 +248,12 @@ void check_clouds(const scene::AirSettings& air, const visuals::landscape::Groun
     }
 }
 
-World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
+World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const World* beside) {
     settings::check_settings(settings);
     check_place(settings.path);
     const bool is_live = settings.path.name == settings::live_path;
     check_own_paths(settings, is_live);
-    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
-    // first.
-    std::future<SceneGround> coming_ground =
-        std::async(std::launch::async, [&] { return load_scene_ground(settings, drawn_by); });
+    // Paths and names of files are quickly looked at: what is wrong with them is told at once.
     std::optional<LoadedPath> script;
     if (!is_live) {
         script = load_path(
@@ -243,8 +261,16 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by) {
             settings::shape_of(settings.path.aircraft.front()),
             settings.path.lenient);
     }
-    LoadedAircraft aircraft = load_aircraft(
-        settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
+    const std::vector<std::string> shapes =
+        shapes_of(settings, script ? script->other_shapes : std::vector<std::string>());
+    for (const std::string& shape : shapes) {
+        const LineReader opened(base::aircraft_file(shape));
+    }
+    // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
+    // first.
+    std::future<SceneGround> coming_ground =
+        std::async(std::launch::async, [&] { return ground_beside(beside, settings, drawn_by); });
+    LoadedAircraft aircraft = load_aircraft(settings, shapes);
     SceneGround ground = coming_ground.get();
     check_clouds(settings.air, *ground.ground);
     World world;

@@ -60,7 +60,12 @@ visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, 
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
-/// Loads aircraft, ground and path of a run and lays the path over the ground. Throws Error.
-World load_world(const settings::RunSettings& settings, DrawnBy drawn_by = DrawnBy::Processor);
+/// Loads aircraft, ground and path of a run and lays the path over the ground. `beside`: a world of
+/// the same ground, of which the two then share one where these settings mesh and colour it alike
+/// and no texture lies on it. Throws Error.
+World load_world(
+    const settings::RunSettings& settings,
+    DrawnBy drawn_by = DrawnBy::Processor,
+    const World* beside = nullptr);
 
 } // namespace octant::ui::world

@@ -18,8 +18,7 @@ double height_of_clouds_m(const landscape::Ground& ground, const scene::AirSetti
 
 FrameVeils::FrameVeils(
     const Scene& scene, const scene::Settings& settings, const nature::Daylight& day)
-    : scene_(scene)
-    , settings_(settings) {
+    : scene_(scene) {
     if (settings.air.clouds > 0.0) {
         clouds_.emplace(settings.air.clouds);
         cloud_height_m_ = height_of_clouds_m(*scene.ground, settings.air);

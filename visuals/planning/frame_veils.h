@@ -23,7 +23,7 @@ namespace octant::visuals::planning {
 /// painting order. Keeps its memory.
 class FrameVeils {
 public:
-    /// The scene and the settings must outlive it. Loading work.
+    /// The scene must outlive it. Loading work.
     FrameVeils(const Scene& scene, const scene::Settings& settings, const nature::Daylight& day);
 
     /// Lights the clouds by another daylight.
@@ -66,7 +66,6 @@ private:
     void add_ribbon(const FrameView& view, double time_s, std::span<const HullBox> hulls);
 
     const Scene& scene_;
-    const scene::Settings& settings_;
     Veils veils_;
     std::optional<nature::CloudLayer> clouds_;
     double cloud_height_m_ = 0.0;

@@ -10,7 +10,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr double per_px = ScreenVertex::per_px;
+constexpr double steps_per_px = ScreenVertex::per_px;
 
 /// Thinner triangles have gradients of rounding alone, 1/256 pixel.
 constexpr double least_thickness = 16.0;
@@ -49,7 +49,7 @@ double footprint2(const Corners& corners) {
     const double reach =
         std::max(std::max(std::abs(b.x), std::abs(c.x)), std::max(std::abs(b.y), std::abs(c.y)));
     if (std::abs(area) < least_thickness * reach) {
-        const double steps = std::max(range(corners, 0), range(corners, 1)) * per_px / reach;
+        const double steps = std::max(range(corners, 0), range(corners, 1)) * steps_per_px / reach;
         return steps * steps;
     }
     double across2 = 0.0;
@@ -62,7 +62,7 @@ double footprint2(const Corners& corners) {
         across2 += across * across;
         down2 += down * down;
     }
-    const double by_area = per_px / area;
+    const double by_area = steps_per_px / area;
     return std::max(across2, down2) * by_area * by_area;
 }
 

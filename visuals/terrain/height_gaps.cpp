@@ -8,7 +8,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float no_end = std::numeric_limits<float>::infinity();
 
 /// A number of a block and its neighbours, row after row from the south-west.
 using NineBlocks = std::array<float, 9>;
@@ -21,7 +21,7 @@ std::array<float, 16> least_by_reach(const NineBlocks& of) {
         const int east = (reach & 2U) != 0 ? 2 : 1;
         const int south = (reach & 4U) != 0 ? 0 : 1;
         const int north = (reach & 8U) != 0 ? 2 : 1;
-        least[reach] = infinite;
+        least[reach] = no_end;
         for (int row = south; row <= north; ++row) {
             for (int column = west; column <= east; ++column) {
                 least[reach] =
@@ -44,8 +44,8 @@ HeightGaps height_gaps(const GroundTiles& ground, const BlockPlace& block, const
             const int c = block.column + i - 1;
             const int r = block.row + j - 1;
             const auto to = static_cast<std::size_t>(3 * j + i);
-            gap[to] = infinite;
-            ahead[to] = infinite;
+            gap[to] = no_end;
+            ahead[to] = no_end;
             if (c >= 0 && r >= 0 && c < of_level.columns && r < of_level.rows) {
                 const float low = ground.lowest_m(level, c, r) - eye.z_m;
                 const float high = ground.highest_m(level, c, r) - eye.z_m;

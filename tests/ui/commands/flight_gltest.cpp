@@ -12,6 +12,7 @@
 #include <vector>
 
 using namespace octant;
+using Catch::Matchers::Contains;
 using octant::tests::run_octant;
 
 namespace {

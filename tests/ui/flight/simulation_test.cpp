@@ -83,6 +83,20 @@ TEST_CASE("a dive by hand ends on the ground, and levelling off goes on above it
     CHECK(simulation.states().front().position_m.z > 150.0);
 }
 
+TEST_CASE("a flight that goes on after the ground clears the wall before it") {
+    ui::world::World world = small_world();
+    world.scene.ground = ground_with_plateau(600.0);
+    Simulation simulation(world);
+    simulation.take_over(sim::aircraft_kind("f15"));
+    simulation.set_controls({.pitch = -1.0});
+    simulation.advance_to(30.0);
+    REQUIRE(simulation.end_of_flight() == Simulation::End::OnTheGround);
+    REQUIRE(simulation.states().front().position_m.y < 600.0);
+    simulation.level_off();
+    simulation.advance_to(60.0);
+    CHECK(simulation.end_of_flight() == Simulation::End::OffTheMap);
+}
+
 TEST_CASE("levelling off flies there, step by step, and ends where the stick is moved") {
     const ui::world::World world = small_world();
     Simulation simulation(world);

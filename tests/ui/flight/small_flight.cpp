@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -47,14 +48,21 @@ straight_flight(const glm::dvec3& from_m, const glm::dvec3& velocity_mps, double
     return sim::Trajectory(std::move(samples));
 }
 
-ui::world::World small_world(int aircraft) {
+std::shared_ptr<const landscape::Ground> ground_with_plateau(double height_m) {
     constexpr int side = 41;
     constexpr double spacing_m = 100.0;
+    std::vector<float> heights_m(side * side, 0.0F);
+    std::fill(
+        heights_m.begin() + 3 * side * side / 4, heights_m.end(), static_cast<float>(height_m));
     scene::GroundSettings by_quadtree;
     by_quadtree.mesh = scene::GroundMetric::Midpoint;
+    return landscape::ground_from_field(
+        {side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
+}
+
+ui::world::World small_world(int aircraft) {
     ui::world::World world;
-    world.scene.ground = landscape::ground_from_field(
-        {side, side, spacing_m, std::vector<float>(side * side, 0.0F)}, by_quadtree, {});
+    world.scene.ground = ground_with_plateau(0.0);
     world.scene.add_model(tetrahedron());
     world.scene.aircraft.assign(static_cast<std::size_t>(aircraft), 0);
     world.flight.trajectory = straight_flight({0, -500, 300}, {0, 100, 0}, 10.0);

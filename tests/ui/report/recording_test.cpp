@@ -59,7 +59,7 @@ TEST_CASE("run.json says at once what is flown, and at the end how it went") {
     CHECK(at_start["program"]["commit"] == "abc1234");
     CHECK(at_start["machine"]["cpu"] == "cpu, fast");
     CHECK(at_start["machine"]["gl_renderer"] == "some, renderer");
-    CHECK(at_start["path_offset_m"] == nlohmann::json({0.0, 0.0, 412.5}));
+    CHECK(at_start["path_offset_m"] == nlohmann::ordered_json({0.0, 0.0, 412.5}));
     CHECK_FALSE(at_start.contains("summary"));
     for (int frame = 0; frame < 4; ++frame) {
         recording.add(made_up_frame(frame, 10.0 * frame));

@@ -74,8 +74,9 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
     for (const double eye_m : {100.0, 400.0}) {
         const Camera camera = camera_looking_at({0.0, -200.0, eye_m}, states.front().position_m);
         const auto [plan, counts] = planner.plan({camera, states});
+        const auto& steps = plan.steps;
         const auto step = [&](PaintStep::What what) {
-            return std::ranges::find(plan.steps, what, &PaintStep::what) - plan.steps.begin();
+            return std::ranges::find(steps, what, &PaintStep::what) - steps.begin();
         };
         const auto veil = step(PaintStep::What::Veil);
         REQUIRE(static_cast<std::size_t>(veil) < plan.steps.size());

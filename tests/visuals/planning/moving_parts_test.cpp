@@ -87,7 +87,7 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
         CHECK(drawn.model == model);
         const auto tip = [&](std::uint32_t part) {
             const glm::vec4 at = plan.parts[drawn.first_part + part] * glm::vec4(1, 0, -1, 1);
-            return glm::dvec3(at) - glm::dvec3(0.0, away_m, 0.0);
+            return glm::dvec3(at) - states.front().position_m;
         };
         const glm::dvec3 still = tip(0);
         CHECK(glm::distance(tip(rotor), still) > 1.0);
