@@ -175,12 +175,12 @@ public:
         const auto widest = hn::Max(square(across), hn::Mul(square(down), twos(0.5F)));
         const auto depth2 = hn::Mul(depth_, depth_);
         choose_levels(hn::Mul(widest, depth2));
-        // Four pixels span less than three texels of the level.
+        // Four pixels span less than a texel of the level.
         constexpr float texel2 =
             1.0F / (scene::GrainPattern::texels_per_m * scene::GrainPattern::texels_per_m);
         const auto wide2 = hn::Max(hn::Mul(widest, depth2), twos(texel2));
         is_even_ = hn::AllTrue(
-            Twos(), hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(2.0F)), wide2));
+            Twos(), hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(16.0F)), wide2));
         choose_sides(across, down);
         look_at(rays);
     }

@@ -244,7 +244,7 @@ TEST_CASE("another visibility makes nothing anew, and an inset sees it too") {
 
 TEST_CASE("light that is made beside the pictures is that of a change in between") {
     RunSettings settings = small_settings();
-    settings.view.inset = scene::View::Tower;
+    settings.view.inset = scene::View::Orbit;
     Flown beside(settings);
     Flown at_once(settings);
     beside.picture();
