@@ -86,7 +86,8 @@ std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) 
     const auto chosen = evenly_spaced(pictures.size(), most_pictures);
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : chosen) {
-        html += picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
+        html +=
+            picture_html(pictures[index], widest_picture_px, pictures[index].filename().string());
     }
     html += "</div>\n";
     if (chosen.size() < pictures.size()) {

@@ -55,7 +55,9 @@ public:
     std::vector<fs::path> files;
 
 private:
-    static std::string text_of(const fs::path& file) { return read_text_file(file, largest_model_bytes); }
+    static std::string text_of(const fs::path& file) {
+        return read_text_file(file, largest_model_bytes);
+    }
 
     bool add(const fs::path& named) {
         std::error_code ignored;
