@@ -114,11 +114,4 @@ CoverContrast::CoverContrast(const std::array<Cover, covers>& of) {
     }
 }
 
-glm::vec3 CoverContrast::shares_of(std::uint32_t entry) {
-    const auto part = [&](unsigned up) {
-        return static_cast<float>(static_cast<std::int32_t>(entry << up) >> 22) / 512.0F;
-    };
-    return {part(0), part(10), part(20)};
-}
-
 } // namespace octant::visuals::scene

@@ -32,9 +32,6 @@ public:
     /// pattern; 1/512, ten bits each with a sign, red in the highest bits, two bits below blue.
     const std::vector<std::uint32_t>& table() const { return table_; }
 
-    /// An entry's shares, red, green and blue.
-    static glm::vec3 shares_of(std::uint32_t entry);
-
 private:
     std::vector<std::uint32_t> table_;
 };

@@ -5,11 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 using namespace octant;
 using ui::flight::Session;
@@ -56,20 +54,10 @@ visuals::scene::PictureBytes flown_in(Session& session, View view) {
 TEST_CASE("every path, aircraft, view and built-in ground flies") {
     constexpr std::array views = {View::Chase, View::Cockpit, View::Tower, View::Orbit};
     for (const std::string ground : {"hills", "canyon", "background60"}) {
-        std::vector<std::unique_ptr<Session>> sessions; // on one ground
         for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
             const std::string aircraft = (ground.size() + path.size()) % 2 == 1 ? "f15" : "500md";
             INFO(ground << " " << path << " " << aircraft);
-            const ui::settings::RunSettings settings = small_flight(path, aircraft, ground);
-            sessions.push_back(std::make_unique<Session>(
-                settings,
-                ui::flight::Shows::World,
-                nullptr,
-                ui::world::load_world(
-                    settings,
-                    ui::world::DrawnBy::Processor,
-                    sessions.empty() ? nullptr : &sessions.front()->world())));
-            Session& session = *sessions.back();
+            Session session(small_flight(path, aircraft, ground));
             REQUIRE(session.frames() > 5);
             std::set<visuals::scene::PictureBytes> pictures;
             for (const View view : views) {

@@ -28,9 +28,14 @@ std::array<double, CoverContrast::patterns> share_of_patterns() {
     return shares;
 }
 
+/// Red, green and blue.
 glm::vec3 shares_at(const CoverContrast& contrast, int kind, int pattern) {
-    return CoverContrast::shares_of(
-        contrast.table()[static_cast<std::size_t>(kind * CoverContrast::patterns + pattern)]);
+    const std::uint32_t entry =
+        contrast.table()[static_cast<std::size_t>(kind * CoverContrast::patterns + pattern)];
+    const auto part = [&](unsigned up) {
+        return static_cast<float>(static_cast<std::int32_t>(entry << up) >> 22) / 512.0F;
+    };
+    return {part(0), part(10), part(20)};
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include "ui/settings/settings.h"
 #include "ui/studies/draw_order/ray_renderer.h"
-#include "visuals/scene/renderer.h"
+#include "ui/studies/draw_order/study_renderer.h"
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ inline constexpr double rounding_reach_px = 1.0 / 256.0 + 0.01;
 /// In place of a session's renderer: draws each plan, of polygon numbers painted in their order, by
 /// every renderer that is held against rays, and compares the pictures with what rays have found of
 /// the same frame. The session's own picture is that of the first one.
-class JudgedRenderers final : public visuals::scene::Renderer {
+class JudgedRenderers final : public StudyRenderer {
 public:
     /// `rays` must have drawn the frame, hidden by depth, before this draws it, and must outlive
     /// this. Throws Error.
@@ -44,19 +44,7 @@ public:
     void warm_up() override;
     void draw(const visuals::scene::FramePlan& plan) override;
 
-    void draw_inset(const visuals::scene::FramePlan&, const visuals::scene::PixelRect&) override {}
-
-    void finish() override {}
-
     void finish_and_read(visuals::scene::Picture& picture) override { picture = picture_; }
-
-    int draw_calls() const override { return 0; }
-
-    void aim_at_window(const glm::ivec2&) override {}
-
-    bool is_in_window() const override { return false; }
-
-    void copy_to_window(const glm::ivec2&) override {}
 
 private:
     RayRenderer::Difference

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "ui/studies/draw_order/study_renderer.h"
 #include "ui/studies/draw_order/supersampled.h"
 #include "visuals/raster/workers.h"
-#include "visuals/scene/renderer.h"
 
 #include <array>
 #include <memory>
@@ -52,7 +52,7 @@ struct PictureQuality {
 
 /// In place of a session's renderer: draws each plan in all ways and measures their pictures; the
 /// session's own picture is that of the last way. Whatever is drawn over the picture is left out.
-class QualityRenderer final : public visuals::scene::Renderer {
+class QualityRenderer final : public StudyRenderer {
 public:
     /// Throws Error.
     explicit QualityRenderer(const settings::RunSettings& settings);
@@ -76,19 +76,7 @@ public:
     void warm_up() override;
     void draw(const visuals::scene::FramePlan& plan) override;
 
-    void draw_inset(const visuals::scene::FramePlan&, const visuals::scene::PixelRect&) override {}
-
-    void finish() override {}
-
     void finish_and_read(visuals::scene::Picture& picture) override { picture = pictures_.back(); }
-
-    int draw_calls() const override { return 0; }
-
-    void aim_at_window(const glm::ivec2&) override {}
-
-    bool is_in_window() const override { return false; }
-
-    void copy_to_window(const glm::ivec2&) override {}
 
 private:
     static constexpr std::size_t positions = 3; ///< in place, half a pixel right, half a pixel down

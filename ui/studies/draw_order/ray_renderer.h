@@ -1,8 +1,8 @@
 #pragma once
 
+#include "ui/studies/draw_order/study_renderer.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/model_buffers.h"
-#include "visuals/scene/renderer.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -22,7 +22,7 @@ namespace octant::ui::studies::draw_order {
 /// double precision, no rounding of corners and no painting order. For plans of polygon numbers
 /// (planning::IdPlan) whose surfaces are hidden by depth, which hold all triangles that may be
 /// seen. Clips and overlays are left out.
-class RayRenderer final : public visuals::scene::Renderer {
+class RayRenderer final : public StudyRenderer {
 public:
     explicit RayRenderer(const glm::ivec2& size_px);
 
@@ -39,19 +39,7 @@ public:
 
     void draw(const visuals::scene::FramePlan& plan) override;
 
-    void draw_inset(const visuals::scene::FramePlan&, const visuals::scene::PixelRect&) override {}
-
-    void finish() override {}
-
     void finish_and_read(visuals::scene::Picture& picture) override { picture = picture_; }
-
-    int draw_calls() const override { return 0; }
-
-    void aim_at_window(const glm::ivec2&) override {}
-
-    bool is_in_window() const override { return false; }
-
-    void copy_to_window(const glm::ivec2&) override {}
 
     /// A pixel that shows what no rounding of corners explains: no triangle of that number comes
     /// within reach of the pixel's middle, or all places within reach lie behind nearer ones.
