@@ -222,16 +222,17 @@ private:
         if (exact_) {
             return mesher_.mesh_within(view, detail_, budget_);
         }
-        const auto mesh_with = [&](double resolution) {
-            detail_.resolution = resolution;
-            return mesher_.mesh(view, detail_);
-        };
         if (fixed_resolution_) {
-            return mesh_with(state_.resolution);
+            detail_.resolution = state_.resolution;
+            return mesher_.mesh(view, detail_);
         }
         const bool same_view = last_view_ && is_same(*last_view_, view);
         last_view_ = view;
-        return terrain::controlled_mesh(state_, control_, same_view, mesh_with);
+        terrain::controlled_mesh(state_, control_, same_view, [&](double resolution) {
+            detail_.resolution = resolution;
+            return mesher_.count(view, detail_);
+        });
+        return mesher_.counted_mesh();
     }
 
     terrain::MeshView view_of(const GroundRequest& request) const {

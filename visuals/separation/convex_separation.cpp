@@ -34,10 +34,12 @@ constexpr double slack_tolerance = 1e-13;
 constexpr int most_steps = 400; ///< A programme that takes more steps counts as unsolved.
 
 /// A dictionary of the simplex method: slack = bound - sum of factors * unknowns for every row, and
-/// value = sum of gain * unknowns.
+/// value = sum of gain * unknowns. Four rows lie side by side, so that they are worked on at once.
 class Dictionary {
 public:
-    Dictionary() {
+    explicit Dictionary(std::size_t most_rows) {
+        fours_.reserve((most_rows + lanes - 1) / lanes);
+        row_name_.reserve(most_rows);
         gain_ = {0, 0, 0, 0, 1, -1};
         for (std::size_t i = 0; i < unknowns; ++i) {
             column_name_.at(i) = i;
@@ -46,8 +48,17 @@ public:
 
     /// Adds the row factor . (n, d, t) <= bound with bound >= 0.
     void add(const glm::dvec3& n, double d, double t, double bound) {
-        rows_.push_back({{n.x, n.y, n.z, d, t, -(n.x + n.y + n.z + d + t)}, bound});
-        row_name_.push_back(unknowns + row_name_.size());
+        const std::size_t row = row_name_.size();
+        if (row % lanes == 0) {
+            fours_.emplace_back();
+        }
+        const std::array<double, unknowns> factors{n.x, n.y, n.z, d, t, -(n.x + n.y + n.z + d + t)};
+        Four& four = fours_.back();
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            four.factor.at(i).at(row % lanes) = factors.at(i);
+        }
+        four.bound.at(row % lanes) = bound;
+        row_name_.push_back(unknowns + row);
     }
 
     /// Climbs until the value exceeds a limit. Returns false when it cannot.
@@ -58,7 +69,7 @@ public:
                 return false;
             }
             const std::size_t leave = leaving(enter);
-            if (leave == rows_.size()) {
+            if (leave == row_name_.size()) {
                 // The value is bounded, so a gain without a leaving row is rounding.
                 gain_.at(enter) = 0.0;
             } else {
@@ -71,18 +82,22 @@ public:
     /// The values of n.x, n.y, n.z and d in the present solution.
     glm::dvec4 plane() const {
         std::array<double, unknowns> at{};
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
+        for (std::size_t i = 0; i < row_name_.size(); ++i) {
             if (row_name_[i] < unknowns) {
-                at.at(row_name_[i]) = rows_[i].bound;
+                at.at(row_name_[i]) = fours_[i / lanes].bound.at(i % lanes);
             }
         }
         return glm::dvec4(at[0], at[1], at[2], at[3]) - at[5];
     }
 
 private:
-    struct Row {
-        std::array<double, unknowns> factor{};
-        double bound = 0.0;
+    static constexpr std::size_t lanes = 4;
+    using Lanes = std::array<double, lanes>;
+
+    /// Four rows. Those that fill the last four are all zero and stay so.
+    struct Four {
+        std::array<Lanes, unknowns> factor{};
+        Lanes bound{};
     };
 
     /// The column with the largest gain.
@@ -92,18 +107,24 @@ private:
 
     /// The row that bounds the entering unknown first.
     std::size_t leaving(std::size_t column) const {
-        double nearest = HUGE_VAL;
-        for (const Row& row : rows_) {
-            if (row.factor[column] > rounding) {
-                nearest = std::min(nearest, (row.bound + slack_tolerance) / row.factor[column]);
+        Lanes nearest;
+        nearest.fill(HUGE_VAL);
+        for (const Four& four : fours_) {
+            const Lanes& factor = four.factor[column];
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const double at = (four.bound[i] + slack_tolerance) / factor[i];
+                nearest[i] = factor[i] > rounding && at < nearest[i] ? at : nearest[i];
             }
         }
-        std::size_t best = rows_.size();
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const double factor = rows_[i].factor[column];
-            if (factor > rounding && rows_[i].bound <= nearest * factor &&
-                (best == rows_.size() || factor > rows_[best].factor[column])) {
-                best = i;
+        const double first = std::ranges::min(nearest);
+        std::size_t best = row_name_.size();
+        double largest = rounding;
+        for (std::size_t row = 0; row < row_name_.size(); ++row) {
+            const Four& four = fours_[row / lanes];
+            const double factor = four.factor[column][row % lanes];
+            if (factor > largest && four.bound[row % lanes] <= first * factor) {
+                best = row;
+                largest = factor;
             }
         }
         return best;
@@ -111,39 +132,47 @@ private:
 
     /// Exchanges the unknowns of a row and a column.
     void pivot(std::size_t row, std::size_t column) {
-        Row& pivot = rows_[row];
-        const double inverse = 1.0 / pivot.factor[column];
-        for (double& factor : pivot.factor) {
-            factor *= inverse;
+        Four& home = fours_[row / lanes];
+        const std::size_t lane = row % lanes;
+        const double inverse = 1.0 / home.factor[column][lane];
+        std::array<double, unknowns> pivot;
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            pivot[i] = home.factor[i][lane] * inverse;
         }
-        pivot.factor[column] = inverse;
-        pivot.bound *= inverse;
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            if (i != row) {
-                const double share = rows_[i].factor[column];
-                eliminate(rows_[i].factor, pivot.factor, column);
-                rows_[i].bound = std::max(0.0, rows_[i].bound - share * pivot.bound);
-            }
+        pivot[column] = inverse;
+        const double bound = home.bound[lane] * inverse;
+        for (Four& four : fours_) {
+            eliminate(four, pivot, bound, column);
         }
-        value_ += gain_[column] * pivot.bound;
-        eliminate(gain_, pivot.factor, column);
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            home.factor[i][lane] = pivot[i];
+        }
+        home.bound[lane] = bound;
+        const double share = gain_[column];
+        value_ += share * bound;
+        gain_[column] = 0.0;
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            gain_[i] -= share * pivot[i];
+        }
         std::swap(row_name_[row], column_name_.at(column));
     }
 
     static void eliminate(
-        std::array<double, unknowns>& factors,
-        const std::array<double, unknowns>& pivot,
-        std::size_t column) {
-        const double share = factors[column];
-        factors[column] = 0.0;
+        Four& four, const std::array<double, unknowns>& pivot, double bound, std::size_t column) {
+        const Lanes share = std::exchange(four.factor[column], Lanes{});
         for (std::size_t i = 0; i < unknowns; ++i) {
-            factors[i] -= share * pivot[i];
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                four.factor[i][lane] -= share[lane] * pivot[i];
+            }
+        }
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            four.bound[lane] = std::max(0.0, four.bound[lane] - share[lane] * bound);
         }
     }
 
     std::array<double, unknowns> gain_{};
     double value_ = 0.0;
-    std::vector<Row> rows_;
+    std::vector<Four> fours_;
     std::vector<std::size_t> row_name_;
     std::array<std::size_t, unknowns> column_name_{};
 };
@@ -154,7 +183,7 @@ bool separable(
     std::span<const glm::dvec3> b,
     std::span<const glm::dvec3> a,
     std::span<const glm::dvec4> eyes) {
-    Dictionary programme;
+    Dictionary programme(6 + b.size() + a.size() + eyes.size());
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 n(0.0);
         n[axis] = 1.0;

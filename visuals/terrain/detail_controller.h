@@ -46,9 +46,9 @@ DetailState next_state(
 /// been made of it.
 bool wants_another(const DetailState& state, const ControlSettings& settings, int meshes);
 
-/// Makes a frame's mesh: calls make(C), which returns a mesh, once, or up to tuned_meshes times for
-/// Tuned, and takes `state` on to the next frame. `same_view` tells that the frame before had the
-/// same view. Returns the last mesh.
+/// Makes a frame's mesh, or counts it: calls make(C), which returns a mesh with its counters, once,
+/// or up to tuned_meshes times for Tuned, and takes `state` on to the next frame. `same_view` tells
+/// that the frame before had the same view. Returns the last mesh.
 template <typename Make>
 auto controlled_mesh(
     DetailState& state, const ControlSettings& settings, bool same_view, const Make& make) {

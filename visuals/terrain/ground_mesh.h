@@ -52,6 +52,12 @@ struct MeshCounters {
     int nodes_visited = 0; ///< How often nodes were tested for culling or splitting.
 };
 
+/// A mesh of which only the counts are known.
+struct CountedMesh {
+    MeshCounters counters;
+    double resolution = 0.0; ///< C it would be made with, before magnification.
+};
+
 /// Where the vertex of a mesh with geomorphs comes from. 16 bytes.
 struct VertexOrigin {
     std::uint16_t column = 0; ///< The sample that it belongs to.

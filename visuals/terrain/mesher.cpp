@@ -40,8 +40,32 @@ void Mesher::colour_by(std::span<const std::uint32_t> colours) {
 }
 
 GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
+    collect(view, detail);
+    return counted_mesh();
+}
+
+GroundMesh
+Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget) {
+    collect_within(view, detail, budget);
+    return counted_mesh();
+}
+
+CountedMesh Mesher::count(const MeshView& view, const Detail& detail) {
+    collect(view, detail);
+    return count_fans();
+}
+
+CountedMesh
+Mesher::count_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget) {
+    collect_within(view, detail, budget);
+    return count_fans();
+}
+
+/// Fills fans_ with the nodes of the mesh at a given C.
+void Mesher::collect(const MeshView& view, const Detail& detail) {
     rule_.look_from(view, detail);
     limit_ = rule_.limit_squared(detail.resolution);
+    resolution_ = std::max(detail.resolution, tree_->options().min_resolution);
     start(view);
     visit({}, planes_of(view.frustum_normals));
     for (std::size_t k = 0; k < fans_.size(); ++k) {
@@ -50,13 +74,14 @@ GroundMesh Mesher::mesh(const MeshView& view, const Detail& detail) {
     for (const GroundFan& fan : fans_) {
         in_mesh_[fan.node] = 0;
     }
-    return finished(std::max(detail.resolution, tree_->options().min_resolution));
 }
 
-GroundMesh
-Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget) {
+/// Fills fans_ with the nodes of the mesh at the largest C that the budget allows.
+void Mesher::collect_within(
+    const MeshView& view, const Detail& detail, const TriangleBudget& budget) {
     rule_.look_from(view, detail);
     limit_ = survey_.limit_for(rule_, budget);
+    resolution_ = rule_.resolution_of(limit_);
     start(view);
     counters_.nodes_visited = survey_.nodes_tested();
     for (const SurveyedNode& node : survey_.nodes()) {
@@ -71,7 +96,6 @@ Mesher::mesh_within(const MeshView& view, const Detail& detail, const TriangleBu
         }
         add(fan, middles);
     }
-    return finished(rule_.resolution_of(limit_));
 }
 
 /// Prepares for a new mesh.
@@ -96,8 +120,7 @@ std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
     return own;
 }
 
-/// Makes the mesh of fans_.
-GroundMesh Mesher::finished(double resolution) {
+GroundMesh Mesher::counted_mesh() {
     make_room();
     emit(0, nullptr, 0);
     counters_.triangles = static_cast<int>(index_count_ / 3);
@@ -105,7 +128,7 @@ GroundMesh Mesher::finished(double resolution) {
         std::span(vertices_).first(vertex_count_),
         std::span(indices_).first(index_count_),
         counters_,
-        resolution,
+        resolution_,
         0.0,
         {}};
 }

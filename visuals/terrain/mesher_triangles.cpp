@@ -2,6 +2,8 @@
 // there), and finds triangles again by the boxes of their nodes.
 #include "visuals/terrain/mesher.h"
 
+#include <glm/vec2.hpp>
+
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -35,6 +37,32 @@ void Mesher::make_room() {
     }
     vertex_count_ = 0;
     index_count_ = 0;
+    counters_.fans = 0;
+}
+
+CountedMesh Mesher::count_fans() {
+    counters_.triangles = 0;
+    counters_.fans = 0;
+    for (std::size_t own = 0; own < fans_.size(); ++own) {
+        const unsigned triangles = triangles_of(own);
+        counters_.triangles += static_cast<int>(triangles);
+        counters_.fans += triangles != 0 ? 1 : 0;
+    }
+    return {counters_, resolution_};
+}
+
+/// How many triangles a node has of its own.
+unsigned Mesher::triangles_of(std::size_t own) const {
+    const GroundFan& fan = fans_[own];
+    const unsigned covered = fan.split | fan.hidden;
+    const FanSamples samples(tree_->field(), rule_.level(fan.level).edge, fan.column, fan.row);
+    if (!samples.is_cut()) {
+        return static_cast<unsigned>(
+            std::popcount(orders_[0].triangles(places_[own].middles, covered)));
+    }
+    const PartRow row = parts_of_cut_fan(
+        samples, parts_of(places_[own].middles, covered, 0), glm::dvec2(0.0), rule_.view().order);
+    return row.count;
 }
 
 /// Puts a node's triangles, and those of all nodes below it, into the mesh.

@@ -19,7 +19,7 @@ double settled_resolution(
     const auto too_many = [&](double resolution) {
         Detail tried = detail;
         tried.resolution = resolution;
-        const double over = mesher.mesh(view, tried).counters.triangles - target_triangles;
+        const double over = mesher.count(view, tried).counters.triangles - target_triangles;
         if (std::abs(over) < best_miss) {
             best_miss = std::abs(over);
             best = resolution;
@@ -40,9 +40,9 @@ double triangles_gained(Mesher& mesher, const MeshView& view, const Detail& deta
     constexpr double share = 0.02;
     Detail beside = detail;
     beside.resolution = detail.resolution * (1.0 + share);
-    const int more = mesher.mesh(view, beside).counters.triangles;
+    const int more = mesher.count(view, beside).counters.triangles;
     beside.resolution = detail.resolution * (1.0 - share);
-    const int fewer = mesher.mesh(view, beside).counters.triangles;
+    const int fewer = mesher.count(view, beside).counters.triangles;
     return (more - fewer) / (2.0 * share * detail.resolution);
 }
 

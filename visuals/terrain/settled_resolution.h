@@ -6,7 +6,7 @@ namespace octant::visuals::terrain {
 
 /// The resolution C at which a mesh comes nearest to `target_triangles` from this view, by
 /// bisection between the tree's smallest one and `max_resolution`; `detail.resolution` is not used.
-/// It makes about 24 meshes, so it is meant for loading, where it lets the first picture of a run
+/// It counts about 24 meshes, so it is meant for loading, where it lets the first picture of a run
 /// meet its target already.
 double settled_resolution(
     Mesher& mesher,

@@ -1,4 +1,5 @@
 #include "visuals/terrain/detail_controller.h"
+#include "visuals/terrain/ground_mesh.h"
 
 #include <catch2/catch.hpp>
 
@@ -155,12 +156,9 @@ TEST_CASE("an automatic a reaches the target however N grows with C") {
 
 namespace {
 
-/// A mesh as far as the control looks at it.
-struct CountedMesh {
-    struct {
-        int triangles = 0;
-    } counters;
-};
+CountedMesh counted(double triangles) {
+    return {.counters = {.triangles = static_cast<int>(triangles)}};
+}
 
 } // namespace
 
@@ -181,7 +179,7 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
             const auto make = [&](double resolution) {
                 ++meshes;
                 const double smooth = 900.0 * wave * std::pow(resolution, exponent);
-                return CountedMesh{{static_cast<int>(smooth / 6.0) * 6}};
+                return counted(std::floor(smooth / 6.0) * 6.0);
             };
             const double triangles =
                 controlled_mesh(state, settings, false, make).counters.triangles;
@@ -203,9 +201,7 @@ TEST_CASE("with its own gain the control stands still at a view that stands stil
         DetailState state = starting_at(first, settings);
         std::vector<double> all;
         for (int frame = 0; frame < 120; ++frame) {
-            const auto make = [](double resolution) {
-                return CountedMesh{{static_cast<int>(staircase(resolution))}};
-            };
+            const auto make = [](double resolution) { return counted(staircase(resolution)); };
             all.push_back(controlled_mesh(state, settings, frame > 0, make).counters.triangles);
         }
         CHECK(all.back() == Approx(target).epsilon(0.01));

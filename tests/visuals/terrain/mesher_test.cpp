@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 using namespace octant::visuals::terrain;
 using namespace octant::visuals::terrain::test;
@@ -185,6 +186,33 @@ TEST_CASE("a mesher used before makes the same mesh as a new one") {
         REQUIRE(
             std::memcmp(got.vertices.data(), expected.vertices.data(), got.vertices.size_bytes()) ==
             0);
+    }
+}
+
+TEST_CASE("a mesh is counted as it is then made, at a given resolution and within a budget") {
+    for (const auto& [columns, rows] : {std::pair(129, 129), std::pair(100, 71)}) {
+        Ground ground(rough_field(columns, rows, 6));
+        Ground made(rough_field(columns, rows, 6));
+        const auto check_counted = [&](const CountedMesh& counted, const GroundMesh& expected) {
+            CHECK(counted.counters.triangles == static_cast<int>(expected.indices.size() / 3));
+            CHECK(counted.counters.fans == expected.counters.fans);
+            CHECK(counted.counters.nodes_visited == expected.counters.nodes_visited);
+            CHECK(counted.resolution == expected.resolution);
+            const GroundMesh after = ground.mesher.counted_mesh();
+            CHECK(after.counters.triangles == expected.counters.triangles);
+            CHECK(after.counters.fans == expected.counters.fans);
+            CHECK(std::ranges::equal(after.indices, expected.indices));
+        };
+        for (int k = 0; k < 12; ++k) {
+            const MeshView view =
+                camera_view({20.0 * k - 110.0, 9.0 * k - 70.0, 15.0}, 0.6 * k, -0.2, 0.9);
+            const Detail detail{4.0 + 3.0 * k, 3.0, FanKind::Partial};
+            check_counted(ground.mesher.count(view, detail), made.mesher.mesh(view, detail));
+            const TriangleBudget budget{200 + 300 * k, 1000.0};
+            check_counted(
+                ground.mesher.count_within(view, detail, budget),
+                made.mesher.mesh_within(view, detail, budget));
+        }
     }
 }
 

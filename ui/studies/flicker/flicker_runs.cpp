@@ -69,11 +69,11 @@ FrameMaker controlled(
             state = terrain::next_state(state, control, last.triangles, same_view);
             return last;
         }
-        const terrain::GroundMesh mesh =
+        const terrain::CountedMesh mesh =
             terrain::controlled_mesh(state, control, same_view, [&](double resolution) {
                 terrain::Detail with_resolution = detail;
                 with_resolution.resolution = resolution;
-                return ground.mesher.mesh(view, with_resolution);
+                return ground.mesher.count(view, with_resolution);
             });
         last = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
         last.believed_gain = control.method == terrain::ControlMethod::Tuned
@@ -108,7 +108,7 @@ FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::Detail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
     const terrain::TriangleBudget budget{settings.target_triangles, most_resolution};
     return [&ground, detail, budget](const terrain::MeshView& view) {
-        const terrain::GroundMesh mesh = ground.mesher.mesh_within(view, detail, budget);
+        const terrain::CountedMesh mesh = ground.mesher.count_within(view, detail, budget);
         return CountedFrame{mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
     };
 }
@@ -176,7 +176,7 @@ terrain::MeshView roughest_view(FlickerGround& ground) {
                 (place / 5 - 2) * quarter_m.y,
                 heading * std::numbers::pi / 4.0);
             const int triangles =
-                ground.mesher.mesh(view, {.resolution = 16.0, .roughness_weight = 5.0})
+                ground.mesher.count(view, {.resolution = 16.0, .roughness_weight = 5.0})
                     .counters.triangles;
             if (triangles > most) {
                 most = triangles;
