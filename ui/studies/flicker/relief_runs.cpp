@@ -32,9 +32,13 @@ constexpr std::size_t last_frames = 100; ///< of the fixed view
 constexpr std::size_t gain_every = 25;   ///< frames
 
 /// Hills whose heights above the lowest are multiplied, and then taken in whole steps above a sea.
-HeightField
-hills_as(std::string name, double factor, double step_m, double sea_m, double spacing_m) {
-    const HeightField hills = models::made::made_hills();
+HeightField changed(
+    const HeightField& hills,
+    std::string name,
+    double factor,
+    double step_m,
+    double sea_m,
+    double spacing_m) {
     const double lowest_m = static_cast<double>(hills.lowest_m());
     std::vector<float> heights_m;
     for (int row = 0; row < hills.rows(); ++row) {
@@ -51,16 +55,16 @@ hills_as(std::string name, double factor, double step_m, double sea_m, double sp
 }
 
 /// Channels and flats in whole metres, half of it sea.
-HeightField estuary() {
-    return hills_as("estuary", 0.03, 1.0, 4.0, 30.0);
+HeightField estuary(const HeightField& hills) {
+    return changed(hills, "estuary", 0.03, 1.0, 4.0, 30.0);
 }
 
-HeightField plain() {
-    return hills_as("plain", 0.2, 0.1, 0.0, 30.0);
+HeightField plain(const HeightField& hills) {
+    return changed(hills, "plain", 0.2, 0.1, 0.0, 30.0);
 }
 
-HeightField high_mountains() {
-    return hills_as("mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
+HeightField high_mountains(const HeightField& hills) {
+    return changed(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
 }
 
 /// What a way does over one ground.
@@ -116,12 +120,13 @@ std::string gain_text(double gain) {
 } // namespace
 
 report::HtmlTable relief_table(const FlickerStudyOptions& options) {
+    const HeightField hills = models::made::made_hills();
     std::vector<HeightField> fields;
-    fields.push_back(estuary());
-    fields.push_back(plain());
+    fields.push_back(estuary(hills));
+    fields.push_back(plain(hills));
     fields.push_back(world::load_height_field(options.gentle, {options.spacing_m}));
     fields.push_back(world::load_height_field(options.rugged, {options.spacing_m}));
-    fields.push_back(high_mountains());
+    fields.push_back(high_mountains(hills));
     report::HtmlTable table;
     table.title = "Controls from flats to high mountains, c = 5";
     table.header = {
