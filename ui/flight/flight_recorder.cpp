@@ -80,7 +80,7 @@ report::RunInfo run_info(
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
-    info.files = world::files_to_keep(settings, session.world().order_files);
+    info.files = world::files_to_keep(settings, session.world().aircraft.order_files);
     return info;
 }
 

@@ -58,7 +58,7 @@ void Session::apply(const settings::RunSettings& wanted) {
 }
 
 void Session::change_world(const settings::RunSettings& settings) {
-    world::World world = world::load_world(settings, drawn_by());
+    world::World world = world::load_world(settings, drawn_by(), &world_);
     world::PictureTimes times = world::picture_times_of(settings, world.flight);
     pictures_.wait();
     pictures_.make_ready(settings.view, world.scene.ground_texture.get());

@@ -66,22 +66,22 @@ struct OrderLimits {
 
 draworder::OrderedModel with_order(
     models::polygons::PolygonModel model,
-    const settings::RunSettings& settings,
+    const AircraftInputs& inputs,
     const OrderLimits& most,
     Found& found) {
-    if (settings.surface.hidden_surface != scene::HiddenSurface::Octant ||
+    if (inputs.hidden_surface != scene::HiddenSurface::Octant ||
         model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
         return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
     }
     draworder::OrderOptions options;
-    options.method = settings.surface.order_method;
-    options.seconds = std::min(settings.surface.order_seconds, most.seconds);
-    if (!settings.surface.order_cache) {
+    options.method = inputs.order_method;
+    options.seconds = std::min(inputs.order_seconds, most.seconds);
+    if (!inputs.order_cache) {
         return draworder::ordered(std::move(model), options);
     }
     ordercache::CachedOrder cached =
-        ordercache::cached_order(*settings.surface.order_cache, std::move(model), options);
+        ordercache::cached_order(*inputs.order_cache, std::move(model), options);
     found.note(cached.notes);
     found.order_files.push_back(cached.file);
     return std::move(cached.ordered);
@@ -130,12 +130,12 @@ bool is_polygon_model(const std::filesystem::path& file) {
 planning::AircraftModel ready(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
-    const settings::RunSettings& settings,
+    const AircraftInputs& inputs,
     const OrderLimits& most,
     Found& found) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(std::move(model), settings, most, found);
+    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, found);
     found.note(ordered.notes);
     std::vector<glm::vec3> normals =
         shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
@@ -167,14 +167,13 @@ read_polygon_model(const std::filesystem::path& file, const std::string& axes, F
 
 /// The polygons that stand in for a mesh far away. Without a painting order they only throw
 /// shadows.
-planning::AircraftModel
-far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Found& found) {
+planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftInputs& inputs, Found& found) {
     if (mesh.polygons.polygons.size() <= most_polygons_of_a_mesh) {
         try {
             return ready(
                 mesh.polygons,
                 nullptr,
-                settings,
+                inputs,
                 {most_polygons_of_a_mesh, most_seconds_of_a_mesh},
                 found);
         } catch (const Error& fault) {
@@ -183,26 +182,26 @@ far_model(MeshAircraft& mesh, const settings::RunSettings& settings, Found& foun
         }
     }
     mesh.polygons_error_m = std::numeric_limits<double>::infinity();
-    return ready(std::move(mesh.polygons), nullptr, settings, {}, found);
+    return ready(std::move(mesh.polygons), nullptr, inputs, {}, found);
 }
 
 planning::AircraftModel
-load_model(const std::string& name, const settings::RunSettings& settings, Found& found) {
+load_model(const std::string& name, const AircraftInputs& inputs, Found& found) {
     const std::filesystem::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
-        models::polygons::PolygonModel model = read_polygon_model(file, settings.path.axes, found);
+        models::polygons::PolygonModel model = read_polygon_model(file, inputs.axes, found);
         found.note(model.notes);
         return ready(
             std::move(model),
             sim::find_aircraft_kind(name),
-            settings,
-            {most_polygons_of_a_model, settings.surface.order_seconds},
+            inputs,
+            {most_polygons_of_a_model, inputs.order_seconds},
             found);
     }
-    MeshAircraft mesh = read_mesh_aircraft(
-        file, settings.path.axes, settings.surface.order_cache.value_or(std::string()));
+    MeshAircraft mesh =
+        read_mesh_aircraft(file, inputs.axes, inputs.order_cache.value_or(std::string()));
     found.note(mesh.notes);
-    planning::AircraftModel model = far_model(mesh, settings, found);
+    planning::AircraftModel model = far_model(mesh, inputs, found);
     add_meshes(model, mesh);
     return model;
 }
@@ -221,23 +220,42 @@ std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft)
 
 } // namespace
 
-LoadedAircraft
-load_aircraft(const settings::RunSettings& settings, const std::vector<std::string>& shapes) {
-    if (settings.surface.order_cache) {
-        ordercache::make_cache_folder(*settings.surface.order_cache);
+AircraftInputs
+aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> shapes) {
+    AircraftInputs inputs{
+        .shapes = std::move(shapes),
+        .written = {},
+        .axes = settings.path.axes,
+        .hidden_surface = settings.surface.hidden_surface,
+        .order_method = settings.surface.order_method,
+        .order_seconds = settings.surface.order_seconds,
+        .order_cache = settings.surface.order_cache};
+    for (const std::string& shape : inputs.shapes) {
+        const std::filesystem::path file = base::aircraft_file(shape);
+        const LineReader opened(file);
+        std::error_code unknown; // then it is as old as can be
+        inputs.written.push_back(std::filesystem::last_write_time(file, unknown));
+    }
+    return inputs;
+}
+
+LoadedAircraft load_aircraft(const AircraftInputs& inputs) {
+    if (inputs.order_cache) {
+        ordercache::make_cache_folder(*inputs.order_cache);
     }
     LoadedAircraft loaded;
+    loaded.inputs = inputs;
     Found told;
     const auto add = [&](planning::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
     std::vector<std::string> names;
-    for (const std::string& name : shapes) {
+    for (const std::string& name : inputs.shapes) {
         const auto found = std::find(names.begin(), names.end(), name);
         loaded.aircraft.push_back(static_cast<std::uint32_t>(found - names.begin()));
         if (found == names.end()) {
             names.push_back(name);
-            add(load_model(name, settings, told));
+            add(load_model(name, inputs, told));
         }
     }
     for (std::uint32_t i = 0; i < names.size(); ++i) {
@@ -251,13 +269,13 @@ load_aircraft(const settings::RunSettings& settings, const std::vector<std::stri
             {i, static_cast<std::uint32_t>(found - names.begin()), kind->plain_error_m});
         if (found == names.end()) {
             names.push_back(plain);
-            add(load_model(plain, settings, told));
+            add(load_model(plain, inputs, told));
         }
     }
-    if (auto cockpit = load_cockpit(shapes.front())) {
+    if (auto cockpit = load_cockpit(inputs.shapes.front())) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
         loaded.dials =
-            planning::dials_of(cockpit->polygons, sim::aircraft_kind(shapes.front()).limits);
+            planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
         add(std::move(*cockpit));
     }
     loaded.notes = std::move(told.notes);

@@ -4,6 +4,7 @@
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/scene.h"
+#include "visuals/scene/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,8 +15,29 @@
 
 namespace octant::ui::world {
 
+/// What aircraft are loaded of: where all of it is the same, so are they.
+struct AircraftInputs {
+    /// Names or files.
+    std::vector<std::string> shapes;
+    /// When each shape's file was last written.
+    std::vector<std::filesystem::file_time_type> written;
+    /// As PathSettings has them.
+    std::string axes;
+    visuals::scene::HiddenSurface hidden_surface{};
+    visuals::draworder::Method order_method{};
+    double order_seconds = 0.0;
+    std::optional<std::string> order_cache;
+
+    bool operator==(const AircraftInputs&) const = default;
+};
+
+/// Throws Error where a file cannot be opened.
+AircraftInputs
+aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> shapes);
+
 /// The aircraft of a run, as Scene has them.
 struct LoadedAircraft {
+    AircraftInputs inputs;
     std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
     std::vector<visuals::planning::FarModel> far_models;
@@ -28,10 +50,8 @@ struct LoadedAircraft {
     std::vector<std::filesystem::path> order_files;
 };
 
-/// Loads aircraft of these shapes, names or files, and the cockpit of the first one where it has
-/// one: polygon models with their painting orders, chains of levels, and meshes, which get levels
-/// here. Throws Error.
-LoadedAircraft
-load_aircraft(const settings::RunSettings& settings, const std::vector<std::string>& shapes);
+/// Loads aircraft, and the cockpit of the first one where it has one: polygon models with their
+/// painting orders, chains of levels, and meshes, which get levels here. Throws Error.
+LoadedAircraft load_aircraft(const AircraftInputs& inputs);
 
 } // namespace octant::ui::world

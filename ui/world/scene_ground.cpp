@@ -10,10 +10,12 @@
 #include "visuals/terrain/ground_builder.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace octant::ui::world {
@@ -41,6 +43,8 @@ SceneGround described(
     const settings::RunSettings& settings,
     DrawnBy drawn_by) {
     SceneGround loaded;
+    loaded.inputs = terrain_inputs(settings.path);
+    loaded.filled_voids = filled_voids;
     loaded.ground = std::move(ground);
     const landscape::GroundSource source = loaded.ground->source().value();
     loaded.name = fmt::format(
@@ -103,6 +107,42 @@ ground_settings(const settings::RunSettings& settings, const std::optional<GeoPl
         own.air.palette = scene::Palette::Arid;
     }
     return own;
+}
+
+bool TerrainInputs::give_the_ground_of(const TerrainInputs& other) const {
+    return (written || settings::is_built_in_ground(terrain)) && terrain == other.terrain &&
+           spacing_m == other.spacing_m && height_scale == other.height_scale &&
+           system == other.system && written == other.written;
+}
+
+TerrainInputs terrain_inputs(const settings::PathSettings& settings) {
+    TerrainInputs inputs{
+        .terrain = settings.terrain,
+        .spacing_m = settings.terrain_spacing_m,
+        .height_scale = settings.terrain_height_scale,
+        .system = settings.terrain_system,
+        .written = {}};
+    std::error_code none;
+    if (!settings::is_built_in_ground(settings.terrain) &&
+        std::filesystem::is_regular_file(settings.terrain, none)) {
+        inputs.written = std::filesystem::last_write_time(settings.terrain, none);
+    }
+    return inputs;
+}
+
+std::optional<SceneGround> shared_scene_ground(
+    const SceneGround& other, const settings::RunSettings& settings, DrawnBy drawn_by) {
+    if (!terrain_inputs(settings.path).give_the_ground_of(other.inputs)) {
+        return std::nullopt;
+    }
+    const settings::RunSettings own = ground_settings(settings, other.place);
+    std::shared_ptr<const landscape::Ground> ground =
+        other.ground->suits(own.ground, own.air) ? other.ground
+                                                 : other.ground->remade(own.ground, own.air);
+    if (!ground || !ground->source()) {
+        return std::nullopt;
+    }
+    return described(std::move(ground), other.filled_voids, own, drawn_by);
 }
 
 std::optional<SceneGround> remade_scene_ground(

@@ -8,6 +8,8 @@
 #include "visuals/planning/scene.h"
 #include "visuals/scene/ground_texture.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,8 +22,27 @@ namespace octant::ui::world {
 settings::RunSettings
 ground_settings(const settings::RunSettings& settings, const std::optional<GeoPlace>& place);
 
+/// What the heights of a ground are loaded of.
+struct TerrainInputs {
+    /// As PathSettings has them.
+    std::string terrain;
+    double spacing_m = 0.0;
+    std::optional<double> height_scale;
+    std::optional<std::string> system;
+    /// When the file was last written; nothing for what is no file, which is made or one of many.
+    std::optional<std::filesystem::file_time_type> written;
+
+    /// Whether ground of these inputs is surely that of the others. Of folders, patterns and
+    /// archives of files that is not known.
+    bool give_the_ground_of(const TerrainInputs& other) const;
+};
+
+TerrainInputs terrain_inputs(const settings::PathSettings& settings);
+
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {
+    TerrainInputs inputs;
+    std::int64_t filled_voids = 0;
     std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.
     std::shared_ptr<const visuals::scene::GroundTexture> texture;
@@ -38,6 +59,12 @@ struct SceneGround {
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
 /// what cannot be read.
 SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by);
+
+/// The ground of a run whose heights another run has in memory: as it is there where these settings
+/// mesh and colour it alike. Nothing where it must be loaded. Throws Error for an image to be laid
+/// over it. `other` needs inputs, ground, place and filled voids only.
+std::optional<SceneGround> shared_scene_ground(
+    const SceneGround& other, const settings::RunSettings& settings, DrawnBy drawn_by);
 
 /// Ground and texture of a scene as these settings, which are ground_settings(), want them: made of
 /// the heights in memory, in other colours or under another mesh. Terrain is not read again; an

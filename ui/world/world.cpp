@@ -4,10 +4,8 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/hidden_height.h"
-#include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
@@ -165,23 +163,20 @@ scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>&
         world.flight.place_m};
 }
 
-/// The ground of another world where it suits these settings, else one that is loaded.
+/// The ground of another world where it has the heights of these settings, else one that is loaded.
 SceneGround
 ground_beside(const World* beside, const settings::RunSettings& settings, DrawnBy drawn_by) {
-    if (beside == nullptr || beside->scene.ground_texture) {
-        return load_scene_ground(settings, drawn_by);
+    if (beside != nullptr) {
+        SceneGround other;
+        other.inputs = beside->terrain;
+        other.filled_voids = beside->filled_voids;
+        other.ground = beside->scene.ground;
+        other.place = beside->ground_place;
+        if (auto shared = shared_scene_ground(other, settings, drawn_by)) {
+            return std::move(*shared);
+        }
     }
-    const settings::RunSettings own = ground_settings(settings, beside->ground_place);
-    if (!beside->scene.ground->suits(own.ground, own.air)) {
-        return load_scene_ground(settings, drawn_by);
-    }
-    return {
-        .ground = beside->scene.ground,
-        .texture = nullptr,
-        .name = beside->ground_name,
-        .place = beside->ground_place,
-        .frame = beside->ground_frame,
-        .notes = {}};
+    return load_scene_ground(settings, drawn_by);
 }
 
 } // namespace
@@ -261,21 +256,19 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
             settings::shape_of(settings.path.aircraft.front()),
             settings.path.lenient);
     }
-    const std::vector<std::string> shapes =
-        shapes_of(settings, script ? script->other_shapes : std::vector<std::string>());
-    for (const std::string& shape : shapes) {
-        const LineReader opened(base::aircraft_file(shape));
-    }
+    const AircraftInputs inputs = aircraft_inputs(
+        settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
     // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
     // first.
     std::future<SceneGround> coming_ground =
         std::async(std::launch::async, [&] { return ground_beside(beside, settings, drawn_by); });
-    LoadedAircraft aircraft = load_aircraft(settings, shapes);
+    LoadedAircraft aircraft = beside != nullptr && beside->aircraft.inputs == inputs
+                                  ? beside->aircraft
+                                  : load_aircraft(inputs);
     SceneGround ground = coming_ground.get();
     check_clouds(settings.air, *ground.ground);
     World world;
-    world.notes = std::move(aircraft.notes);
-    world.order_files = std::move(aircraft.order_files);
+    world.notes = aircraft.notes;
     if (script) {
         add(world.notes, script->notes);
     }
@@ -285,18 +278,21 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
     world.scene = {
         ground.ground,
         ground.texture,
-        std::move(aircraft.models),
-        std::move(aircraft.aircraft),
-        std::move(aircraft.far_models),
+        aircraft.models,
+        aircraft.aircraft,
+        aircraft.far_models,
         aircraft.cockpit,
-        std::move(aircraft.dials),
+        aircraft.dials,
         nullptr};
+    world.aircraft = std::move(aircraft);
     if (!is_live) {
         world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
         check_wingmen(world);
     }
     world.leader_kind = sim::find_aircraft_kind(settings::shape_of(settings.path.aircraft.front()));
+    world.terrain = std::move(ground.inputs);
+    world.filled_voids = ground.filled_voids;
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
     world.ground_frame = ground.frame;

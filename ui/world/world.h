@@ -5,14 +5,16 @@
 #include "sim/base/geo_place.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
+#include "ui/world/aircraft_loader.h"
 #include "ui/world/flight.h"
 #include "ui/world/formation.h"
 #include "ui/world/ground_texture_file.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera_rig.h"
 
 #include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,14 +34,16 @@ struct World {
         .legs = {},
         .others = {}};
     visuals::scene::FixedPoints points;
+    /// What `scene` has its aircraft of.
+    LoadedAircraft aircraft;
+    TerrainInputs terrain;
+    std::int64_t filled_voids = 0; ///< of the terrain
     std::string ground_name;
     std::optional<GeoPlace> ground_place;
     /// How the ground lies on the earth; null where that is not known.
     std::shared_ptr<const EarthFrame> ground_frame;
     /// What a person should be told: voids filled, legs clipped, ...
     std::vector<std::string> notes;
-    /// Kept painting orders that were used.
-    std::vector<std::filesystem::path> order_files;
 };
 
 /// The formation of those aircraft that fly no path of their own.
@@ -60,9 +64,9 @@ visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, 
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
-/// Loads aircraft, ground and path of a run and lays the path over the ground. `beside`: a world of
-/// the same ground, of which the two then share one where these settings mesh and colour it alike
-/// and no texture lies on it. Throws Error.
+/// Loads aircraft, ground and path of a run and lays the path over the ground. `beside`: a world
+/// with which the two share what is loaded of the same inputs: aircraft with their orders, heights,
+/// and the whole ground where these settings mesh and colour it alike. Throws Error.
 World load_world(
     const settings::RunSettings& settings,
     DrawnBy drawn_by = DrawnBy::Processor,
