@@ -115,6 +115,8 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .plan_ms = median_of(timed, [](const Record& r) { return r.plan_ms; }),
         .draw_ms = median_of(timed, [](const Record& r) { return r.draw_ms; }),
         .read_ms = median_of(timed, [](const Record& r) { return r.read_ms; }),
+        .mesh_wait_ms = median_of(timed, [](const Record& r) { return r.mesh_wait_ms; }),
+        .draw_wait_ms = median_of(timed, [](const Record& r) { return r.draw_wait_ms; }),
         .triangles =
             static_cast<int>(median_of(timed, [](const Record& r) { return r.terrain_triangles; })),
         .hash = timed.hash.value()};

@@ -26,8 +26,10 @@ struct BenchResult {
     double plan_ms = 0.0;
     double draw_ms = 0.0;
     double read_ms = 0.0;
-    int triangles = 0;      ///< of ground, median
-    std::uint64_t hash = 0; ///< over the pixels of the timed frames
+    double mesh_wait_ms = 0.0; ///< of plan_ms, as report::FrameRecord
+    double draw_wait_ms = 0.0; ///< of draw_ms
+    int triangles = 0;         ///< of ground, median
+    std::uint64_t hash = 0;    ///< over the pixels of the timed frames
 };
 
 /// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000

@@ -31,7 +31,7 @@ void put_formation(BenchOptions& options) {
 void print_table(const std::vector<BenchResult>& results) {
     std::fputs(
         fmt::format(
-            "{:<42} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n",
+            "{:<42} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>9}  {}\n",
             "scene",
             "median ms",
             "p99 ms",
@@ -40,6 +40,8 @@ void print_table(const std::vector<BenchResult>& results) {
             "plan ms",
             "draw ms",
             "read ms",
+            "mesh wait",
+            "draw wait",
             "triangles",
             "hash")
             .c_str(),
@@ -47,7 +49,8 @@ void print_table(const std::vector<BenchResult>& results) {
     for (const BenchResult& r : results) {
         std::fputs(
             fmt::format(
-                "{:<42} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>9}  "
+                "{:<42} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.2f} "
+                "{:>10.2f} {:>9}  "
                 "{:016x}\n",
                 r.name,
                 r.median_ms,
@@ -57,6 +60,8 @@ void print_table(const std::vector<BenchResult>& results) {
                 r.plan_ms,
                 r.draw_ms,
                 r.read_ms,
+                r.mesh_wait_ms,
+                r.draw_wait_ms,
                 r.triangles,
                 r.hash)
                 .c_str(),
@@ -76,6 +81,8 @@ void print_json(const std::vector<BenchResult>& results) {
              {"plan_ms", r.plan_ms},
              {"draw_ms", r.draw_ms},
              {"read_ms", r.read_ms},
+             {"mesh_wait_ms", r.mesh_wait_ms},
+             {"draw_wait_ms", r.draw_wait_ms},
              {"triangles", r.triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }

@@ -1,5 +1,6 @@
 #include "ui/flight/session.h"
 
+#include "ui/base/idle_watch.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
 #include "ui/world/sun_of_time.h"
@@ -196,9 +197,12 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     record.sim_ms = stage.lap_ms();
 
     smooth_target_ = decider_.smooth_target(frame);
-    const planning::PlanCounts counts =
-        pictures_.plan(now_, smooth_target_, [&] { record.refine_ms = stage.lap_ms(); });
-    record.plan_ms = record.refine_ms + stage.lap_ms();
+    const planning::PlanCounts counts = pictures_.plan(now_, smooth_target_, [&] {
+        record.refine_ms = stage.lap_ms();
+        pictures_.wait();
+        record.mesh_wait_ms = stage.lap_ms();
+    });
+    record.plan_ms = record.refine_ms + record.mesh_wait_ms + stage.lap_ms();
 
     if (next_s && settings_.ground.mesh_ahead) {
         reach(*next_s, frame + 1, next_);
@@ -206,7 +210,9 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
         record.sim_ms += stage.lap_ms();
         pictures_.mesh_ahead(next_);
     }
+    const base::IdleWatch idle;
     pictures_.draw();
+    record.draw_wait_ms = idle.ms();
     record.draw_ms = stage.lap_ms();
     pictures_.show();
     record.read_ms = stage.lap_ms();

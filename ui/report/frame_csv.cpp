@@ -111,6 +111,8 @@ constexpr std::array frame_columns{
     column<&R::refine_splits>("refine_splits"),
     column<&R::refine_collapses>("refine_collapses"),
     column<&R::refine_ms>("refine_ms", Kind::Number, milliseconds),
+    column<&R::mesh_wait_ms>("mesh_wait_ms", Kind::Number, milliseconds),
+    column<&R::draw_wait_ms>("draw_wait_ms", Kind::Number, milliseconds),
     column<&R::packets>("packets"),
     column<&R::packets_lost>("packets_lost"),
     column<&R::packets_late>("packets_late"),

@@ -26,7 +26,9 @@ struct FrameRecord {
     double plan_ms = 0.0;
     double draw_ms = 0.0;
     double read_ms = 0.0;
-    double record_ms = 0.0; ///< writing pictures and video, outside frame_ms
+    double mesh_wait_ms = 0.0; ///< of plan_ms: waiting for ground that is meshed ahead
+    double draw_wait_ms = 0.0; ///< of draw_ms: the thread that draws had no processor
+    double record_ms = 0.0;    ///< writing pictures and video, outside frame_ms
     int terrain_triangles = 0;
     int terrain_fans = 0;
     int aircraft_polygons = 0; ///< in the lists drawn, before back-face culling

@@ -1,126 +1,180 @@
+// Whether a textured triangle is even, and its corners then. Compiled once for each instruction
+// set; all give the same bits, because real numbers are summed and multiplied one by one.
 #include "visuals/raster/even_texture.h"
 
-#include <glm/vec2.hpp>
+// SVE's vectors have no size that the compiler knows: they can be no members.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#define HWY_BROKEN_EMU128 0 // compiled so that it is right, see CMakeLists.txt
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visuals/raster/even_texture.cpp"
+// clang-format off: foreach_target.h must come before all that includes highway.h
+#include <hwy/foreach_target.h>
+// clang-format on
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
-namespace {
+using Pair = hn::FixedTag<double, 2>;
+using Four = hn::FixedTag<float, 4>; ///< the values of a corner
+using Corners = std::array<const ScreenVertex*, 3>;
 
 constexpr double steps_per_px = ScreenVertex::per_px;
 
 /// Thinner triangles have gradients of rounding alone, 1/256 pixel.
 constexpr double least_thickness = 16.0;
 
-using Corners = std::array<const ScreenVertex*, 3>;
+/// From a corner to each of the next: its values' differences.
+struct Steps {
+    hn::Vec<Four> to_second;
+    hn::Vec<Four> to_third; ///< from the second
+    hn::Vec<Four> to_first; ///< from the third
 
-/// From the first corner to another, 1/256 pixel.
-glm::dvec2 way(const Corners& corners, std::size_t to) {
-    return {corners[to]->x - corners[0]->x, corners[to]->y - corners[0]->y};
-}
+    HWY_INLINE explicit Steps(const Corners& corners) {
+        const auto first = values(*corners[0]);
+        const auto second = values(*corners[1]);
+        const auto third = values(*corners[2]);
+        to_second = hn::Sub(second, first);
+        to_third = hn::Sub(third, second);
+        to_first = hn::Sub(first, third);
+    }
 
-double step(const Corners& corners, std::size_t to, std::size_t i) {
-    return static_cast<double>(corners[to]->value[i]) - static_cast<double>(corners[0]->value[i]);
-}
-
-struct Range {
-    float least;
-    float most;
-
-    Range(float a, float b, float c)
-        : least(std::min(std::min(a, b), c))
-        , most(std::max(std::max(a, b), c)) {}
-
-    double size() const { return static_cast<double>(most) - static_cast<double>(least); }
+    static HWY_INLINE hn::Vec<Four> values(const ScreenVertex& corner) {
+        return hn::LoadU(Four(), corner.value.data());
+    }
 };
-
-double range(const Corners& corners, std::size_t i) {
-    return Range(corners[0]->value[i], corners[1]->value[i], corners[2]->value[i]).size();
-}
-
-/// How many texels a pixel is wide, squared.
-double footprint2(const Corners& corners) {
-    const glm::dvec2 b = way(corners, 1);
-    const glm::dvec2 c = way(corners, 2);
-    const double area = b.x * c.y - b.y * c.x;
-    const double reach =
-        std::max(std::max(std::abs(b.x), std::abs(c.x)), std::max(std::abs(b.y), std::abs(c.y)));
-    if (std::abs(area) < least_thickness * reach) {
-        const double steps = std::max(range(corners, 0), range(corners, 1)) * steps_per_px / reach;
-        return steps * steps;
-    }
-    double across2 = 0.0;
-    double down2 = 0.0;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const double to_b = step(corners, 1, i);
-        const double to_c = step(corners, 2, i);
-        const double across = to_b * c.y - to_c * b.y;
-        const double down = to_c * b.x - to_b * c.x;
-        across2 += across * across;
-        down2 += down * down;
-    }
-    const double by_area = steps_per_px / area;
-    return std::max(across2, down2) * by_area * by_area;
-}
 
 /// How far exact values lie beyond even ones: from the least to the most, at the corners (0) and at
 /// the edges' middles, where they differ most.
 struct Bend {
-    double least = 0.0;
-    double most = 0.0;
+    hn::Vec<Four> least;
+    hn::Vec<Four> most;
 
-    void add(double difference) {
-        least = std::min(least, difference);
-        most = std::max(most, difference);
+    HWY_INLINE Bend(const Corners& corners, const Steps& steps) {
+        const Four four;
+        const float a = corners[0]->inverse_w;
+        const float b = corners[1]->inverse_w;
+        const float c = corners[2]->inverse_w;
+        alignas(16) const std::array from{a, b, c, a};
+        alignas(16) const std::array to{b, c, a, b};
+        const auto at_from = hn::Load(four, from.data());
+        const auto at_to = hn::Load(four, to.data());
+        const auto sum = hn::Add(at_to, at_from);
+        const auto share = hn::Div(hn::Sub(at_to, at_from), hn::Add(sum, sum));
+        const auto second = hn::Mul(steps.to_second, hn::Broadcast<0>(share));
+        const auto third = hn::Mul(steps.to_third, hn::Broadcast<1>(share));
+        const auto first = hn::Mul(steps.to_first, hn::Broadcast<2>(share));
+        const auto none = hn::Zero(four);
+        least = hn::Min(hn::Min(first, second), hn::Min(third, none));
+        most = hn::Max(hn::Max(first, second), hn::Max(third, none));
     }
 
-    double middle() const { return 0.5 * (least + most); }
+    HWY_INLINE hn::Vec<Four> size() const { return hn::Sub(most, least); }
 
-    double reach() const { return 0.5 * (most - least); }
+    HWY_INLINE hn::Vec<Four> doubled_middle() const { return hn::Add(most, least); }
 };
 
-/// How perspective bends each of the four values along a triangle's edges.
-std::array<Bend, 4> bends(const Corners& corners) {
-    std::array<Bend, 4> result;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const ScreenVertex& from = *corners[k];
-        const ScreenVertex& to = *corners[k + 1 < corners.size() ? k + 1 : 0];
-        const double share = static_cast<double>(to.inverse_w - from.inverse_w) /
-                             (2.0 * static_cast<double>(to.inverse_w + from.inverse_w));
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            result[i].add(static_cast<double>(to.value[i] - from.value[i]) * share);
-        }
+/// How many texels a pixel is wide in a thin triangle, squared.
+double thin_footprint2(const Corners& corners, double reach) {
+    double range = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto [least, most] =
+            std::minmax({corners[0]->value[i], corners[1]->value[i], corners[2]->value[i]});
+        range = std::max(range, static_cast<double>(most - least));
     }
-    return result;
+    const double texels = range * steps_per_px / reach;
+    return texels * texels;
 }
 
-} // namespace
+/// How many texels a pixel is wide, squared.
+HWY_INLINE double footprint2(const Corners& corners, const Steps& steps) {
+    const auto way = [&](std::size_t to) {
+        return std::array{
+            static_cast<double>(corners[to]->x - corners[0]->x),
+            static_cast<double>(corners[to]->y - corners[0]->y)};
+    };
+    const auto b = way(1);
+    const auto c = way(2);
+    const double area = b[0] * c[1] - b[1] * c[0];
+    const double reach = std::max(
+        std::max(std::abs(b[0]), std::abs(c[0])), std::max(std::abs(b[1]), std::abs(c[1])));
+    if (std::abs(area) < least_thickness * reach) {
+        return thin_footprint2(corners, reach);
+    }
+    const Pair pair;
+    const hn::Half<Four> places; // the first two values
+    const auto to_b = hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_second));
+    const auto to_c = hn::Neg(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_first)));
+    const auto times = [&](hn::Vec<Pair> value, double factor)
+                           HWY_ATTR { return hn::Mul(value, hn::Set(pair, factor)); };
+    const auto across = hn::Sub(times(to_b, c[1]), times(to_c, b[1]));
+    const auto down = hn::Sub(times(to_c, b[0]), times(to_b, c[0]));
+    const auto across2 = hn::Mul(across, across);
+    const auto down2 = hn::Mul(down, down);
+    const auto sums = hn::Add(
+        hn::InterleaveLower(pair, across2, down2), hn::InterleaveUpper(pair, across2, down2));
+    const double by_area = steps_per_px / area;
+    return hn::GetLane(hn::MaxOfLanes(pair, sums)) * by_area * by_area;
+}
 
-std::optional<EvenTexture> even_texture(const Corners& corners, std::size_t level_count) {
-    const std::array<Bend, 4> bent = bends(corners);
-    if (bent[2].most - bent[2].least > EvenTexture::most_share_wrong ||
-        bent[3].most - bent[3].least > EvenTexture::most_share_wrong) {
-        return std::nullopt;
+/// The first two lanes from one, the others from another.
+HWY_INLINE hn::Vec<Four> two_of_each(hn::Vec<Four> first, hn::Vec<Four> others) {
+    return hn::ConcatUpperLower(Four(), others, first);
+}
+
+bool SetEvenTexture(const Corners& corners, std::size_t level_count, EvenTexture& even) {
+    const Four four;
+    const auto set = [&](float value) HWY_ATTR { return hn::Set(four, value); };
+    const Steps steps(corners);
+    const Bend bend(corners, steps);
+    even.levels = levels_of(footprint2(corners, steps), level_count);
+    const auto scale = std::bit_cast<float>((127U - even.levels.fine) << 23U); // 2^-fine
+    const auto most = two_of_each(
+        set(2.0F * EvenTexture::most_texels_wrong / scale), set(EvenTexture::most_share_wrong));
+    if (!hn::AllTrue(four, hn::Le(bend.size(), most))) {
+        return false;
     }
-    EvenTexture result;
-    result.levels = levels_of(footprint2(corners), level_count);
-    const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << result.levels.fine);
-    if (std::max(bent[0].reach(), bent[1].reach()) * scale > EvenTexture::most_texels_wrong) {
-        return std::nullopt;
-    }
+    const auto half = set(0.5F);
+    const auto moved = hn::Add(hn::Mul(bend.doubled_middle(), half), half);
+    const auto none = hn::Zero(four);
+    const auto before = two_of_each(moved, none);
+    const auto times = two_of_each(set(scale), set(EvenTexture::whole_share));
+    const auto behind = two_of_each(half, none);
     for (std::size_t k = 0; k < corners.size(); ++k) {
-        ScreenVertex& corner = result.corners[k];
+        ScreenVertex& corner = even.corners[k];
         corner = *corners[k];
-        for (std::size_t i = 0; i < 2; ++i) {
-            const double place = static_cast<double>(corner.value[i]) + bent[i].middle();
-            corner.value[i] = static_cast<float>((place + 0.5) * scale - 0.5);
-            corner.value[2 + i] *= EvenTexture::whole_share;
-        }
+        const auto value = hn::Mul(hn::Add(Steps::values(corner), before), times);
+        hn::StoreU(hn::Sub(value, behind), four, corner.value.data());
     }
-    return result;
+    return true;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace octant::visuals::raster {
+
+HWY_EXPORT(SetEvenTexture);
+
+std::optional<EvenTexture>
+even_texture(const std::array<const ScreenVertex*, 3>& corners, std::size_t level_count) {
+    EvenTexture even;
+    if (!HWY_DYNAMIC_DISPATCH(SetEvenTexture)(corners, level_count, even)) {
+        return std::nullopt;
+    }
+    return even;
 }
 
 } // namespace octant::visuals::raster
+#endif

@@ -45,8 +45,7 @@ void light_row(
     const scene::GroundImage& albedo = texture.albedo;
     const auto width = static_cast<std::size_t>(albedo.width);
     const auto y = static_cast<std::size_t>(std::min(row, albedo.height - 1));
-    std::uint32_t* const to =
-        level.texels.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width);
+    std::uint32_t* const to = level.texels.data() + level.number(0, row);
     for (int column = 0; column < level.width; ++column) {
         const glm::dvec2 at_m = albedo.first_m + glm::dvec2(column, row) * albedo.step_m;
         const glm::vec3 outwards = normal_at(texture.normal, at_m);
@@ -65,12 +64,8 @@ void light_row(
 
 GroundImage::Level half_of(const GroundImage::Level& from) {
     GroundImage::Level to(std::max(from.width / 2, 2), std::max(from.height / 2, 2));
-    to.texels.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     const auto texel = [&](int x, int y) {
-        return from.texels
-            [static_cast<std::size_t>(std::min(y, from.height - 1)) *
-                 static_cast<std::size_t>(from.width) +
-             static_cast<std::size_t>(std::min(x, from.width - 1))];
+        return from.texels[from.number(std::min(x, from.width - 1), std::min(y, from.height - 1))];
     };
     for (int y = 0; y < to.height; ++y) {
         for (int x = 0; x < to.width; ++x) {
@@ -82,7 +77,7 @@ GroundImage::Level half_of(const GroundImage::Level& from) {
                 }
                 sum |= part / 4 << shift;
             }
-            to.texels.push_back(sum);
+            to.texels[to.number(x, y)] = sum;
         }
     }
     return to;
@@ -104,8 +99,6 @@ void GroundImage::light(const Light& light) {
     levels_.clear();
     levels_.emplace_back(std::max(albedo.width, 2), std::max(albedo.height, 2));
     Level& level = levels_.back();
-    level.texels.resize(
-        static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
     by_rows(level.height, [&](int row) { light_row(texture_, light, row, level); });
     while (levels_.back().width > 2 || levels_.back().height > 2) {
         levels_.push_back(half_of(levels_.back()));

@@ -18,13 +18,29 @@ public:
         Level(int columns, int rows)
             : width(columns)
             , height(rows)
-            , last_place{(columns - 1) * 65536.0 - 1.0, (rows - 1) * 65536.0 - 1.0} {}
+            , stride(stride_of(columns))
+            , last_place{(columns - 1) * 65536.0 - 1.0, (rows - 1) * 65536.0 - 1.0}
+            , texels(number(0, rows)) {}
 
         int width;
         int height;
+        int stride; ///< texels from a row to the next
         /// Across and up, with a texel right and above: 2^-16 texel; the rest are 0.
         alignas(32) std::array<double, 4> last_place;
         std::vector<std::uint32_t> texels; ///< red in the lowest byte; rows from the south
+
+        std::size_t number(int column, int row) const {
+            return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) +
+                   static_cast<std::size_t>(column);
+        }
+
+    private:
+        /// An odd number of cache lines: texels above each other share no place in a cache.
+        static int stride_of(int columns) {
+            return (columns + line - 1) / line / 2 * 2 * line + line;
+        }
+
+        static constexpr int line = 16;
     };
 
     void load(const scene::GroundTexture& texture);

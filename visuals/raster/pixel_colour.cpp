@@ -69,11 +69,7 @@ std::array<double, 3> texel_at(const GroundImage::Level& level, double x, double
     const int y1 = std::min(y0 + 1, level.height - 1);
     const double right = within_x - x0;
     const double up = within_y - y0;
-    const auto texel = [&](int column, int row) {
-        return level.texels
-            [static_cast<std::size_t>(row) * static_cast<std::size_t>(level.width) +
-             static_cast<std::size_t>(column)];
-    };
+    const auto texel = [&](int column, int row) { return level.texels[level.number(column, row)]; };
     const std::array corners{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)};
     const std::array weights{
         (1.0 - right) * (1.0 - up), right * (1.0 - up), (1.0 - right) * up, right * up};

@@ -21,23 +21,22 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
+using Texels = hn::Repartition<std::uint32_t, Strip>;
 using TexelPlaces = hn::Vec<hn::RebindToSigned<Texels>>; ///< 2^-16 texel
+using Colours = MixedColours<Strip>;
 
-/// Pixels of a register in both its halves: places in the fine level.
-struct PlacesOfHalf {
-    TexelPlaces x;
-    TexelPlaces y;
+/// Places of a register's pixels in the fine level: of those in even lanes, then in odd ones.
+struct Places {
+    std::array<TexelPlaces, 2> x;
+    std::array<TexelPlaces, 2> y;
 };
-
-using Places = std::array<PlacesOfHalf, 2>;
-using Colours = std::array<hn::Vec<Strip>, 3>; ///< 1/128 level, 32,640 at most
 
 /// One coordinate of places over the picture: 2^-16 texel of the fine level, wrapping.
 struct PlacePlane {
     std::uint32_t at; ///< in the tile's first column, at the row at hand
     std::uint32_t per_x;
     std::uint32_t per_row;
-    TexelPlaces steps;
+    TexelPlaces steps; ///< to even lanes; those of a window's next row begin anew
 
     HWY_INLINE PlacePlane(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
         : per_x(static_cast<std::uint32_t>(levels.per_x[k]))
@@ -47,15 +46,33 @@ struct PlacePlane {
              per_x * static_cast<std::uint32_t>(first_px.x) +
              per_row * static_cast<std::uint32_t>(first_px.y);
         const hn::RebindToSigned<Texels> whole;
-        steps = hn::Mul(counting_from(whole, 0), hn::Set(whole, levels.per_x[k]));
+        const auto pairs = hn::And(counting_from(whole, 0), hn::Set(whole, window_px / 2 - 1));
+        steps = hn::Mul(hn::ShiftLeft<1>(pairs), hn::Set(whole, levels.per_x[k]));
     }
 
-    /// From a column on, some rows below the one at hand.
-    HWY_INLINE TexelPlaces places(int column, std::uint32_t rows_below) const {
-        const std::uint32_t first =
-            at + per_x * static_cast<std::uint32_t>(column) + per_row * rows_below;
-        return hn::Add(
-            hn::Set(hn::RebindToSigned<Texels>(), static_cast<std::int32_t>(first)), steps);
+    /// From a column on.
+    HWY_INLINE std::array<TexelPlaces, 2> places(int column) const {
+        const hn::RebindToSigned<Texels> whole;
+        return both(hn::Set(whole, of_column(column, 0)));
+    }
+
+    /// Of two rows.
+    HWY_INLINE std::array<TexelPlaces, 2> places(const PairWindow& window) const {
+        const hn::RebindToSigned<Texels> whole;
+        const hn::Half<decltype(whole)> row;
+        const auto next = hn::Set(row, of_column(window.first[1], per_row));
+        return both(hn::Combine(whole, next, hn::Set(row, of_column(window.first[0], 0))));
+    }
+
+private:
+    std::int32_t of_column(int column, std::uint32_t below) const {
+        return static_cast<std::int32_t>(at + per_x * static_cast<std::uint32_t>(column) + below);
+    }
+
+    HWY_INLINE std::array<TexelPlaces, 2> both(TexelPlaces first) const {
+        const auto even = hn::Add(first, steps);
+        const hn::RebindToSigned<Texels> whole;
+        return {even, hn::Add(even, hn::Set(whole, static_cast<std::int32_t>(per_x)))};
     }
 };
 
@@ -70,30 +87,8 @@ part_way(hn::Vec<Strip> from, hn::Vec<Strip> to, hn::Vec<Strip> how_much) {
     return hn::Add(hn::Sub(from, hn::MulHigh(from, how_much)), hn::MulHigh(to, how_much));
 }
 
-/// One level's colours at places, which are kept within its rim.
 HWY_INLINE Colours colours_at(const GroundImage::Level& level, const Places& places) {
-    const hn::RebindToSigned<Texels> whole;
-    const hn::Half<Strip> half;
-    const auto within = [&](TexelPlaces place, int size) HWY_ATTR {
-        return hn::Min(hn::Max(place, hn::Zero(whole)), hn::Set(whole, (size - 1) * 65536 - 1));
-    };
-    const TexelSquares low(
-        level, within(places[0].x, level.width), within(places[0].y, level.height));
-    const TexelSquares high(
-        level, within(places[1].x, level.width), within(places[1].y, level.height));
-    const auto both = [&](hn::Vec<Texels> lower, hn::Vec<Texels> upper) HWY_ATTR {
-        return hn::Combine(
-            Strip(),
-            hn::DemoteTo(half, hn::BitCast(whole, upper)),
-            hn::DemoteTo(half, hn::BitCast(whole, lower)));
-    };
-    const auto lower_bits = hn::Set(Texels(), 0xffffU);
-    const auto low_red_blue = low.mixed<0>();
-    const auto high_red_blue = high.mixed<0>();
-    return {
-        both(hn::And(low_red_blue, lower_bits), hn::And(high_red_blue, lower_bits)),
-        both(hn::And(low.mixed<8>(), lower_bits), hn::And(high.mixed<8>(), lower_bits)),
-        both(hn::ShiftRight<16>(low_red_blue), hn::ShiftRight<16>(high_red_blue))};
+    return mixed_colours<Strip>(level, places.x[0], places.y[0], places.x[1], places.y[1]);
 }
 
 /// Places in the next coarser level.
@@ -102,9 +97,7 @@ HWY_INLINE Places coarser(const Places& places) {
         const auto quarter = hn::Set(hn::RebindToSigned<Texels>(), 16384); // of a texel
         return hn::Sub(hn::ShiftRight<1>(place), quarter);
     };
-    return {
-        PlacesOfHalf{of(places[0].x), of(places[0].y)},
-        PlacesOfHalf{of(places[1].x), of(places[1].y)}};
+    return {{of(places.x[0]), of(places.x[1])}, {of(places.y[0]), of(places.y[1])}};
 }
 
 /// What all of a triangle's pixels have in common.
@@ -133,10 +126,12 @@ struct TextureLook {
                 colours[k] = part_way(colours[k], next[k], coarse_share);
             }
         }
+        const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto lit = hn::MulHigh(colours[k], light_left);
-            const auto in_haze = part_way(lit, hn::Set(Strip(), haze[k]), haze_share);
-            colours[k] = hn::ShiftRight<3>(hn::Add(in_haze, hn::Set(Strip(), 4)));
+            const auto own = hn::MulHigh(colours[k], seen_share);
+            const auto of_haze = hn::MulHigh(hn::Set(Strip(), haze[k]), haze_share);
+            const auto sum = hn::Add(own, of_haze);
+            colours[k] = hn::ShiftRight<3>(hn::Add(sum, hn::Set(Strip(), 4)));
         }
         return colours;
     }
@@ -163,13 +158,8 @@ HWY_INLINE void paint_texture_in_pairs(
         if (!has_any(fresh)) {
             return;
         }
-        const auto of_row = [&](std::size_t row) HWY_ATTR {
-            const int first = window.first[row];
-            const auto below = static_cast<std::uint32_t>(row);
-            return PlacesOfHalf{planes[0].places(first, below), planes[1].places(first, below)};
-        };
         const Colours colours = look.seen(
-            {of_row(0), of_row(1)},
+            {planes[0].places(window), planes[1].places(window)},
             share_of(shares[0].level(window)),
             share_of(shares[1].level(window)));
         const auto counts = hn::PopulationCount(fresh);
@@ -220,12 +210,9 @@ HWY_INLINE void paint_texture_strip(
                 if (!has_any(fresh)) {
                     continue;
                 }
-                const auto of_half = [&](std::size_t half) HWY_ATTR {
-                    const auto first = static_cast<int>(i * part_px + half * part_px / 2);
-                    return PlacesOfHalf{planes[0].places(first, 0), planes[1].places(first, 0)};
-                };
+                const auto first = static_cast<int>(i * part_px);
                 const Colours colours = look.seen(
-                    {of_half(0), of_half(1)},
+                    {planes[0].places(first), planes[1].places(first)},
                     share_of(shares[0].level(i)),
                     share_of(shares[1].level(i)));
                 const auto counts = hn::PopulationCount(fresh);

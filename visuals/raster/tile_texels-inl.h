@@ -112,85 +112,126 @@ footprint2(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends,
     return std::max(squared(across), squared(down));
 }
 
-/// Red, green and blue of a block's pixels, 1/128 level, 32,640 at most.
-struct BlockColours {
-    alignas(32) std::array<std::array<std::uint16_t, block_px>, 3> level;
+/// The lower halves of both registers' values in turn: those of `even` in even lanes.
+template <class Halves, class V>
+HWY_INLINE hn::Vec<Halves> lower_halves(V even, V odd) {
+    const Halves halves;
+    return hn::OddEven(hn::BitCast(halves, hn::ShiftLeft<16>(odd)), hn::BitCast(halves, even));
+}
+
+template <class Halves, class V>
+HWY_INLINE hn::Vec<Halves> upper_halves(V even, V odd) {
+    const Halves halves;
+    return hn::OddEven(hn::BitCast(halves, odd), hn::BitCast(halves, hn::ShiftRight<16>(even)));
+}
+
+/// How four corners are mixed, sixteen bits at a time.
+template <class Halves>
+struct CornerWeights {
+    hn::Vec<Halves> right; ///< share of the right ones, 2^-16
+    hn::Vec<Halves> up;    ///< share of the upper ones, 1/128
+
+    /// By the lower halves of places, 2^-16 texel.
+    template <class V>
+    HWY_INLINE CornerWeights(V even_x, V odd_x, V even_y, V odd_y)
+        : right(lower_halves<Halves>(even_x, odd_x))
+        , up(hn::ShiftRight<9>(lower_halves<Halves>(even_y, odd_y))) {}
+
+    /// Bytes, left below, right below, left above and right above; 1/128.
+    HWY_INLINE hn::Vec<Halves> mixed(const std::array<hn::Vec<Halves>, 4>& corner) const {
+        const auto column = [&](std::size_t side) HWY_ATTR {
+            const auto down = hn::Sub(hn::Set(Halves(), 128), up);
+            return hn::Add(hn::Mul(corner[side], down), hn::Mul(corner[side + 2], up));
+        };
+        // The left texel has what the right one leaves of 65,535.
+        return hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right));
+    }
 };
 
-using Texels = hn::CappedTag<std::uint32_t, block_px>;
-using TexelHalves = hn::Repartition<std::uint16_t, Texels>;
-
-/// Two bytes of each texel, those that lie `shift` bits up and sixteen further.
-template <int shift>
-HWY_INLINE hn::Vec<TexelHalves> two_bytes(hn::Vec<Texels> texels) {
-    const auto low = shift == 0 ? texels : hn::ShiftRight<shift>(texels);
-    return hn::BitCast(TexelHalves(), hn::And(low, hn::Set(Texels(), 0x00ff00ffU)));
-}
-
-/// The same sixteen bits in both halves.
-HWY_INLINE hn::Vec<TexelHalves> in_both_halves(hn::Vec<Texels> value) {
-    return hn::BitCast(TexelHalves(), hn::Or(value, hn::ShiftLeft<16>(value)));
-}
-
 /// Texels around places: those left below, right below, left above and right above.
+template <class Texels>
 struct TexelSquares {
+    using Places = hn::Vec<hn::RebindToSigned<Texels>>;
+
     std::array<hn::Vec<Texels>, 4> corner;
-    hn::Vec<TexelHalves> right; ///< share of the right ones, 2^-16
-    hn::Vec<TexelHalves> up;    ///< share of the upper ones, 1/128
 
     /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
-    HWY_INLINE TexelSquares(
-        const GroundImage::Level& level,
-        hn::Vec<hn::RebindToSigned<Texels>> x,
-        hn::Vec<hn::RebindToSigned<Texels>> y) {
-        const Texels texels;
+    HWY_INLINE TexelSquares(const GroundImage::Level& level, Places x, Places y) {
         const hn::RebindToSigned<Texels> sign;
-        const auto first = hn::Add(
-            hn::Mul(hn::ShiftRight<16>(y), hn::Set(sign, level.width)), hn::ShiftRight<16>(x));
+        const auto stride = hn::Set(sign, level.stride);
+        const auto first = hn::Add(hn::Mul(hn::ShiftRight<16>(y), stride), hn::ShiftRight<16>(x));
         load_neighbours(level, first, corner[0], corner[1]);
-        load_neighbours(level, hn::Add(first, hn::Set(sign, level.width)), corner[2], corner[3]);
-        const auto part = [&](auto place) HWY_ATTR {
-            return hn::And(hn::BitCast(texels, place), hn::Set(texels, 0xffffU));
-        };
-        right = in_both_halves(part(x));
-        up = in_both_halves(hn::ShiftRight<9>(part(y)));
+        load_neighbours(level, hn::Add(first, stride), corner[2], corner[3]);
     }
 
     /// Texels by their numbers in the level, and those right of them: both are loaded at once.
     static HWY_INLINE void load_neighbours(
         const GroundImage::Level& level,
-        hn::Vec<hn::RebindToSigned<Texels>> number,
+        Places number,
         hn::Vec<Texels>& left_ones,
         hn::Vec<Texels>& right_ones) {
         const Texels texels;
         const hn::Repartition<std::uint64_t, Texels> pairs;
         const hn::RebindToSigned<decltype(pairs)> offsets;
-        const hn::Half<hn::RebindToSigned<Texels>> half;
         const auto* const from = reinterpret_cast<const std::uint64_t*>(level.texels.data());
         const auto load = [&](auto some) HWY_ATTR {
-            const auto bytes = hn::ShiftLeft<2>(hn::PromoteTo(offsets, some));
-            return hn::BitCast(texels, hn::GatherOffset(pairs, from, bytes));
+            const auto bytes = hn::BitCast(offsets, hn::ShiftLeft<2>(some));
+            return hn::GatherOffset(pairs, from, bytes);
         };
-        const auto low = load(hn::LowerHalf(half, number));
-        const auto high = load(hn::UpperHalf(half, number));
-        left_ones = hn::ConcatEven(texels, high, low);
-        right_ones = hn::ConcatOdd(texels, high, low);
+        const auto numbers = hn::BitCast(pairs, number);
+        const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
+        const auto odd = load(hn::ShiftRight<32>(numbers));
+        left_ones =
+            hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
+        right_ones =
+            hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
     }
+};
 
-    /// Two of their colours, mixed.
-    template <int shift>
-    HWY_INLINE hn::Vec<Texels> mixed() const {
-        const TexelHalves halves;
-        const auto column = [&](std::size_t side) HWY_ATTR {
-            return hn::Add(
-                hn::Mul(two_bytes<shift>(corner[side]), hn::Sub(hn::Set(halves, 128), up)),
-                hn::Mul(two_bytes<shift>(corner[side + 2]), up));
-        };
-        // The left texel has what the right one leaves of 65,535.
-        return hn::BitCast(
-            Texels(),
-            hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right)));
+/// Red, green and blue, 1/128 level, 32,640 at most.
+template <class Halves>
+using MixedColours = std::array<hn::Vec<Halves>, 3>;
+
+/// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond
+/// the level's rim have the rim's.
+template <class Halves, class V>
+HWY_INLINE MixedColours<Halves>
+mixed_colours(const GroundImage::Level& level, V even_x, V even_y, V odd_x, V odd_y) {
+    using Texels = hn::Repartition<std::uint32_t, Halves>;
+    const hn::RebindToSigned<Texels> sign;
+    const Halves halves;
+    const auto within = [&](V place, int size) HWY_ATTR {
+        return hn::Min(hn::Max(place, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
+    };
+    even_x = within(even_x, level.width);
+    odd_x = within(odd_x, level.width);
+    even_y = within(even_y, level.height);
+    odd_y = within(odd_y, level.height);
+    const TexelSquares<Texels> even(level, even_x, even_y);
+    const TexelSquares<Texels> odd(level, odd_x, odd_y);
+    const auto red_and_blue = [&](const TexelSquares<Texels>& of, V x, V y) HWY_ATTR {
+        std::array<hn::Vec<Halves>, 4> corner;
+        for (std::size_t i = 0; i < corner.size(); ++i) {
+            corner[i] = hn::BitCast(halves, hn::And(of.corner[i], hn::Set(Texels(), 0x00ff00ffU)));
+        }
+        const CornerWeights<Halves> weights(x, x, y, y);
+        return hn::BitCast(Texels(), weights.mixed(corner));
+    };
+    std::array<hn::Vec<Halves>, 4> green;
+    for (std::size_t i = 0; i < green.size(); ++i) {
+        green[i] = hn::ShiftRight<8>(lower_halves<Halves>(even.corner[i], odd.corner[i]));
     }
+    const auto of_even = red_and_blue(even, even_x, even_y);
+    const auto of_odd = red_and_blue(odd, odd_x, odd_y);
+    return {
+        lower_halves<Halves>(of_even, of_odd),
+        CornerWeights<Halves>(even_x, odd_x, even_y, odd_y).mixed(green),
+        upper_halves<Halves>(of_even, of_odd)};
+}
+
+/// Red, green and blue of a block's pixels, 1/128 level, 32,640 at most.
+struct BlockColours {
+    alignas(32) std::array<std::array<std::uint16_t, block_px>, 3> level;
 };
 
 /// Places of a level along a block, 2^-16 texel: at its first pixel and from each to the next.
@@ -199,28 +240,23 @@ struct TexelLine {
     std::array<std::int32_t, 2> per_px;
 };
 
-/// A level's colours along a block. Places beyond the texture's rim have the rim's.
+/// A level's colours along a block.
 HWY_INLINE void
 sample_line(const GroundImage::Level& level, const TexelLine& line, BlockColours& to) {
-    const hn::RebindToSigned<Texels> sign;
-    const hn::Rebind<std::uint16_t, Texels> halves;
-    for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(Texels())) {
-        const auto steps = counting_from(sign, i);
-        const auto place = [&](std::size_t k, int size) HWY_ATTR {
-            const auto at = hn::Add(
-                hn::Set(sign, line.first[k]), hn::Mul(steps, hn::Set(sign, line.per_px[k])));
-            return hn::Min(hn::Max(at, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
+    const Pixels pixels;
+    const hn::RebindToSigned<hn::Repartition<std::uint32_t, Pixels>> sign;
+    for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(pixels)) {
+        const auto even_px = hn::ShiftLeft<1>(counting_from(sign, i / 2));
+        const auto even = [&](std::size_t k) HWY_ATTR {
+            return hn::Add(
+                hn::Set(sign, line.first[k]), hn::Mul(even_px, hn::Set(sign, line.per_px[k])));
         };
-        const TexelSquares around(level, place(0, level.width), place(1, level.height));
-        const auto store = [&](std::size_t k, hn::Vec<Texels> values) HWY_ATTR {
-            hn::StoreU(hn::DemoteTo(halves, hn::BitCast(sign, values)), halves, &to.level[k][i]);
-        };
-        const auto red_blue = around.mixed<0>();
-        const auto green = around.mixed<8>();
-        const auto lower_half = hn::Set(Texels(), 0xffffU);
-        store(0, hn::And(red_blue, lower_half));
-        store(1, hn::And(green, lower_half));
-        store(2, hn::ShiftRight<16>(red_blue));
+        const auto next = [&](std::size_t k)
+                              HWY_ATTR { return hn::Add(even(k), hn::Set(sign, line.per_px[k])); };
+        const auto colours = mixed_colours<Pixels>(level, even(0), even(1), next(0), next(1));
+        for (std::size_t k = 0; k < colours.size(); ++k) {
+            hn::StoreU(colours[k], pixels, &to.level[k][i]);
+        }
     }
 }
 

@@ -69,6 +69,7 @@ HWY_INLINE void add_colours(
     for (std::size_t i = 0; i < block_px; i += hn::Lanes(values)) {
         const auto light_left = hn::LoadU(values, &shares.light_left[i]);
         const auto haze_share = hn::LoadU(values, &shares.haze[i]);
+        const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
         const auto count = hn::LoadU(values, block.counts + i);
         for (std::size_t k = 0; k < 3; ++k) {
             auto mine = hn::LoadU(values, &texels.fine.level[k][i]);
@@ -78,7 +79,8 @@ HWY_INLINE void add_colours(
             const auto haze_level = hn::Set(
                 values,
                 static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F));
-            const auto seen = part_of(hn::MulHigh(mine, light_left), haze_level, haze_share);
+            const auto seen =
+                hn::Add(hn::MulHigh(mine, seen_share), hn::MulHigh(haze_level, haze_share));
             const auto colour = hn::ShiftRight<3>(hn::Add(seen, hn::Set(values, 4)));
             std::uint16_t* const sums = buffer.sums[k].data() + block.pixel + i;
             hn::StoreU(hn::Add(hn::LoadU(values, sums), hn::Mul(colour, count)), values, sums);

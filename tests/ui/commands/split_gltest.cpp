@@ -53,6 +53,8 @@ std::vector<std::string> rows_in(const fs::path& recording) {
               &row.read_ms,
               &row.record_ms,
               &row.refine_ms,
+              &row.mesh_wait_ms,
+              &row.draw_wait_ms,
               &row.stress}) {
             *time = 0.0;
         }
