@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -73,6 +74,7 @@ private:
     int threads_;
     ErrorCoder coder_;
     std::vector<TileBuilder> builders_; ///< One for each thread.
+    std::optional<RoomToMove> room_;    ///< Measured before the first tile is built.
 };
 
 } // namespace octant::visuals::terrain
