@@ -118,8 +118,12 @@ void PictureMaker::read(const Moment& now, std::optional<int> smooth) {
     picture_is_read_ = true;
 }
 
-void PictureMaker::wait() {
+void PictureMaker::wait_for_first_view() {
     planner_->wait();
+}
+
+void PictureMaker::wait() {
+    wait_for_first_view();
     if (inset_) {
         inset_->wait();
     }

@@ -101,6 +101,10 @@ public:
     /// Returns when nothing is being meshed. Throws what that work threw.
     void wait();
 
+    /// Returns when the ground of the first view is not being meshed; that of the inset may be.
+    /// Throws what that work threw.
+    void wait_for_first_view();
+
     /// Makes the renderer ready for pictures of that size over ground of that texture; null: of the
     /// one that it has, if any. Throws Error and leaves it as it was.
     void make_ready(

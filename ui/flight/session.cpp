@@ -199,7 +199,7 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     smooth_target_ = decider_.smooth_target(frame);
     const planning::PlanCounts counts = pictures_.plan(now_, smooth_target_, [&] {
         record.refine_ms = stage.lap_ms();
-        pictures_.wait();
+        pictures_.wait_for_first_view();
         record.mesh_wait_ms = stage.lap_ms();
     });
     record.plan_ms = record.refine_ms + record.mesh_wait_ms + stage.lap_ms();

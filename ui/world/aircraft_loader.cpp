@@ -11,6 +11,7 @@
 #include "ui/base/data_files.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_aircraft.h"
+#include "ui/world/model_files.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/cockpit_dials.h"
@@ -224,7 +225,7 @@ AircraftInputs
 aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> shapes) {
     AircraftInputs inputs{
         .shapes = std::move(shapes),
-        .written = {},
+        .files = {},
         .axes = settings.path.axes,
         .hidden_surface = settings.surface.hidden_surface,
         .order_method = settings.surface.order_method,
@@ -233,8 +234,10 @@ aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> 
     for (const std::string& shape : inputs.shapes) {
         const std::filesystem::path file = base::aircraft_file(shape);
         const LineReader opened(file);
-        std::error_code unknown; // then it is as old as can be
-        inputs.written.push_back(std::filesystem::last_write_time(file, unknown));
+        add_stamp(file, inputs.files);
+        for (const std::filesystem::path& named : files_named_by(file)) {
+            add_stamp(named, inputs.files);
+        }
     }
     return inputs;
 }

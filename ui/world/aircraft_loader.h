@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "ui/world/file_stamps.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/scene.h"
@@ -19,8 +20,8 @@ namespace octant::ui::world {
 struct AircraftInputs {
     /// Names or files.
     std::vector<std::string> shapes;
-    /// When each shape's file was last written.
-    std::vector<std::filesystem::file_time_type> written;
+    /// The files of the shapes and those that these name.
+    std::vector<FileStamp> files;
     /// As PathSettings has them.
     std::string axes;
     visuals::scene::HiddenSurface hidden_surface{};

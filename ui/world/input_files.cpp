@@ -62,25 +62,6 @@ void make_path_absolute(std::string& path, const std::string& aircraft) {
     }
 }
 
-/// All files of this computer that the heights of a terrain come from.
-std::vector<fs::path> ground_files(const std::string& terrain) {
-    if (settings::is_built_in_ground(terrain)) {
-        return {};
-    }
-    if (settings::is_imported_ground(terrain)) {
-        return {terrain};
-    }
-    std::vector<fs::path> files;
-    for (const fs::path& map : models::heights::map_inputs({terrain})) {
-        for (const fs::path& file : models::heights::files_behind(map)) {
-            if (is_file(file) && std::ranges::find(files, file) == files.end()) {
-                files.push_back(file);
-            }
-        }
-    }
-    return files;
-}
-
 /// The ways from a model's folder to those of the files it names that lie there or below.
 std::vector<fs::path> ways_below(const fs::path& model, const std::vector<fs::path>& named) {
     const fs::path folder = fs::absolute(model).lexically_normal().parent_path();
@@ -171,6 +152,24 @@ bool names_system_file(const settings::RunSettings& settings) {
 }
 
 } // namespace
+
+std::vector<fs::path> ground_files(const std::string& terrain) {
+    if (settings::is_built_in_ground(terrain)) {
+        return {};
+    }
+    if (settings::is_imported_ground(terrain)) {
+        return {terrain};
+    }
+    std::vector<fs::path> files;
+    for (const fs::path& map : models::heights::map_inputs({terrain})) {
+        for (const fs::path& file : models::heights::files_behind(map)) {
+            if (is_file(file) && std::ranges::find(files, file) == files.end()) {
+                files.push_back(file);
+            }
+        }
+    }
+    return files;
+}
 
 settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.

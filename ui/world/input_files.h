@@ -36,7 +36,11 @@ struct InputFile {
 /// and what lies on it. Throws Error for files that are missing.
 std::vector<InputFile> input_files(const settings::RunSettings& settings);
 
-/// The name and a hash of the content of each of them. Throws Error.
+/// All files of this computer that the heights of a terrain come from; none for made ground. Throws
+/// Error where there are none.
+std::vector<std::filesystem::path> ground_files(const std::string& terrain);
+
+/// The name and a hash of the content of each of the files that a run reads. Throws Error.
 std::vector<std::pair<std::string, std::string>>
 input_hashes(const settings::RunSettings& settings);
 

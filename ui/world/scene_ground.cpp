@@ -4,6 +4,7 @@
 #include "models/heights/map_frame.h"
 #include "models/made/made_up.h"
 #include "ui/settings/terrain_name.h"
+#include "ui/world/input_files.h"
 #include "ui/world/sun_of_time.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/groundfile/ground_file.h"
@@ -43,7 +44,6 @@ SceneGround described(
     const settings::RunSettings& settings,
     DrawnBy drawn_by) {
     SceneGround loaded;
-    loaded.inputs = terrain_inputs(settings.path);
     loaded.filled_voids = filled_voids;
     loaded.ground = std::move(ground);
     const landscape::GroundSource source = loaded.ground->source().value();
@@ -109,30 +109,26 @@ ground_settings(const settings::RunSettings& settings, const std::optional<GeoPl
     return own;
 }
 
-bool TerrainInputs::give_the_ground_of(const TerrainInputs& other) const {
-    return (written || settings::is_built_in_ground(terrain)) && terrain == other.terrain &&
-           spacing_m == other.spacing_m && height_scale == other.height_scale &&
-           system == other.system && written == other.written;
-}
-
 TerrainInputs terrain_inputs(const settings::PathSettings& settings) {
     TerrainInputs inputs{
         .terrain = settings.terrain,
         .spacing_m = settings.terrain_spacing_m,
         .height_scale = settings.terrain_height_scale,
         .system = settings.terrain_system,
-        .written = {}};
+        .files = {}};
+    for (const std::filesystem::path& file : ground_files(settings.terrain)) {
+        add_stamp(file, inputs.files);
+    }
     std::error_code none;
-    if (!settings::is_built_in_ground(settings.terrain) &&
-        std::filesystem::is_regular_file(settings.terrain, none)) {
-        inputs.written = std::filesystem::last_write_time(settings.terrain, none);
+    if (inputs.system && std::filesystem::is_regular_file(*inputs.system, none)) {
+        add_stamp(*inputs.system, inputs.files);
     }
     return inputs;
 }
 
 std::optional<SceneGround> shared_scene_ground(
     const SceneGround& other, const settings::RunSettings& settings, DrawnBy drawn_by) {
-    if (!terrain_inputs(settings.path).give_the_ground_of(other.inputs)) {
+    if (terrain_inputs(settings.path) != other.inputs) {
         return std::nullopt;
     }
     const settings::RunSettings own = ground_settings(settings, other.place);
@@ -142,7 +138,9 @@ std::optional<SceneGround> shared_scene_ground(
     if (!ground || !ground->source()) {
         return std::nullopt;
     }
-    return described(std::move(ground), other.filled_voids, own, drawn_by);
+    SceneGround shared = described(std::move(ground), other.filled_voids, own, drawn_by);
+    shared.inputs = other.inputs;
+    return shared;
 }
 
 std::optional<SceneGround> remade_scene_ground(
@@ -163,8 +161,13 @@ SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy dra
     if (settings::is_drawn_whole(settings.path.terrain)) {
         return load_polygons(settings);
     }
-    return settings::is_imported_ground(settings.path.terrain) ? load_imported(settings, drawn_by)
-                                                               : load_field(settings, drawn_by);
+    // What is written while heights are read makes them old.
+    TerrainInputs inputs = terrain_inputs(settings.path);
+    SceneGround ground = settings::is_imported_ground(settings.path.terrain)
+                             ? load_imported(settings, drawn_by)
+                             : load_field(settings, drawn_by);
+    ground.inputs = std::move(inputs);
+    return ground;
 }
 
 } // namespace octant::ui::world

@@ -3,13 +3,13 @@
 #include "sim/base/earth_frame.h"
 #include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
+#include "ui/world/file_stamps.h"
 #include "ui/world/ground_texture_file.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/ground_texture.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,19 +29,19 @@ struct TerrainInputs {
     double spacing_m = 0.0;
     std::optional<double> height_scale;
     std::optional<std::string> system;
-    /// When the file was last written; nothing for what is no file, which is made or one of many.
-    std::optional<std::filesystem::file_time_type> written;
+    /// All files that the heights and their system come from; none for made ground.
+    std::vector<FileStamp> files;
 
-    /// Whether ground of these inputs is surely that of the others. Of folders, patterns and
-    /// archives of files that is not known.
-    bool give_the_ground_of(const TerrainInputs& other) const;
+    bool operator==(const TerrainInputs&) const = default;
 };
 
+/// Throws Error where there are no such files.
 TerrainInputs terrain_inputs(const settings::PathSettings& settings);
 
 /// The ground of a run, ready to be shared by its views.
 struct SceneGround {
     TerrainInputs inputs;
+    /// How many samples of the heights had no data.
     std::int64_t filled_voids = 0;
     std::shared_ptr<const visuals::landscape::Ground> ground;
     /// Null = the ground shows its vertices' colours.

@@ -103,6 +103,7 @@ void Mesher::start(const MeshView& view) {
     fans_.clear();
     places_.clear();
     counters_ = {};
+    is_collected_ = true;
     orders_ = painting_orders(view.order).data();
     eye_ = glm::dvec2(-rule_.west_m(), -rule_.south_m()) / tree_->field().spacing_m();
 }
@@ -121,6 +122,8 @@ std::size_t Mesher::add(const GroundFan& fan, unsigned middles) {
 }
 
 GroundMesh Mesher::counted_mesh() {
+    assert(is_collected_);
+    is_collected_ = false;
     make_room();
     emit(0, nullptr, 0);
     counters_.triangles = static_cast<int>(index_count_ / 3);

@@ -47,12 +47,13 @@ public:
     mesh_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget);
 
     /// What mesh() and mesh_within() would return of a mesh but its triangles, for less than half
-    /// of the work. The memory of the mesh before is given up: only counted_mesh() may follow.
+    /// of the work. The mesh before is lost: fans() and triangles_in() are right again once a mesh
+    /// is made.
     CountedMesh count(const MeshView& view, const Detail& detail);
     CountedMesh
     count_within(const MeshView& view, const Detail& detail, const TriangleBudget& budget);
 
-    /// The mesh that was counted last; once after each count.
+    /// The mesh that was counted last; only once after each count (asserted).
     GroundMesh counted_mesh();
 
     /// The nodes of the last mesh, parents before children, including those without triangles of
@@ -125,8 +126,9 @@ private:
 
     SplitRule rule_;
     BudgetSurvey survey_;
-    float limit_ = 0.0F;      ///< SplitRule::limit_squared of the mesh.
-    double resolution_ = 0.0; ///< C of the mesh.
+    float limit_ = 0.0F;        ///< SplitRule::limit_squared of the mesh.
+    double resolution_ = 0.0;   ///< C of the mesh.
+    bool is_collected_ = false; ///< fans_ are those of a mesh that is to be made.
 
     std::vector<GroundFan> fans_;
     std::vector<FanPlace> places_; ///< One for each of fans_.

@@ -25,7 +25,8 @@ constexpr std::array<std::array<std::uint8_t, 9>, 4> coinciding_places = {
 
 } // namespace
 
-/// Makes room for five vertices and eight triangles for each fan, and for the root's corners.
+/// Makes room for five vertices and eight triangles for each fan, and for the root's corners, and
+/// begins to count them.
 void Mesher::make_room() {
     const std::size_t fans = fans_.size();
     const std::size_t most_vertices = 5 * fans + 4;

@@ -15,7 +15,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -98,43 +97,6 @@ TEST_CASE(
     CHECK(world.scene.models.size() == 2U + (world.scene.cockpit ? 1U : 0U));
     CHECK(world.flight.title == "500md straight over none");
     CHECK(ui::world::formation_of(world.scene, world.flight).framed_radius_m(1.0) > 1.0);
-}
-
-TEST_CASE("a world shares with another what is loaded of the same inputs, and loads the rest") {
-    const auto beside = [](const RunSettings& settings, const ui::world::World& other) {
-        return ui::world::load_world(settings, DrawnBy::Processor, &other);
-    };
-    const std::filesystem::path shape = tests::scratch_folder() / "wedge.obj";
-    const std::string corners = "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n";
-    write_file(shape, corners + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
-    RunSettings settings = over(rolling_ground());
-    settings.path.aircraft = {shape.string()};
-    const ui::world::World first = ui::world::load_world(settings);
-
-    settings.path.name = "turn";
-    const ui::world::World turn = beside(settings, first);
-    CHECK(turn.scene.ground == first.scene.ground);
-    CHECK(turn.scene.models.front() == first.scene.models.front());
-    CHECK(turn.ground_name == first.ground_name);
-
-    RunSettings elsewhere = settings;
-    elsewhere.path.terrain = "none";
-    const ui::world::World over_none = beside(elsewhere, first);
-    CHECK(over_none.scene.ground != first.scene.ground);
-    CHECK(over_none.scene.models.front() == first.scene.models.front());
-    CHECK(beside(settings, over_none).scene.ground != over_none.scene.ground);
-
-    RunSettings textured = settings;
-    textured.air.ground_shading = visuals::scene::GroundShading::Texture;
-    CHECK(beside(textured, first).scene.ground_texture);
-
-    write_file(shape, corners + "f 1 2 3\n");
-    const auto later = std::filesystem::last_write_time(shape) + std::chrono::seconds(2);
-    std::filesystem::last_write_time(shape, later);
-    std::filesystem::last_write_time(settings.path.terrain, later);
-    const ui::world::World rewritten = beside(settings, first);
-    CHECK(rewritten.scene.model_of(0).polygons.polygons.size() == 1);
-    CHECK(rewritten.scene.ground != first.scene.ground);
 }
 
 TEST_CASE("a file is no known aircraft because of its name, and says whose path it borrows") {
