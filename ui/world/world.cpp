@@ -39,7 +39,7 @@ double largest_radius_m(const planning::Scene& scene) {
     return largest_m;
 }
 
-void add(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
@@ -270,9 +270,9 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
     World world;
     world.notes = aircraft.notes;
     if (script) {
-        add(world.notes, script->notes);
+        add_notes(world.notes, script->notes);
     }
-    add(world.notes, ground.notes);
+    add_notes(world.notes, ground.notes);
     world.flight = script ? place_flight(settings, std::move(*script), ground, world.notes)
                           : live_flight(settings, ground);
     world.scene = {

@@ -10,9 +10,9 @@
 // edge's corners or, for a child's centre, the parent's centre and the parent's corner; they are
 // always an edge of the mesh without the vertex. The weight of the sample is
 //   w = (1 - 1 / f) / (1 - r),
-// at most 1, where f >= 1 is the vertex's error on the screen over the one wanted, and r f is the
-// largest error on the screen of the samples that need it, with r at least 1 / morph_ratio. So
-// those samples, which appear at r f > 1, find the vertex at rest, and of all vertices
+// at most 1, where f >= 1 is the vertex's error on the screen over the one wanted, and r is the
+// largest error of the samples that need it over its own, at least 1 / morph_ratio. So those
+// samples, which appear at r f > 1 at the earliest, find the vertex at rest, and of all vertices
 // that shape a place only the last one moves. The ground there is the mean of two meshes, without
 // the vertex (errors up to f) and with it (up to r f), and its error is at most (1 - w) f + w r f,
 // which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share
@@ -143,15 +143,14 @@ std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
     return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 1.0F});
 }
 
-/// The weight of a vertex; `least_below` tells the least critical value of the samples that need
-/// it, where it is needed.
-template <typename LeastBelow>
-inline float ErrorMesher::weight_of(float critical, const LeastBelow& least_below) const {
+/// The weight of a vertex; `share_below` tells r where it is needed.
+template <typename ShareBelow>
+inline float ErrorMesher::weight_of(float critical, const ShareBelow& share_below) const {
     const float over = morph_limit_ / critical;
     if (over >= morph_ratio * morph_ratio) {
         return 1.0F;
     }
-    const float below = std::max(std::sqrt(critical / least_below()), 1.0F / morph_ratio);
+    const float below = std::max(share_below(), 1.0F / morph_ratio);
     const float least = 1.0F - 1.0F / std::sqrt(over);
     return least >= 1.0F - below ? 1.0F : std::max(least, 0.0F) / (1.0F - below);
 }
@@ -286,10 +285,8 @@ ErrorMesher::EmittedFan ErrorMesher::child_of(const EmittedFan& fan, unsigned qu
 inline void
 ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan) {
     const ErrorNode& node = nodes_[fan.node];
-    const float weight = weight_of(node.on, [&] {
-        const FourFloats& middle = node.middle;
-        return std::min({middle[0], middle[1], middle[2], middle[3]});
-    });
+    const float weight = weight_of(
+        node.on, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
     const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, weight};
     std::uint32_t& centre = fan.ring[centre_of_ring];
     if (!samples.is_cut()) {
@@ -325,8 +322,9 @@ inline void ErrorMesher::add_middles(
 inline std::uint32_t ErrorMesher::add_middle(
     const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge) {
     const ErrorNode& node = nodes_[fan.node];
-    const float weight =
-        weight_of(node.middle[edge], [&] { return least_below_middle(fan, edge); });
+    const float weight = weight_of(node.middle[edge], [&] {
+        return rule_.share_below_middle(node.level, node.column, node.row, edge);
+    });
     const NewVertex made{
         samples.ring(2 * edge + 1),
         fan.ring[2 * edge],

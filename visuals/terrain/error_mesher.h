@@ -102,9 +102,8 @@ private:
     void make_room();
     EmittedFan root_fan();
     std::uint32_t fixed_vertex(Sample at, std::int16_t height);
-    template <typename LeastBelow>
-    float weight_of(float critical, const LeastBelow& least_below) const;
-    float least_below_middle(const EmittedFan& fan, std::size_t edge) const;
+    template <typename ShareBelow>
+    float weight_of(float critical, const ShareBelow& share_below) const;
     std::uint32_t add_vertex(const NewVertex& made);
     std::uint32_t cut_vertex(NewVertex made);
     void emit(EmittedFan& fan);

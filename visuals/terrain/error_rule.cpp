@@ -34,6 +34,7 @@
 #include "visuals/terrain/error_rule.h"
 
 #include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/frustum.h"
 
 #include <glm/common.hpp>
@@ -199,10 +200,33 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     return criticals;
 }
 
-FanCriticals ErrorRule::criticals_at(int level, int column, int row) const {
-    const int finer = std::max(level - range_level_, 0);
-    const HeightGaps gaps = gaps_around(level - finer, column >> finer, row >> finer);
-    return criticals_of({level, column, row, &gaps});
+float ErrorRule::share_below_centre(int level, int column, int row) const {
+    const Level& at = levels_[static_cast<std::size_t>(level)];
+    const float below_m =
+        error_m_[std::ranges::max(at.memory.middle_codes(column, row))] + at.middle_error_m;
+    const float own_m = error_m_[at.memory.centre_code(column, row)] + 2.0F * at.middle_error_m;
+    return below_m / own_m;
+}
+
+float ErrorRule::share_below_middle(int level, int column, int row, std::size_t edge) const {
+    if (level + 1 == ground_->levels()) {
+        return 0.0F;
+    }
+    const Level& at = levels_[static_cast<std::size_t>(level)];
+    const LevelMemory& below = levels_[static_cast<std::size_t>(level) + 1].memory;
+    const FanEdge& side = fan_edges[edge];
+    const LevelMemory::FourCodes own = below.child_codes(2 * column, 2 * row);
+    std::uint8_t code = std::max(own[side.quadrant_a], own[side.quadrant_b]);
+    const int beyond_column = column + side.beyond_east;
+    const int beyond_row = row + side.beyond_north;
+    if (beyond_column >= 0 && beyond_row >= 0 && beyond_column < at.memory.columns() &&
+        beyond_row < at.memory.rows()) {
+        const LevelMemory::FourCodes beyond = below.child_codes(2 * beyond_column, 2 * beyond_row);
+        const unsigned across = side.beyond_east != 0 ? 1U : 2U;
+        code = std::max({code, beyond[side.quadrant_a ^ across], beyond[side.quadrant_b ^ across]});
+    }
+    const float own_m = error_m_[at.memory.middle_codes(column, row)[edge]] + at.middle_error_m;
+    return (error_m_[code] + at.quadrant_error_m) / own_m;
 }
 
 inline FourFloats ErrorRule::metres_of(const LevelMemory::FourCodes& codes) const {

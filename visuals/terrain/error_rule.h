@@ -68,8 +68,11 @@ public:
     /// The critical values of a node's fan. `place.gaps` must be set.
     FanCriticals criticals_of(const ErrorPlace& place) const;
 
-    /// The same for any node, at the cost of its gaps.
-    FanCriticals criticals_at(int level, int column, int row) const;
+    /// The largest error of the samples that need a node's centre, in errors of the centre.
+    float share_below_centre(int level, int column, int row) const;
+
+    /// The same for the middle of one of a node's fan_edges.
+    float share_below_middle(int level, int column, int row, std::size_t edge) const;
 
     /// planes_cutting (frustum.h) for all that a mesh may draw of a node, where heights are drawn
     /// up to `margin_m` beyond those of the node's samples.

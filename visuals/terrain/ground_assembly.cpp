@@ -170,18 +170,12 @@ std::size_t GroundAssembly::build(std::size_t first, std::size_t wanted, const T
     const GroundLayout::Level& at = layout_.level(level);
     const std::size_t count = std::min(wanted, begin + tiles_of(at) - first);
     const std::size_t coarser = tiles() - begin - tiles_of(at);
-    if (!room_) {
-        room_ = room_to_move(layout_, heights_, shape_.spacing_m, memory_);
-    }
     share_out(count, threads_, [&](std::size_t index, std::size_t worker) {
         const std::size_t tile = first + index - begin;
         const auto across = static_cast<std::size_t>(at.tiles_across);
         const TilePlace place{
             level, static_cast<int>(tile % across), static_cast<int>(tile / across)};
-        sink(
-            coarser + tile,
-            at.first_tile + tile * at.tile_bytes,
-            builders_[worker].build(place, *room_));
+        sink(coarser + tile, at.first_tile + tile * at.tile_bytes, builders_[worker].build(place));
     });
     return first + count;
 }

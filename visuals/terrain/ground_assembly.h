@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,7 +73,6 @@ private:
     int threads_;
     ErrorCoder coder_;
     std::vector<TileBuilder> builders_; ///< One for each thread.
-    std::optional<RoomToMove> room_;    ///< Measured before the first tile is built.
 };
 
 } // namespace octant::visuals::terrain

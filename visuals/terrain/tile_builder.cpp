@@ -34,9 +34,8 @@ TileBuilder::TileBuilder(
     , centres_(most * most)
     , errors_(most + 1) {}
 
-std::span<const std::byte> TileBuilder::build(const TilePlace& place, const RoomToMove& room) {
+std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     level_ = place.level;
-    room_ = room;
     Extent& e = extent_;
     e.at = layout_.level(place.level);
     e.first_column = place.column << e.at.tile_shift;
@@ -48,6 +47,7 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place, const Room
     choose_lattice();
     fetch_children();
     fetch_unseen();
+    measure_relief();
     measure_souths();
     measure_wests();
     measure_centres();

@@ -20,20 +20,6 @@ struct TilePlace {
     int row = 0;
 };
 
-/// How far vertices may move, as the beginning of tile_builder_errors.cpp tells.
-struct RoomToMove {
-    float near_error = 0.0F; ///< The largest error that moves beside the eye, in numbers.
-    float near_move = 0.0F;  ///< S beside the eye.
-    float far_move = 0.0F;   ///< The most that S may be far off.
-};
-
-/// That of a ground whose height ranges are in its memory.
-RoomToMove room_to_move(
-    const GroundLayout& layout,
-    const StoredHeights& heights,
-    double spacing_m,
-    std::span<const std::byte> memory);
-
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
 /// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
 class TileBuilder {
@@ -48,7 +34,7 @@ public:
 
     /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that
     /// lie beside it.
-    std::span<const std::byte> build(const TilePlace& place, const RoomToMove& room);
+    std::span<const std::byte> build(const TilePlace& place);
 
 private:
     /// The nodes of a tile, and what they have in common.
@@ -79,6 +65,7 @@ private:
     float unseen(int column, int row) const;
     float unseen_by(int index, int row, Diamond diamond) const;
     std::uint8_t children(int column, int row) const;
+    void measure_relief();
     void measure_souths();
     void measure_wests();
     void measure_centres();
@@ -95,7 +82,10 @@ private:
     const ErrorCoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
-    RoomToMove room_;
+    float near_error_ = 0.0F; ///< The largest error that moves beside the eye, in numbers.
+    /// S (tile_builder_errors.cpp) beside the eye, and the most it may be far off.
+    float near_move_ = 0.0F;
+    float far_move_ = 0.0F;
     Extent extent_;
     std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;

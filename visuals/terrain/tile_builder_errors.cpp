@@ -18,13 +18,11 @@
 //   shrinks by a small share of itself, divided by that share. A larger error moves at a larger
 //   distance, of which the eye's way is a smaller share: S grows with the least error that the
 //   sample can get, up to where the wanted error's own changes count, which are alike at all
-//   distances. With the same triangles the wanted error grows with the ground's slopes: S shrinks.
+//   distances. With the same triangles the wanted error grows with the ground's relief: S shrinks.
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -35,13 +33,13 @@ namespace {
 constexpr int levels_unseen = 5; ///< Nodes so far below have an edge of one lattice step.
 
 /// S on rugged ground, for vertices that move beside the eye and for those far off.
-constexpr float near_move = 2.0F;
-constexpr float far_move = 6.5F;
-/// The largest error that moves beside the eye on rugged ground, metres.
-constexpr float near_error_m = 1.4F;
-/// The least mean slope of rugged ground, and how many times larger S is on flat ground at most.
-constexpr double rugged_slope = 0.36;
-constexpr double most_ease = 3.0;
+constexpr float near_move = 1.2F;
+constexpr float far_move = 4.7F;
+/// The least relief of rugged ground, and how many times larger S is on flat ground at most.
+constexpr float rugged_m = 1200.0F;
+constexpr float most_ease = 1.8F;
+/// The largest error that moves beside the eye, as a share of the ground's relief.
+constexpr float near_error = 0.6F / 512.0F;
 
 std::size_t index_of(int column, int row, int columns) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -49,30 +47,6 @@ std::size_t index_of(int column, int row, int columns) {
 }
 
 } // namespace
-
-RoomToMove room_to_move(
-    const GroundLayout& layout,
-    const StoredHeights& heights,
-    double spacing_m,
-    std::span<const std::byte> memory) {
-    const GroundLayout::Level& blocks = layout.level(layout.range_level());
-    const auto count =
-        static_cast<std::size_t>(blocks.columns) * static_cast<std::size_t>(blocks.rows);
-    std::int64_t sum_of_squares = 0;
-    for (std::size_t block = 0; block < count; ++block) {
-        HeightRange range;
-        std::memcpy(&range, memory.data() + blocks.ranges + block * sizeof range, sizeof range);
-        const std::int64_t over = range.highest - range.lowest;
-        sum_of_squares += over * over;
-    }
-    const double stored_m = heights.number_unit_m / heights.multiplier;
-    const double over_m =
-        stored_m * std::sqrt(static_cast<double>(sum_of_squares) / static_cast<double>(count));
-    const double slope = over_m / (blocks.edge * spacing_m);
-    const auto ease = static_cast<float>(std::clamp(rugged_slope / slope, 1.0, most_ease));
-    const auto unit_m = static_cast<float>(heights.number_unit_m);
-    return {near_error_m / (ease * unit_m), near_move * ease, far_move * ease};
-}
 
 /// Finds out what a lattice of more than one sample's step does not see.
 void TileBuilder::fetch_unseen() {
@@ -117,6 +91,19 @@ float TileBuilder::unseen(int column, int row) const {
     return unseen_[index_of(column + 1, row + 1, most + 2)];
 }
 
+/// Takes the ground's relief from the ranges in memory, and S from that.
+void TileBuilder::measure_relief() {
+    HeightRange whole;
+    std::memcpy(&whole, memory_.data() + layout_.level(0).ranges, sizeof whole);
+    const int stored = whole.highest - whole.lowest;
+    const float relief = static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
+    const float relief_m = relief * static_cast<float>(heights_.number_unit_m);
+    const float ease = std::clamp(rugged_m / relief_m, 1.0F, most_ease);
+    near_error_ = near_error * relief;
+    near_move_ = near_move * ease;
+    far_move_ = far_move * ease;
+}
+
 /// The least error of a sample with room to move, given the largest code of those that need it.
 std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) const {
     if (below == 0) {
@@ -132,9 +119,9 @@ std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) cons
     }
     const float error = GroundTiles::error_m_of(below) / static_cast<float>(heights_.number_unit_m);
     const float move = 0.5F * static_cast<float>(std::abs(twice));
-    const float least = error + move / room_.far_move;
+    const float least = error + move / far_move_;
     const float fastest_move =
-        std::clamp(room_.near_move * (least / room_.near_error), room_.near_move, room_.far_move);
+        std::clamp(near_move_ * (least / near_error_), near_move_, far_move_);
     return std::max(below, coder_.code_of(error + move / fastest_move));
 }
 

@@ -31,7 +31,6 @@ public:
         : field_(field)
         , factor_(factor)
         , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge)
-        , ease_(std::clamp(0.36 / mean_slope(), 1.0, 3.0))
         , codes_(static_cast<std::size_t>((root_edge_ + 1) * (root_edge_ + 1))) {
         for (int half = 1; half < root_edge_; half *= 2) {
             for_each(half, false);
@@ -131,36 +130,16 @@ private:
         return largest;
     }
 
-    /// The root mean square of the slopes of blocks with an edge of 32 samples, from their lowest
-    /// sample to their highest one.
-    double mean_slope() const {
-        const int edge = std::min(32, root_edge_);
-        double sum = 0.0;
-        int blocks = 0;
-        for (int south = 0; south < field_.rows() - 1; south += edge) {
-            for (int west = 0; west < field_.columns() - 1; west += edge, ++blocks) {
-                double lowest = height({west, south});
-                double highest = lowest;
-                for (int y = south; y <= std::min(south + edge, field_.rows() - 1); ++y) {
-                    for (int x = west; x <= std::min(west + edge, field_.columns() - 1); ++x) {
-                        lowest = std::min(lowest, height({x, y}));
-                        highest = std::max(highest, height({x, y}));
-                    }
-                }
-                sum += (highest - lowest) * (highest - lowest);
-            }
-        }
-        return std::sqrt(sum / blocks) / (edge * field_.spacing_m());
-    }
-
     std::uint8_t with_room(Point at, int half, std::uint8_t below) const {
         const Point end = end_of(at, half);
         const double ends_m = height(moved({at.x + end.x, at.y + end.y})) +
                               height(moved({at.x - end.x, at.y - end.y}));
         const double move_m = std::abs(height(moved(at)) - 0.5 * ends_m);
         const double below_m = static_cast<double>(GroundTiles::error_m_of(below));
-        const double least_m = below_m + move_m / (6.5 * ease_);
-        const double fastest = ease_ * std::clamp(2.0 * ease_ * least_m / 1.4, 2.0, 6.5);
+        const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
+        const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
+        const double least_m = below_m + move_m / (4.7 * ease);
+        const double fastest = ease * std::clamp(2.0 * 512.0 * least_m / relief_m, 1.2, 4.7);
         return below == 0 || move_m == 0.0 ? below
                                            : std::max(below, coded(below_m + move_m / fastest));
     }
@@ -234,7 +213,6 @@ private:
     const models::heights::HeightField& field_;
     double factor_;
     int root_edge_;
-    double ease_;
     std::vector<std::uint8_t> codes_;
 };
 
