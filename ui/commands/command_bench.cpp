@@ -31,7 +31,7 @@ void put_formation(BenchOptions& options) {
 void print_table(const std::vector<BenchResult>& results) {
     std::fputs(
         fmt::format(
-            "{:<42} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n",
+            "{:<59} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n",
             "scene",
             "median ms",
             "p99 ms",
@@ -40,6 +40,8 @@ void print_table(const std::vector<BenchResult>& results) {
             "plan ms",
             "draw ms",
             "read ms",
+            "CPU ms",
+            "of plain",
             "triangles",
             "hash")
             .c_str(),
@@ -47,8 +49,8 @@ void print_table(const std::vector<BenchResult>& results) {
     for (const BenchResult& r : results) {
         std::fputs(
             fmt::format(
-                "{:<42} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>9}  "
-                "{:016x}\n",
+                "{:<59} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} "
+                "{:>8} {:>9}  {:016x}\n",
                 r.name,
                 r.median_ms,
                 r.p99_ms,
@@ -57,6 +59,8 @@ void print_table(const std::vector<BenchResult>& results) {
                 r.plan_ms,
                 r.draw_ms,
                 r.read_ms,
+                r.cpu_ms,
+                r.of_plain ? fmt::format("{:.2f}", *r.of_plain) : "-",
                 r.triangles,
                 r.hash)
                 .c_str(),
@@ -76,6 +80,8 @@ void print_json(const std::vector<BenchResult>& results) {
              {"plan_ms", r.plan_ms},
              {"draw_ms", r.draw_ms},
              {"read_ms", r.read_ms},
+             {"cpu_ms", r.cpu_ms},
+             {"of_plain", r.of_plain},
              {"triangles", r.triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
@@ -121,6 +127,11 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "with made-up detail of the ground near the eye",
             settings.ground.near_detail),
         flag("--scenery", "with made-up trees and houses near the eye", settings.ground.scenery),
+        flag(
+            "--features",
+            "a table of costs: each scene without features, with each one alone (near detail, "
+            "scenery, sky, ...), with the defaults and with all, frame by frame in turn",
+            options.features),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
 }
@@ -135,7 +146,8 @@ Command bench_command() {
         .summary = "Frame times of standard scenes in turn with the platform's floor, each as a "
                    "ratio to it",
         .options = options_of(*bench),
-        .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json",
+        .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json\n"
+                  "  octant bench --features --terrain hills --aircraft 500md --renderer raster",
         .run = [bench] {
             if (bench->formation) {
                 put_formation(bench->options);
