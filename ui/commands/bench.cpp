@@ -2,6 +2,7 @@
 
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
+#include "ui/commands/bench_features.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/flight/session.h"
 #include "ui/report/frame_times.h"
@@ -10,6 +11,7 @@
 #include "visuals/planning/step_writer.h"
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,14 +79,28 @@ private:
     scene::Picture picture_;
 };
 
+/// Time that this program's threads have taken of processors.
+double cpu_ms_so_far() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return report::nearest_rank(values, 500);
+}
+
 /// Frames of one scene and the hash of what they showed.
 struct Timed {
     std::string name;
     std::vector<report::FrameRecord> records;
+    std::vector<double> cpu_ms;
     Hash hash;
 
-    void add(const report::FrameRecord& record, const scene::Picture& picture) {
+    void add(const report::FrameRecord& record, double took_ms, const scene::Picture& picture) {
         records.push_back(record);
+        cpu_ms.push_back(took_ms);
         hash.add(std::as_bytes(std::span(picture.rgba)));
     }
 };
@@ -95,8 +111,7 @@ double median_of(const Timed& timed, Value value) {
     for (const report::FrameRecord& record : timed.records) {
         values.push_back(static_cast<double>(value(record)));
     }
-    std::sort(values.begin(), values.end());
-    return report::nearest_rank(values, 500);
+    return median(std::move(values));
 }
 
 BenchResult result_of(const Timed& timed, double floor_ms) {
@@ -117,6 +132,7 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .read_ms = median_of(timed, [](const Record& r) { return r.read_ms; }),
         .mesh_wait_ms = median_of(timed, [](const Record& r) { return r.mesh_wait_ms; }),
         .draw_wait_ms = median_of(timed, [](const Record& r) { return r.draw_wait_ms; }),
+        .cpu_ms = median(timed.cpu_ms),
         .triangles =
             static_cast<int>(median_of(timed, [](const Record& r) { return r.terrain_triangles; })),
         .hash = timed.hash.value()};
@@ -140,9 +156,9 @@ std::string name_of(const settings::RunSettings& settings) {
 }
 
 /// A scene for each ground and renderer: both, unless one is asked for.
-std::vector<settings::RunSettings> scenes_of(const BenchOptions& options) {
+std::vector<BenchScene> scenes_of(const BenchOptions& options) {
     using settings::RendererKind;
-    std::vector<settings::RunSettings> scenes;
+    std::vector<BenchScene> scenes;
     for (const std::string& terrain : options.terrains) {
         for (const RendererKind kind : {RendererKind::Raster, RendererKind::Gl}) {
             const RendererKind asked = options.settings.drawing.renderer;
@@ -156,39 +172,39 @@ std::vector<settings::RunSettings> scenes_of(const BenchOptions& options) {
             if (kind == RendererKind::Gl && settings.view.samples == 16) {
                 settings.view.samples.reset();
             }
-            scenes.push_back(settings);
+            scenes.push_back({name_of(settings), settings});
         }
     }
     return scenes;
 }
 
-} // namespace
-
-std::vector<BenchResult> run_bench(const BenchOptions& options) {
+/// Draws scenes and the floor in turn.
+std::vector<BenchResult>
+timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
     Floor floor(options.settings);
-    const std::vector<settings::RunSettings> scenes = scenes_of(options);
     std::vector<Timed> timed(scenes.size() + 1);
     timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        timed[i + 1].name = name_of(scenes[i]);
-        base::say(options.quiet, fmt::format("loading {}", timed[i + 1].name));
-        sessions.push_back(std::make_unique<flight::Session>(scenes[i]));
+        timed[i + 1].name = scenes[i].name;
+        base::say(options.quiet, fmt::format("loading {}", scenes[i].name));
+        sessions.push_back(std::make_unique<flight::Session>(scenes[i].settings));
     }
     base::Progress progress("bench", options.frames + warm_up_frames, options.quiet);
     for (int frame = 0; frame < options.frames + warm_up_frames; ++frame) {
         const bool counts = frame >= warm_up_frames;
-        const report::FrameRecord bare = floor.draw();
-        if (counts) {
-            timed[0].add(bare, floor.picture());
-        }
-        for (std::size_t i = 0; i < sessions.size(); ++i) {
-            if (frame >= sessions[i]->frames()) {
-                continue;
-            }
-            const report::FrameRecord record = sessions[i]->draw(frame);
+        double before_ms = cpu_ms_so_far();
+        const auto add = [&](Timed& to, const report::FrameRecord& record, const auto& drawn) {
+            const double after_ms = cpu_ms_so_far();
             if (counts) {
-                timed[i + 1].add(record, sessions[i]->picture());
+                to.add(record, after_ms - before_ms, drawn.picture());
+            }
+            before_ms = cpu_ms_so_far();
+        };
+        add(timed[0], floor.draw(), floor);
+        for (std::size_t i = 0; i < sessions.size(); ++i) {
+            if (frame < sessions[i]->frames()) {
+                add(timed[i + 1], sessions[i]->draw(frame), *sessions[i]);
             }
         }
         progress.show(frame + 1);
@@ -198,6 +214,25 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
     const double floor_ms = result_of(timed[0], 1.0).median_ms;
     for (const Timed& scene_frames : timed) {
         results.push_back(result_of(scene_frames, floor_ms));
+    }
+    return results;
+}
+
+} // namespace
+
+std::vector<BenchResult> run_bench(const BenchOptions& options) {
+    const std::vector<BenchScene> scenes = scenes_of(options);
+    if (!options.features) {
+        return timed_in_turn(scenes, options);
+    }
+    std::vector<BenchResult> results;
+    for (const BenchScene& scene : scenes) {
+        std::vector<BenchResult> of_scene = timed_in_turn(feature_scenes(scene), options);
+        const double plain_ms = of_scene[1].cpu_ms;
+        for (BenchResult& result : of_scene) {
+            result.of_plain = result.cpu_ms / plain_ms;
+            results.push_back(std::move(result));
+        }
     }
     return results;
 }

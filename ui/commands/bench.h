@@ -3,6 +3,7 @@
 #include "ui/settings/settings.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct BenchOptions {
         settings::of_given_ground();   ///< size, samples, triangles, aircraft and drawing are used
     std::vector<std::string> terrains; ///< one scene each, and each renderer if none is asked for
     int frames = 300;                  ///< timed, of each scene
+    bool features = false;             ///< each scene with and without each feature of the picture
     bool quiet = false;
 };
 
@@ -28,13 +30,17 @@ struct BenchResult {
     double read_ms = 0.0;
     double mesh_wait_ms = 0.0; ///< of plan_ms, as report::FrameRecord
     double draw_wait_ms = 0.0; ///< of draw_ms
-    int triangles = 0;         ///< of ground, median
-    std::uint64_t hash = 0;    ///< over the pixels of the timed frames
+    double cpu_ms = 0.0;       ///< median of the time that all threads took of processors
+    /// That, over the same scene's without features.
+    std::optional<double> of_plain = {};
+    int triangles = 0;      ///< of ground, median
+    std::uint64_t hash = 0; ///< over the pixels of the timed frames
 };
 
 /// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000
 /// triangles over the whole picture, by OpenGL with one sample a pixel, read back. The floor is the
-/// first result. Throws Error.
+/// first result. With features, the scenes of each ground and renderer are drawn in turn, after a
+/// floor of their own. Throws Error.
 std::vector<BenchResult> run_bench(const BenchOptions& options);
 
 } // namespace octant::ui::commands

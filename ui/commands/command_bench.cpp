@@ -31,7 +31,8 @@ void put_formation(BenchOptions& options) {
 void print_table(const std::vector<BenchResult>& results) {
     std::fputs(
         fmt::format(
-            "{:<42} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>9}  {}\n",
+            "{:<59} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>9}  "
+            "{}\n",
             "scene",
             "median ms",
             "p99 ms",
@@ -42,6 +43,8 @@ void print_table(const std::vector<BenchResult>& results) {
             "read ms",
             "mesh wait",
             "draw wait",
+            "CPU ms",
+            "of plain",
             "triangles",
             "hash")
             .c_str(),
@@ -49,9 +52,8 @@ void print_table(const std::vector<BenchResult>& results) {
     for (const BenchResult& r : results) {
         std::fputs(
             fmt::format(
-                "{:<42} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.2f} "
-                "{:>10.2f} {:>9}  "
-                "{:016x}\n",
+                "{:<59} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.2f} "
+                "{:>10.2f} {:>8.2f} {:>8} {:>9}  {:016x}\n",
                 r.name,
                 r.median_ms,
                 r.p99_ms,
@@ -62,6 +64,8 @@ void print_table(const std::vector<BenchResult>& results) {
                 r.read_ms,
                 r.mesh_wait_ms,
                 r.draw_wait_ms,
+                r.cpu_ms,
+                r.of_plain ? fmt::format("{:.2f}", *r.of_plain) : "-",
                 r.triangles,
                 r.hash)
                 .c_str(),
@@ -83,6 +87,8 @@ void print_json(const std::vector<BenchResult>& results) {
              {"read_ms", r.read_ms},
              {"mesh_wait_ms", r.mesh_wait_ms},
              {"draw_wait_ms", r.draw_wait_ms},
+             {"cpu_ms", r.cpu_ms},
+             {"of_plain", r.of_plain},
              {"triangles", r.triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
@@ -128,6 +134,11 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "with made-up detail of the ground near the eye",
             settings.ground.near_detail),
         flag("--scenery", "with made-up trees and houses near the eye", settings.ground.scenery),
+        flag(
+            "--features",
+            "a table of costs: each scene without features, with each one alone (near detail, "
+            "scenery, sky, ...), with the defaults and with all, frame by frame in turn",
+            options.features),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
 }
@@ -142,7 +153,8 @@ Command bench_command() {
         .summary = "Frame times of standard scenes in turn with the platform's floor, each as a "
                    "ratio to it",
         .options = options_of(*bench),
-        .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json",
+        .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json\n"
+                  "  octant bench --features --terrain hills --aircraft 500md --renderer raster",
         .run = [bench] {
             if (bench->formation) {
                 put_formation(bench->options);

@@ -232,6 +232,8 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
     record.refine_collapses = counts.refine_collapses;
     record.terrain_triangles = counts.ground.triangles;
     record.terrain_fans = counts.ground.fans;
+    record.fine_triangles = counts.ground.fine_triangles;
+    record.scenery_triangles = counts.ground.scenery_triangles;
     record.aircraft_polygons = counts.aircraft_polygons;
     record.draw_cell = counts.draw_cell;
     record.draw_calls = renderer_->draw_calls();

@@ -102,6 +102,8 @@ constexpr std::array frame_columns{
     axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
     column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
     column<&R::triangle_target>("triangle_target"),
+    column<&R::fine_triangles>("fine_triangles"),
+    column<&R::scenery_triangles>("scenery_triangles"),
     column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
     column<&R::latency_ms>("latency_ms", Kind::MayBeEmpty, milliseconds),
     column<&R::missed>("missed"),

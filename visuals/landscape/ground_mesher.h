@@ -45,6 +45,10 @@ struct GroundCounts {
     double resolution = 0.0;
     /// The screen-space error that the mesh was made for; 0 where C decides.
     double error_px = 0.0;
+    /// Of the triangles, those that detail below the samples has added, and those of what stands on
+    /// the ground.
+    int fine_triangles = 0;
+    int scenery_triangles = 0;
 };
 
 /// One view's meshes of a ground, frame after frame: the detail control and the memory that its

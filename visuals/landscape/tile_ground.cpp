@@ -175,7 +175,12 @@ public:
         prefetcher_.go_to(glm::dvec2(eye_m + frames_ahead * way_m));
         last_eye_m_ = eye_m;
         counts = {
-            static_cast<int>(shown_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px};
+            static_cast<int>(shown_.indices.size() / 3),
+            mesh_.counters.fans,
+            0.0,
+            mesh_.error_px,
+            static_cast<int>(shown_.fine),
+            static_cast<int>(shown_.things)};
         return {shown_.vertices, shown_.indices};
     }
 
@@ -245,7 +250,7 @@ private:
     }
 
     void show(const terrain::GroundMesh& mesh) {
-        shown_ = {mesh.vertices, mesh.indices};
+        shown_ = {mesh.vertices, mesh.indices, 0, 0};
         if (has_detail()) {
             shown_ = near_.made(mesh, near_view_, detail_, textured_ ? nullptr : &place_colour_);
         }

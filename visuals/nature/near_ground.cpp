@@ -77,7 +77,8 @@ NearGround::Triangles NearGround::made(
         }
     }
     std::swap(fine_.vertices(), frame.vertices);
-    return {frame.vertices, frame.indices};
+    const std::size_t things = scenery_.added();
+    return {frame.vertices, frame.indices, frame.indices.size() / 3 - count - things, things};
 }
 
 void NearGround::replace(std::vector<std::uint32_t>& triangles, std::size_t first) const {

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -27,6 +28,8 @@ public:
     struct Triangles {
         std::span<const models::ColourVertex> vertices;
         std::span<const std::uint32_t> indices; ///< in the order of the mesh
+        std::size_t fine = 0;                   ///< triangles that halving has added
+        std::size_t things = 0;                 ///< triangles of what stands on the ground
     };
 
     /// The mesh comes coloured; `colour` as FineGround::begin() has it. The triangles stay valid

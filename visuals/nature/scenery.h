@@ -56,6 +56,9 @@ public:
         std::vector<models::ColourVertex>& vertices,
         std::vector<std::uint32_t>& indices);
 
+    /// Triangles appended since begin().
+    std::size_t added() const { return added_; }
+
     static constexpr double highest_m = 16.0; ///< of all that stands here, above its ground
 
     /// Farther off nothing stands.

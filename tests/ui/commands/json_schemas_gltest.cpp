@@ -144,6 +144,19 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
          "2000"});
     check("tables", {"study", "refinement", "--out", file("st"), "--frames", "20", "--quiet"});
     check("bench", {"bench", "--terrain", "none", "--size", "32x32", "--frames", "3", "--quiet"});
+    check(
+        "bench",
+        {"bench",
+         "--features",
+         "--terrain",
+         "none",
+         "--renderer",
+         "raster",
+         "--size",
+         "32x32",
+         "--frames",
+         "3",
+         "--quiet"});
 }
 
 TEST_CASE("every command has --json but manual, which prints a page and completions") {

@@ -217,7 +217,7 @@ TEST_CASE("rows that cannot be replayed are refused with their line") {
     write_file(damaged / "frames.csv", renamed);
     tests::check_refusal(replay(damaged), "frames.csv:1: expected a column triangle_target");
     write_file(damaged / "frames.csv", text + "60,x\n");
-    tests::check_refusal(replay(damaged), "frames.csv:62: expected 52 fields, got 2");
+    tests::check_refusal(replay(damaged), "frames.csv:62: expected 54 fields, got 2");
     fs::remove(damaged / "frames.csv");
     tests::check_refusal(replay(damaged), "frames.csv: expected a file, found none");
 }

@@ -38,6 +38,8 @@ FrameRecord full_record() {
     record.aircraft_m = {4.0, 5.0, 6.0};
     record.aircraft_agl_m = 61.25;
     record.triangle_target = 1200;
+    record.fine_triangles = 1900;
+    record.scenery_triangles = 800;
     record.error_px = 0.75;
     record.latency_ms = 21.5;
     record.missed = 1;
@@ -62,10 +64,10 @@ TEST_CASE("frames.csv begins with the columns that others rely on") {
         header.substr(std::string(promised_columns).size()) ==
         ",warm_up,record_ms,draw_calls,shadow_triangles,veil_triangles,cuts,unordered,eye_x_m,eye_"
         "y_m,eye_z_m,"
-        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,error_px,"
-        "latency_ms,missed,smooth_polygons,smooth_target,aircraft_level,refine_splits,"
-        "refine_collapses,refine_ms,mesh_wait_ms,draw_wait_ms,packets,packets_lost,packets_late,"
-        "packets_wrong,stale,jitter_"
+        "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,fine_triangles,"
+        "scenery_triangles,error_px,latency_ms,missed,smooth_polygons,smooth_target,aircraft_level,"
+        "refine_splits,refine_collapses,refine_ms,mesh_wait_ms,draw_wait_ms,packets,packets_lost,"
+        "packets_late,packets_wrong,stale,jitter_"
         "ms,host_frame,skew_frames,state_hash,picture_hash\n");
 }
 
@@ -74,8 +76,9 @@ TEST_CASE("a line has fixed decimals whatever the locale") {
     CHECK(
         frame_csv_line(full_record()) ==
         "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
-        "0,1,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,0.7500,"
-        "21.5000,1,30,31,2,17,9,0.4375,0.2500,1.5000,0,0,0,0,0,0.0000,-1,-1,00000000000000ab,\n");
+        "0,1,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,1900,800,"
+        "0.7500,21.5000,1,30,31,2,17,9,0.4375,0.2500,1.5000,0,0,0,0,0,0.0000,-1,-1,"
+        "00000000000000ab,\n");
     std::setlocale(LC_NUMERIC, "C");
 }
 
@@ -163,7 +166,7 @@ TEST_CASE("damage is named by file and line") {
         return path.string() + ":";
     };
     std::string start = message(frame_csv_header() + line(0) + "1,2\n" + line(2));
-    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 52 fields, got 2");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 54 fields, got 2");
     std::string bad = line(1);
     bad.replace(bad.find("4.5000"), 6, "4.5x");
     start = message(frame_csv_header() + line(0) + bad);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 using namespace octant;
@@ -321,4 +322,21 @@ TEST_CASE("things are painted from far to near and face outwards") {
         last_at = at;
     }
     CHECK(things > 10);
+}
+
+TEST_CASE("triangles that detail adds and those of what stands there are counted apart") {
+    const Field field(low_eye_m, 1, 6.0);
+    const std::size_t given = field.indices.size() / 3;
+    NearGround near(scenery_of({0.3F, 0.3F, 0.2F, 0.1F, 1.0F}));
+    for (const NearDetail& detail : {fine_only, scenery_only, NearDetail{true, true}}) {
+        const auto made = near.made(field.mesh(), view_from(low_eye_m), detail);
+        CHECK((made.fine > 0) == detail.fine_ground);
+        CHECK((made.things > 0) == detail.scenery);
+        CHECK(given + made.fine + made.things == made.indices.size() / 3);
+    }
+    const auto bare = near.made(field.mesh(), view_from(low_eye_m), {false, true});
+    std::vector<std::uint32_t> all(given);
+    std::iota(all.begin(), all.end(), 0U);
+    near.replace(all, 0);
+    CHECK(all.size() == given + bare.things);
 }

@@ -1,0 +1,52 @@
+#include "ui/commands/bench_features.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+namespace {
+
+const BenchScene& scene_named(const std::vector<BenchScene>& scenes, const std::string& name) {
+    for (const BenchScene& scene : scenes) {
+        if (scene.name == name) {
+            return scene;
+        }
+    }
+    FAIL("no scene is named " << name);
+    return scenes.front();
+}
+
+} // namespace
+
+TEST_CASE("a table of costs has a scene without features and with each one alone") {
+    settings::RunSettings measured = settings::of_given_ground();
+    measured.path.terrain = "canyon";
+    const std::vector<BenchScene> scenes = feature_scenes({"canyon", measured});
+    const settings::RunSettings& none = scenes.front().settings;
+    CHECK(scenes.front().name == "canyon: no features");
+    CHECK_FALSE(none.air.sky);
+    CHECK_FALSE(none.surface.shadows);
+    CHECK_FALSE(none.air.relief_shadows);
+    const BenchScene& scenery = scene_named(scenes, "canyon: scenery");
+    CHECK(scenery.settings.ground.scenery);
+    CHECK_FALSE(scenery.settings.ground.near_detail);
+    for (std::size_t i = 1; i < scenes.size(); ++i) {
+        CAPTURE(scenes[i].name);
+        CHECK_FALSE(scenes[i].settings == none);
+        CHECK(scenes[i].settings.path.terrain == "canyon");
+    }
+}
+
+TEST_CASE("a table of costs has the defaults as they are, by OpenGL, too") {
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    CHECK(scene_named(scenes, "hills: those of the defaults").settings == settings::RunSettings());
+    settings::RunSettings by_gl;
+    by_gl.drawing.renderer = settings::RendererKind::Gl;
+    CHECK(scenes.back().settings == by_gl);
+}
+
+} // namespace octant::ui::commands

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "ui/settings/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace octant::ui::commands {
+
+/// One scene of a bench.
+struct BenchScene {
+    std::string name;
+    settings::RunSettings settings;
+};
+
+/// A scene as it is with no feature at all, with each one alone, with those that are there by
+/// default, and with all; then with the defaults by OpenGL, whose frame time they are to keep. The
+/// first one is what the others are compared with.
+std::vector<BenchScene> feature_scenes(const BenchScene& scene);
+
+} // namespace octant::ui::commands
