@@ -2,6 +2,7 @@
 
 #include "flightpaths/geocentric_latitude.h"
 #include "flightpaths/motion_fill.h"
+#include "flightpaths/track_fields.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -166,8 +167,8 @@ Header header_from(std::string_view line, const Source& at) {
         line.remove_prefix(3);
     }
     Header header;
-    header.separator = line.find('\t') != std::string_view::npos ? '\t' : ',';
-    const auto names = split_fields(line, header.separator);
+    header.separator = separator_of(line);
+    const auto names = unquoted_fields(line, header.separator);
     header.fields = names.size();
     const bool own = field_of(names, "t_s", at) >= 0;
     header.jsbsim = !own && field_of(names, "Time", at) >= 0;
@@ -190,8 +191,8 @@ Header header_from(std::string_view line, const Source& at) {
 using Row = std::array<double, QuantityCount>;
 
 Row row_from(std::string_view line, const Header& header, const Source& at) {
-    const auto fields = split_fields(line, header.separator);
-    if (fields.size() < header.fields) {
+    const auto fields = unquoted_fields(line, header.separator);
+    if (fields.size() < header.fields || !are_empty(std::span(fields).subspan(header.fields))) {
         at.refuse(fmt::format("expected {} fields, got {}", header.fields, fields.size()));
     }
     Row row{};

@@ -18,7 +18,7 @@ struct RecordedTrack {
 };
 
 /// Reads a recorded flight as text: a line of column names, then a line a sample, separated by
-/// commas or tabs. Columns are found by name, in any order; others are passed over.
+/// commas, tabs or semicolons. Columns are found by name, in any order; others are passed over.
 ///   own:    t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg (all three),
 ///           v_north_mps, v_east_mps, v_up_mps (all three), n_g; q_w, q_x, q_y, q_z (all four or
 ///           none): the rotation from body to world, taken in place of the angles
@@ -26,10 +26,10 @@ struct RecordedTrack {
 ///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
 ///           V_{Down} (ft/s)
 /// What is optional and missing is made from the motion (motion_fill.h). Throws Error with file and
-/// line for a missing or doubled column, too few fields, what is no finite number, times that do
-/// not increase, span more than a day or lie more than 1e7 s from zero, fewer than 2 samples, a
-/// speed above 3000 m/s, a quaternion whose length is not 1 within 1e-6. One that is unit but for
-/// rounding is not touched: what exact_track_csv wrote comes back to the last bit.
+/// line for a missing or doubled column, too few or too many fields, what is no finite number,
+/// times that do not increase, span more than a day or lie more than 1e7 s from zero, fewer than 2
+/// samples, a speed above 3000 m/s, a quaternion whose length is not 1 within 1e-6. One that is
+/// unit but for rounding is not touched: what exact_track_csv wrote comes back to the last bit.
 RecordedTrack read_recorded_track(const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace octant::models::heights {
 
@@ -71,12 +72,18 @@ Bounds rectangle_of(const Outline& outline) {
     return within.area() >= least_left * all.area() ? within : all;
 }
 
-[[noreturn]] void error_no_frame(const path& file) {
+[[noreturn]] void error_no_frame(const path& file, std::string_view got) {
     error_in(
         file,
-        "expected upright ground up to 1000 km wide and away from the poles, got ground that no "
-        "local frame fits");
+        fmt::format(
+            "expected ground up to 1000 km wide and away from the poles that a local frame fits, "
+            "got {}",
+            got));
 }
+
+constexpr std::string_view no_way_to_globe =
+    "a coordinate system that does not lead to WGS 84, as that of another planet";
+constexpr std::string_view no_places = "edges that have no places there";
 
 /// The middle of all grids on the globe.
 GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
@@ -85,7 +92,7 @@ GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
     std::optional<double> first_deg;
     for (SourceGrid& grid : grids) {
         if (!grid.look_from(globe.get())) {
-            error_no_frame(file);
+            error_no_frame(file, no_way_to_globe);
         }
         Outline outline = outline_of(grid);
         const double reference_deg = first_deg.value_or(outline.x[0][0]);
@@ -96,7 +103,7 @@ GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
             }
         }
         if (!outline.is_whole) {
-            error_no_frame(file);
+            error_no_frame(file, no_places);
         }
         first_deg = reference_deg;
         const Bounds own = bounds_of(outline);
@@ -105,7 +112,13 @@ GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
     }
     const glm::dvec2 middle = 0.5 * (all.least + all.most);
     if (!(all.size().x < 180.0) || std::abs(middle.y) > 90.0) {
-        error_no_frame(file);
+        error_no_frame(
+            file,
+            fmt::format(
+                "{:.1f} x {:.1f} degrees about latitude {:.1f}",
+                all.size().x,
+                all.size().y,
+                middle.y));
     }
     return {middle.y, std::remainder(middle.x, 360.0)};
 }
@@ -243,7 +256,7 @@ Bounds extent_of(const path& file, const std::vector<SourceGrid>& grids) {
     for (const SourceGrid& grid : grids) {
         const Outline outline = outline_of(grid);
         if (!outline.is_whole) {
-            error_no_frame(file);
+            error_no_frame(file, no_places);
         }
         const Bounds own = rectangle_of(outline);
         all.add(own.least);
@@ -298,12 +311,14 @@ TargetLattice lattice_about_middle(const path& file, std::vector<SourceGrid>& gr
     lattice.frame = system_about(middle_of(file, grids));
     for (SourceGrid& grid : grids) {
         if (!lattice.frame || !grid.look_from(lattice.frame.get())) {
-            error_no_frame(file);
+            error_no_frame(file, no_way_to_globe);
         }
     }
     const Bounds extent = extent_of(file, grids);
     if (!(std::max(extent.size().x, extent.size().y) <= widest_m)) {
-        error_no_frame(file);
+        error_no_frame(
+            file,
+            fmt::format("{:.0f} x {:.0f} km", 1e-3 * extent.size().x, 1e-3 * extent.size().y));
     }
     const double side = finest_of(grids).side();
     const glm::dvec2 cells = extent.size() / side;

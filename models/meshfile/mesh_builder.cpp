@@ -1,6 +1,6 @@
 #include "models/meshfile/mesh_builder.h"
 
-#include "models/meshfile/polygon_cut.h"
+#include "models/polygons/polygon_cut.h"
 #include "models/repair/sheet_backs.h"
 #include "sim/base/error.h"
 
@@ -114,7 +114,7 @@ void MeshBuilder::add_polygon(
     for (const Corner& corner : corners) {
         places_m_.push_back(mesh_.vertices_m[corner.vertex]);
     }
-    for (const auto& piece : cut_polygon(places_m_)) {
+    for (const auto& piece : polygons::cut_polygon(places_m_)) {
         add({corners[piece[0]], corners[piece[1]], corners[piece[2]]});
     }
 }

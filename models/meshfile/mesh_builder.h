@@ -68,7 +68,7 @@ public:
     /// The group of the options that polygons from now on belong to; no_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
-    /// Adds a polygon, cut into triangles by cut_polygon (polygon_cut.h).
+    /// Adds a polygon, cut into triangles by polygons::cut_polygon.
     /// `picture`: a number of pictures().
     void add_polygon(
         std::span<const Corner> corners,

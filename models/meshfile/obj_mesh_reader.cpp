@@ -68,8 +68,11 @@ private:
 
     double number(std::string_view word) const {
         const auto value = finite_number(word);
-        if (!value || std::abs(*value) > most_coordinate) {
+        if (!value) {
             refuse("a number", in_quotes(word));
+        }
+        if (std::abs(*value) > most_coordinate) {
+            refuse(fmt::format("a number within {:g}", most_coordinate), in_quotes(word));
         }
         return *value;
     }

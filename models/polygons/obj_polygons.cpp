@@ -2,8 +2,10 @@
 
 #include "models/polygons/convex_pieces.h"
 #include "models/polygons/polygon_check.h"
+#include "models/polygons/polygon_cut.h"
 #include "sim/base/error.h"
 
+#include <array>
 #include <cassert>
 #include <fmt/format.h>
 #include <string_view>
@@ -75,7 +77,7 @@ private:
         if (convex.fault.empty()) {
             note(line, count, fmt::format("is {}: cut into {}", fault, pieces.size()));
         } else {
-            pieces = fan_of(outline);
+            pieces = triangles_of(outline);
             note(line, count, fmt::format("meets itself: drawn as {} triangles", pieces.size()));
         }
         return pieces;
@@ -107,13 +109,13 @@ private:
         return !is_line(places_m_);
     }
 
-    /// The triangles between the first corner and each side that have an area.
-    std::vector<CornerVertices> fan_of(const CornerVertices& outline) {
+    /// An outline whose sides meet, such as one that a doubled side leads around a hole: its
+    /// triangles that have an area.
+    std::vector<CornerVertices> triangles_of(const CornerVertices& outline) {
         std::vector<CornerVertices> triangles;
-        for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-            const CornerVertices triangle{outline[0], outline[i], outline[i + 1]};
-            if (has_area(triangle)) {
-                triangles.push_back(triangle);
+        for (const auto& [a, b, c] : cut_polygon(places_m_)) {
+            if (!is_line(std::array{places_m_[a], places_m_[b], places_m_[c]})) {
+                triangles.push_back({outline[a], outline[b], outline[c]});
             }
         }
         return triangles;

@@ -55,8 +55,16 @@ TEST_CASE("own columns are found by name in any order, others are passed over") 
     CHECK_FALSE(track.origin);
 }
 
-TEST_CASE("JSBSim columns come with tabs or commas, in feet, with the geodetic latitude") {
-    for (const char separator : {',', '\t'}) {
+TEST_CASE("quotes around names and numbers are no part of them") {
+    const RecordedTrack track =
+        track_of("\"t_s\";\"north_m\";\"east_m\";\"alt_m\"\n\"0\";\"5\";0;\"7\";\n1;5;0;8\n");
+    REQUIRE(track.trajectory.samples().size() == 2);
+    CHECK(track.trajectory.samples()[0].position_m == glm::dvec3(0.0, 5.0, 7.0));
+}
+
+TEST_CASE(
+    "JSBSim columns come with tabs, commas or semicolons, in feet, with the geodetic latitude") {
+    for (const char separator : {',', '\t', ';'}) {
         std::string text = "Time;Altitude ASL (ft);Phi (deg);Theta (deg);Psi (deg);Latitude (deg);"
                            "Latitude Geodetic (deg);Longitude (deg);V_{North} (ft/s);V_{East} "
                            "(ft/s);V_{Down} (ft/s)\n"
@@ -164,6 +172,7 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
     CHECK(track_fault(own_head) == " expected at least 2 samples, got 0");
     CHECK(track_fault(own_head + "0,0,0,0\n") == " expected at least 2 samples, got 1");
     CHECK(track_fault(own_head + "0,0,0,0\n1,0,0\n") == "3: expected 4 fields, got 3");
+    CHECK(track_fault(own_head + "0,0,0,0,\n1,0,0,0,5\n") == "3: expected 4 fields, got 5");
     CHECK(
         track_fault(own_head + "0,0,0,0\n1,0,nan,0\n") ==
         "3: expected a finite number in column east_m, got \"nan\"");

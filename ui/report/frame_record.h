@@ -45,7 +45,7 @@ struct FrameRecord {
     int shadow_triangles = 0;
     int veil_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
-    int unordered = 0; ///< overlaps for which no painting order was found
+    int unordered = 0; ///< aircraft painted by depth, as they meet others in too many places
     glm::dvec3 eye_m{0.0};
     glm::dvec3 aircraft_m{0.0};  ///< first aircraft, world
     double aircraft_agl_m = 0.0; ///< first aircraft above the ground below it

@@ -67,7 +67,7 @@ std::string badges(const LoadedRecording& recording) {
                  "then, and there are no hashes.";
     }
     if (!recording.disagreement.empty()) {
-        notes += "The summary is not that of the rows, whose figures these are: " +
+        notes += "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
                  recording.disagreement + ". ";
     }
     if (!recording.run.stopped.empty()) {

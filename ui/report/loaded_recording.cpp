@@ -35,6 +35,25 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     return pictures;
 }
 
+/// Adds the rows to a flight. Says which is the first that does not follow the one before it, as
+/// where a line was lost; else gives an empty text.
+std::string read_rows(const fs::path& file, FlightDigest& flight) {
+    FrameReader rows(file);
+    std::string gap;
+    int line = 1;
+    std::optional<int> next;
+    while (const auto row = rows.next()) {
+        ++line;
+        if (gap.empty() && next && row->frame != *next) {
+            gap = fmt::format(
+                "line {} of frames.csv: expected frame {}, got {}", line, *next, row->frame);
+        }
+        next = row->frame + 1;
+        flight.add(*row);
+    }
+    return gap;
+}
+
 /// Figures in which run.json's summary is not that of the rows, whose last digits it rounds.
 std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
     std::string text;
@@ -82,17 +101,16 @@ LoadedRecording load_recording(const fs::path& folder) {
     recording.name =
         (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
     recording.run = read_run_file(folder / "run.json");
+    std::string gap;
     if (fs::exists(folder / "frames.csv", ignored) || recording.run.ended) {
-        FrameReader rows(folder / "frames.csv");
-        while (const auto row = rows.next()) {
-            recording.flight.add(*row);
-        }
+        gap = read_rows(folder / "frames.csv", recording.flight);
     }
     recording.statistics = recording.flight.times().statistics();
     recording.slowest = recording.flight.slow.slowest();
     recording.has_counters = read_counters(folder / counters_name, recording.slowest);
     recording.ended_early = !recording.run.ended;
     recording.disagreement = disagreement_of(recording.run, recording.statistics);
+    recording.disagreement += (gap.empty() || recording.disagreement.empty() ? "" : "; ") + gap;
     recording.pictures = pictures_in(folder);
     return recording;
 }

@@ -27,8 +27,9 @@ struct LoadedRecording {
     std::vector<Overrun> slowest;
     bool has_counters = false;
     bool ended_early = false; ///< killed: no summary in run.json
-    /// What the summary in run.json says otherwise than the rows do: "frames: 230 in run.json, 120
-    /// by its rows; ..."; empty where they agree or where there is no summary.
+    /// What the summary in run.json says otherwise than the rows do, and the first row that does
+    /// not follow the one before: "frames: 230 in run.json, 120 by the rows; line 7 of frames.csv:
+    /// expected frame 5, got 6"; empty where all agree or where there is no summary.
     std::string disagreement;
     std::vector<std::filesystem::path> pictures; ///< in frame order
 };

@@ -14,7 +14,7 @@ struct PlanCounts {
     int cuts = 0;
     /// Groups of aircraft that meet or stand in a ring, painted by polygons.
     int knots = 0;
-    /// Polygons that should have been painted again and were too many.
+    /// Aircraft painted by depth, as they meet each other or the ground in too many places.
     int unordered = 0;
     int shadow_triangles = 0;
     /// Triangles in view of clouds and all else that is seen through.

@@ -11,12 +11,9 @@ namespace {
 /// Share of its distance within which a corner counts as lying on another polygon's plane.
 constexpr double touching = 1e-9;
 
-/// More repaints than this in one place are not worth their time.
-constexpr std::size_t most_painted = 20000;
-
 } // namespace
 
-int PolygonRepaint::paint(
+std::optional<int> PolygonRepaint::paint(
     std::span<const PlacedAircraft* const> aircraft,
     const HullBox& box,
     const GroundFrame& ground,
@@ -25,18 +22,18 @@ int PolygonRepaint::paint(
     StepWriter& steps) {
     painted_.clear();
     corners_.clear();
-    given_up_ = 0;
+    again_ = 0;
+    compared_ = 0;
     ground_ = &ground;
     for (const std::uint32_t triangle : meeting) {
         place_triangle(ground.all, triangle, part_);
         cut_to_inside(part_, box, scratch_);
         note({is_ground, triangle, 0, 0, 0}, part_);
     }
-    int again = 0;
-    for (std::uint32_t owner = 0; owner < aircraft.size(); ++owner) {
-        again += paint_aircraft(aircraft, owner, rounding_rad, steps);
+    for (std::uint32_t owner = 0; owner < aircraft.size() && !is_too_much(); ++owner) {
+        paint_aircraft(aircraft, owner, rounding_rad, steps);
     }
-    return again;
+    return is_too_much() ? std::nullopt : std::optional(again_);
 }
 
 void PolygonRepaint::note(Painted painted, const SightPolygon& part) {
@@ -46,19 +43,17 @@ void PolygonRepaint::note(Painted painted, const SightPolygon& part) {
     painted_.push_back(painted);
 }
 
-int PolygonRepaint::paint_aircraft(
+void PolygonRepaint::paint_aircraft(
     std::span<const PlacedAircraft* const> aircraft,
     std::uint32_t owner,
     double rounding_rad,
     StepWriter& steps) {
-    int again = 0;
     for (const scene::IndexRange& range : aircraft[owner]->ranges) {
-        again += paint_range(aircraft, owner, range, rounding_rad, steps);
+        paint_range(aircraft, owner, range, rounding_rad, steps);
     }
-    return again;
 }
 
-int PolygonRepaint::paint_range(
+void PolygonRepaint::paint_range(
     std::span<const PlacedAircraft* const> aircraft,
     std::uint32_t owner,
     const scene::IndexRange& range,
@@ -67,10 +62,12 @@ int PolygonRepaint::paint_range(
     const PlacedAircraft& own = *aircraft[owner];
     std::uint32_t run_first = range.first_index;
     std::uint32_t next = run_first;
-    int again = 0;
     const auto polygons =
         own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
     for (const std::uint32_t polygon : polygons) {
+        if (is_too_much()) {
+            return;
+        }
         const std::uint32_t first = next;
         next += own.model->index_count_of(polygon);
         place_polygon(own, polygon, polygon_);
@@ -89,13 +86,12 @@ int PolygonRepaint::paint_range(
         run_first = next;
         for (std::size_t i = hiding; i < painted_.size(); ++i) {
             write(aircraft, painted_[i], steps);
-            ++again;
+            ++again_;
         }
     }
     if (next > run_first) {
         steps.add(draw_of(own, run_first, next - run_first));
     }
-    return again;
 }
 
 /// Notes the parts of what was painted before that hide part of polygon_.
@@ -103,6 +99,7 @@ void PolygonRepaint::find_hiding(
     const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
     cone_of(polygon_, rounding_rad, cone_);
     const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
+    compared_ += before;
     for (std::size_t i = 0; i < before; ++i) {
         const Painted painted = painted_[i];
         if (painted.owner == owner) {
@@ -114,10 +111,6 @@ void PolygonRepaint::find_hiding(
         cut_to_front(part_, plane, tolerance_m, scratch_);
         cut_to_cone(part_, cone_, scratch_);
         if (solid_angle_sr(part_) < least_solid_angle_sr) {
-            continue;
-        }
-        if (painted_.size() >= most_painted) {
-            ++given_up_;
             continue;
         }
         note(painted, part_);

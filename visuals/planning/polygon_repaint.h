@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,8 +26,9 @@ public:
     /// Paints the aircraft in `box` over ground that has been painted; `meeting` are the triangles
     /// that meet the box, in painting order, and only what lies inside it is painted again.
     /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
-    /// were painted again.
-    int paint(
+    /// were painted again; nothing, with some of it written, where that would be more than
+    /// `most_again` or more than `most_compared` pairs would have to be compared.
+    std::optional<int> paint(
         std::span<const PlacedAircraft* const> aircraft,
         const HullBox& box,
         const GroundFrame& ground,
@@ -34,10 +36,11 @@ public:
         double rounding_rad,
         StepWriter& steps);
 
-    /// Repaints that were given up in the last paint() because there were too many.
-    int given_up() const { return given_up_; }
-
 private:
+    /// More take longer than a frame has: some hundred are usual where two aircraft meet.
+    static constexpr int most_again = 4000;
+    static constexpr std::size_t most_compared = 1'000'000;
+
     static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
 
     /// Something painted: a part of a polygon or of a triangle.
@@ -53,13 +56,15 @@ private:
         std::size_t corner_count = 0;
     };
 
+    bool is_too_much() const { return again_ > most_again || compared_ > most_compared; }
+
     void note(Painted painted, const SightPolygon& part);
-    int paint_aircraft(
+    void paint_aircraft(
         std::span<const PlacedAircraft* const> aircraft,
         std::uint32_t owner,
         double rounding_rad,
         StepWriter& steps);
-    int paint_range(
+    void paint_range(
         std::span<const PlacedAircraft* const> aircraft,
         std::uint32_t owner,
         const scene::IndexRange& range,
@@ -77,7 +82,8 @@ private:
     SightPolygon part_;
     SightPolygon scratch_;
     std::vector<glm::dvec3> cone_;
-    int given_up_ = 0;
+    int again_ = 0;
+    std::size_t compared_ = 0;
 };
 
 } // namespace octant::visuals::planning

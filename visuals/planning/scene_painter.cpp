@@ -206,11 +206,24 @@ void ScenePainter::paint_members(const FrameScene& frame, const Knot& knot, Plan
     } else if (alone) {
         steps_.add(draw_of(*members_.front()));
     } else {
-        const double rounding_rad = rounding_px * frame.view.pixel_rad;
-        counts.cuts += repaint_.paint(
-            members_, knot.box, frame.ground, in_front_.meeting(), rounding_rad, steps_);
-        counts.unordered += repaint_.given_up();
+        paint_tangle(frame, knot, counts);
     }
+}
+
+/// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would
+/// take too long.
+void ScenePainter::paint_tangle(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
+    const StepWriter::Mark before = steps_.mark();
+    const double rounding_rad = rounding_px * frame.view.pixel_rad;
+    const auto cuts =
+        repaint_.paint(members_, knot.box, frame.ground, in_front_.meeting(), rounding_rad, steps_);
+    if (cuts) {
+        counts.cuts += *cuts;
+        return;
+    }
+    steps_.take_back(before);
+    counts.unordered += static_cast<int>(members_.size());
+    paint_members_by_depth(frame, knot);
 }
 
 /// By a depth buffer that holds nothing else but the ground that meets them.

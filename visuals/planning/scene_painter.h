@@ -38,7 +38,7 @@ struct FrameScene {
 /// the aircraft from far to near. Clouds come before what lies on the eye's side of them and after
 /// the rest: seen from below before all ground, seen from above after it. After each knot of
 /// aircraft the ground that lies before it is painted again, cut to where the knot is seen. Meshes
-/// alone ask for depth, within their knot.
+/// ask for depth, within their knot, and so do aircraft that meet in too many places.
 ///
 /// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured
 /// first: aircraft, ground, shadows, sky. Where aircraft and ground are equally near the aircraft
@@ -61,6 +61,7 @@ private:
     void take_members(const FrameScene& frame, const Knot& knot);
     void paint_with_effects(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
     void paint_members(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
+    void paint_tangle(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
     void paint_members_by_depth(const FrameScene& frame, const Knot& knot);
     void paint_effects(const FrameScene& frame, bool after);
     void paint_dashes(const FrameScene& frame, double farther_m2, double nearer_m2);

@@ -24,6 +24,25 @@ edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& 
 
 } // namespace
 
+StepWriter::Mark StepWriter::mark() const {
+    return {
+        plan_.steps.size(),
+        plan_.steps.empty() ? 0 : plan_.steps.back().count,
+        plan_.aircraft.size(),
+        plan_.clips.size(),
+        plan_.repaint_indices.size()};
+}
+
+void StepWriter::take_back(const Mark& mark) {
+    plan_.steps.resize(mark.steps);
+    if (mark.steps > 0) {
+        plan_.steps.back().count = static_cast<std::uint32_t>(mark.last_count);
+    }
+    plan_.aircraft.resize(mark.aircraft);
+    plan_.clips.resize(mark.clips);
+    plan_.repaint_indices.resize(mark.repaint_indices);
+}
+
 void StepWriter::clear_depth(const scene::PixelBox& box) {
     const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
     plan_.depth_boxes.push_back(box);

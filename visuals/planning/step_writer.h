@@ -18,6 +18,20 @@ public:
     explicit StepWriter(scene::FramePlan& plan)
         : plan_(plan) {}
 
+    /// How far a plan has been written.
+    struct Mark {
+        std::size_t steps = 0;
+        std::size_t last_count = 0; ///< of the last step, to which more may be added
+        std::size_t aircraft = 0;
+        std::size_t clips = 0;
+        std::size_t repaint_indices = 0;
+    };
+
+    Mark mark() const;
+
+    /// Takes back the aircraft, the ground and the clips that were added since.
+    void take_back(const Mark& mark);
+
     /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
     void clear_depth(const scene::PixelBox& box);
 

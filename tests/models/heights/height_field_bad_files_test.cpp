@@ -215,16 +215,21 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
                 std::string(name) + "'");
     }
     const std::string no_frame =
-        "expected upright ground up to 1000 km wide and away from the poles, got ground that no "
-        "local frame fits";
+        "expected ground up to 1000 km wide and away from the poles that a local frame fits, got ";
     RasterFile world = flat(72, 36);
     world.system = "EPSG:4326";
     world.transform = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
-    check_raster_refused(world, no_frame);
+    check_raster_refused(world, no_frame + "355.0 x 175.0 degrees about latitude 0.0");
     RasterFile pole = flat(20, 20);
     pole.system = "EPSG:4326";
     pole.transform = {0.0, 0.05, 0.0, 90.5, 0.0, -0.05};
-    check_raster_refused(pole, no_frame);
+    check_raster_refused(pole, no_frame + "edges that have no places there");
+    RasterFile moon = flat(20, 20);
+    moon.system = "+proj=longlat +R=1737400 +no_defs";
+    moon.transform = {10.0, 0.003, 0.0, 20.0, 0.0, -0.003};
+    check_raster_refused(
+        moon,
+        no_frame + "a coordinate system that does not lead to WGS 84, as that of another planet");
     RasterFile flattened = flat(4, 4);
     flattened.transform = {500000.0, 10.0, 10.0, 5000000.0, 10.0, 10.0};
     check_raster_refused(flattened, "expected a cell size that is a number, got 10 x 10");

@@ -3,8 +3,11 @@
 #include "sim/base/output_file.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include <fmt/format.h>
+#include <string>
+#include <vector>
 
 #include "obj_texts.h"
 
@@ -66,6 +69,24 @@ TEST_CASE(
     CHECK(
         message("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") ==
         "m.obj: expected at least one polygon with an area, got none");
+}
+
+TEST_CASE("a hole that a doubled side joins to its outline stays open") {
+    const PolygonModel model =
+        model_of("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
+                 "f 1 2 3 4 1 5 6 7 8 5\n");
+    double area_m2 = 0.0;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto corners = model.corners(i);
+        REQUIRE(corners.size() == 3);
+        const auto at = [&](std::size_t corner) { return model.vertices_m[corners[corner]]; };
+        area_m2 += 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+    }
+    CHECK(area_m2 == Approx(12.0));
+    CHECK(
+        notes_of(model) ==
+        std::vector<std::string>{
+            "m.obj:9: polygon of 10 corners meets itself: drawn as 8 triangles"});
 }
 
 TEST_CASE("files that are no model are refused") {

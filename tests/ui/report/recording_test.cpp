@@ -159,6 +159,25 @@ TEST_CASE("a summary of other rows is told") {
     CHECK(load_recording(scratch / "rec").disagreement == "frames: 4 in run.json, 2 by the rows");
 }
 
+TEST_CASE("a lost row of the warm-up is told") {
+    const ScratchFolder scratch;
+    {
+        Recording recording(scratch / "rec", made_up_info());
+        for (int frame = 0; frame < 6; ++frame) {
+            recording.add(made_up_frame(frame, 10.0));
+        }
+        recording.finish({1, 2, {}, {}, {}});
+    }
+    std::string rows = frame_csv_header();
+    for (const int frame : {0, 2, 3, 4, 5}) {
+        rows += frame_csv_line(made_up_frame(frame, 10.0));
+    }
+    write_file(scratch / "rec/frames.csv", rows);
+    CHECK(
+        load_recording(scratch / "rec").disagreement ==
+        "line 3 of frames.csv: expected frame 1, got 2");
+}
+
 TEST_CASE("an older recording gives way with all its files and nothing else") {
     const ScratchFolder scratch;
     {

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "plan_painter.h"
@@ -187,6 +188,34 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
     CHECK(counts.unordered == 0);
     CHECK(counts.knots > 1);
     CHECK(counts.cuts < 500);
+}
+
+TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth, each once") {
+    constexpr int count = 60;
+    Scene scene;
+    scene.ground = cells(level);
+    scene.add_model(convex_aircraft(box_model({9.7, 6.5, 2.2})));
+    PlaceDice dice(1989);
+    std::vector<sim::AircraftState> states;
+    for (int i = 0; i < count; ++i) {
+        scene.aircraft.push_back(0);
+        states.push_back(state_at(glm::dvec3(0, 0, 120) + dice.in_box({4, 4, 4}), dice.attitude()));
+    }
+    const Settings settings = plain_settings();
+    Planner planner(scene, settings);
+    const auto [plan, counts] =
+        planner.plan({camera_looking_at({-120, -90, 140}, {0, 0, 120}), states});
+    CHECK(counts.unordered == count);
+    CHECK(counts.cuts == 0);
+    CHECK(plan.clips.empty());
+    CHECK(plan.depth_boxes.size() == 1);
+    REQUIRE(plan.aircraft.size() == count);
+    const auto drawn = [](const PaintStep& step) { return step.what == PaintStep::What::Aircraft; };
+    CHECK(std::ranges::count_if(plan.steps, drawn) == 1);
+    const auto heap = std::ranges::find_if(plan.steps, drawn);
+    REQUIRE(heap != plan.steps.end());
+    CHECK(heap->count == count);
+    CHECK(heap->depth == DepthUse::Nearest);
 }
 
 TEST_CASE("ground before a knot stays behind what is seen between the members") {

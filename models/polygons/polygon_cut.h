@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace octant::models::meshfile {
+namespace octant::models::polygons {
 
 /// Cuts a polygon of at least three corners into triangles between them: places in `corners_m`,
 /// turning as the polygon does. A strictly convex one becomes a fan around its first corner, all
@@ -17,4 +17,4 @@ namespace octant::models::meshfile {
 /// Time grows with the square of the number of corners.
 std::vector<std::array<std::size_t, 3>> cut_polygon(std::span<const glm::dvec3> corners_m);
 
-} // namespace octant::models::meshfile
+} // namespace octant::models::polygons

@@ -1,4 +1,4 @@
-#include "models/meshfile/polygon_cut.h"
+#include "models/polygons/polygon_cut.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-using namespace octant::models::meshfile;
+using namespace octant::models::polygons;
 
 namespace {
 

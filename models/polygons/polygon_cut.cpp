@@ -1,4 +1,4 @@
-#include "models/meshfile/polygon_cut.h"
+#include "models/polygons/polygon_cut.h"
 
 #include "models/polygons/flat_outline.h"
 
@@ -7,11 +7,11 @@
 #include <cassert>
 #include <cmath>
 
-namespace octant::models::meshfile {
+namespace octant::models::polygons {
 
 namespace {
 
-using Piece = std::array<std::size_t, 3>;
+using Triangle = std::array<std::size_t, 3>;
 
 /// Corners without the coordinate along which the polygon is seen best, counter-clockwise.
 std::vector<glm::dvec2> seen_outline(std::span<const glm::dvec3> corners_m) {
@@ -37,9 +37,8 @@ std::vector<glm::dvec2> seen_outline(std::span<const glm::dvec3> corners_m) {
 bool is_strictly_convex(std::span<const glm::dvec2> outline) {
     const std::size_t count = outline.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (polygons::turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <=
-                0.0 ||
-            polygons::turn_of(outline[0], outline[i], outline[(i + 1) % count]) < 0.0) {
+        if (turn_of(outline[i], outline[(i + 1) % count], outline[(i + 2) % count]) <= 0.0 ||
+            turn_of(outline[0], outline[i], outline[(i + 1) % count]) < 0.0) {
             return false;
         }
     }
@@ -68,8 +67,8 @@ public:
         }
     }
 
-    std::vector<Piece> cut() {
-        std::vector<Piece> pieces;
+    std::vector<Triangle> cut() {
+        std::vector<Triangle> pieces;
         std::size_t at = 0;
         for (std::size_t left = outline_.size(); left > 3; --left) {
             at = next_ear(at, left);
@@ -82,7 +81,7 @@ public:
 
 private:
     double turn_at(std::size_t i) const {
-        return polygons::turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]);
+        return turn_of(outline_[before_[i]], outline_[i], outline_[after_[i]]);
     }
 
     bool is_ear(std::size_t i) const {
@@ -94,8 +93,8 @@ private:
         const glm::dvec2& c = outline_[after_[i]];
         for (std::size_t k = after_[after_[i]]; k != before_[i]; k = after_[k]) {
             const glm::dvec2& p = outline_[k];
-            if (dented_[k] && p != a && p != b && p != c && polygons::turn_of(a, b, p) >= 0.0 &&
-                polygons::turn_of(b, c, p) >= 0.0 && polygons::turn_of(c, a, p) >= 0.0) {
+            if (dented_[k] && p != a && p != b && p != c && turn_of(a, b, p) >= 0.0 &&
+                turn_of(b, c, p) >= 0.0 && turn_of(c, a, p) >= 0.0) {
                 return false;
             }
         }
@@ -136,17 +135,17 @@ private:
 
 } // namespace
 
-std::vector<Piece> cut_polygon(std::span<const glm::dvec3> corners_m) {
+std::vector<Triangle> cut_polygon(std::span<const glm::dvec3> corners_m) {
     assert(corners_m.size() >= 3);
     const std::vector<glm::dvec2> outline = seen_outline(corners_m);
     if (!is_strictly_convex(outline)) {
         return EarCutting(outline).cut();
     }
-    std::vector<Piece> pieces;
+    std::vector<Triangle> pieces;
     for (std::size_t i = 1; i + 1 < corners_m.size(); ++i) {
         pieces.push_back({0, i, i + 1});
     }
     return pieces;
 }
 
-} // namespace octant::models::meshfile
+} // namespace octant::models::polygons

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace octant::flightpaths {
+
+/// What separates the fields of a track: tabs where its line of column names has one, else
+/// semicolons where it has no comma but one of them, else commas.
+char separator_of(std::string_view column_names);
+
+/// The fields of a line without blanks and one pair of quotes around them. They are views of the
+/// line. A separator within quotes separates all the same.
+std::vector<std::string_view> unquoted_fields(std::string_view line, char separator);
+
+/// True when no field holds anything, as behind a separator that ends a line.
+bool are_empty(std::span<const std::string_view> fields);
+
+} // namespace octant::flightpaths
