@@ -69,11 +69,17 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
         feature.put(one, true);
         add(feature.name, one);
     }
+    RunSettings textured = none;
+    textured.air.ground_shading = visuals::scene::GroundShading::Texture;
+    add("ground by texture", textured);
     add("those of the defaults", with_defaults(scene.settings));
     RunSettings all = scene.settings;
     put_all(all, true);
     add("all of them", all);
     if (scene.settings.drawing.renderer != settings::RendererKind::Gl) {
+        textured.drawing.renderer = settings::RendererKind::Gl;
+        textured.view.samples.reset();
+        add("ground by texture by OpenGL", textured);
         RunSettings by_gl = with_defaults(scene.settings);
         by_gl.drawing.renderer = settings::RendererKind::Gl;
         by_gl.view.samples.reset();

@@ -13,9 +13,10 @@ struct BenchScene {
     settings::RunSettings settings;
 };
 
-/// A scene as it is with no feature at all, with each one alone, with those that are there by
-/// default, and with all; then with the defaults by OpenGL, whose frame time they are to keep. The
-/// first one is what the others are compared with.
+/// A scene as it is with no feature at all, with each one alone, with its ground by a texture, with
+/// the features that are there by default, and with all; then with that texture and with the
+/// defaults by OpenGL, whose frame times they are to keep. The first one is what the others are
+/// compared with.
 std::vector<BenchScene> feature_scenes(const BenchScene& scene);
 
 } // namespace octant::ui::commands

@@ -82,20 +82,18 @@ struct Bend {
     HWY_INLINE hn::Vec<Four> doubled_middle() const { return hn::Add(most, least); }
 };
 
-/// How many texels a pixel is wide in a thin triangle, squared.
-double thin_footprint2(const Corners& corners, double reach) {
+/// How many texels a pixel is wide in a thin triangle.
+double thin_footprint(const Corners& corners, double reach) {
     double range = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
         const auto [least, most] =
             std::minmax({corners[0]->value[i], corners[1]->value[i], corners[2]->value[i]});
         range = std::max(range, static_cast<double>(most - least));
     }
-    const double texels = range * steps_per_px / reach;
-    return texels * texels;
+    return range * steps_per_px / reach;
 }
 
-/// How many texels a pixel is wide, squared.
-HWY_INLINE double footprint2(const Corners& corners, const Steps& steps) {
+HWY_INLINE TexelSteps texel_steps(const Corners& corners, const Steps& steps) {
     const auto way = [&](std::size_t to) {
         return std::array{
             static_cast<double>(corners[to]->x - corners[0]->x),
@@ -107,22 +105,21 @@ HWY_INLINE double footprint2(const Corners& corners, const Steps& steps) {
     const double reach = std::max(
         std::max(std::abs(b[0]), std::abs(c[0])), std::max(std::abs(b[1]), std::abs(c[1])));
     if (std::abs(area) < least_thickness * reach) {
-        return thin_footprint2(corners, reach);
+        const double texels = thin_footprint(corners, reach);
+        return {{texels, 0.0}, {0.0, texels}};
     }
     const Pair pair;
     const hn::Half<Four> places; // the first two values
-    const auto to_b = hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_second));
-    const auto to_c = hn::Neg(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_first)));
+    const auto by_area = hn::Set(pair, steps_per_px / area);
+    const auto to_b = hn::Mul(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_second)), by_area);
+    const auto to_c =
+        hn::Neg(hn::Mul(hn::PromoteTo(pair, hn::LowerHalf(places, steps.to_first)), by_area));
     const auto times = [&](hn::Vec<Pair> value, double factor)
                            HWY_ATTR { return hn::Mul(value, hn::Set(pair, factor)); };
-    const auto across = hn::Sub(times(to_b, c[1]), times(to_c, b[1]));
-    const auto down = hn::Sub(times(to_c, b[0]), times(to_b, c[0]));
-    const auto across2 = hn::Mul(across, across);
-    const auto down2 = hn::Mul(down, down);
-    const auto sums = hn::Add(
-        hn::InterleaveLower(pair, across2, down2), hn::InterleaveUpper(pair, across2, down2));
-    const double by_area = steps_per_px / area;
-    return hn::GetLane(hn::MaxOfLanes(pair, sums)) * by_area * by_area;
+    TexelSteps result;
+    hn::StoreU(hn::Sub(times(to_b, c[1]), times(to_c, b[1])), pair, result.across.data());
+    hn::StoreU(hn::Sub(times(to_c, b[0]), times(to_b, c[0])), pair, result.down.data());
+    return result;
 }
 
 /// The first two lanes from one, the others from another.
@@ -135,7 +132,7 @@ bool SetEvenTexture(const Corners& corners, std::size_t level_count, EvenTexture
     const auto set = [&](float value) HWY_ATTR { return hn::Set(four, value); };
     const Steps steps(corners);
     const Bend bend(corners, steps);
-    even.levels = levels_of(footprint2(corners, steps), level_count);
+    even.levels = levels_of(texel_steps(corners, steps), level_count);
     const auto scale = std::bit_cast<float>((127U - even.levels.fine) << 23U); // 2^-fine
     const auto most = two_of_each(
         set(2.0F * EvenTexture::most_texels_wrong / scale), set(EvenTexture::most_share_wrong));

@@ -92,15 +92,23 @@ struct TextureValues {
 
 PixelColour textured(const TextureValues& at, const TextureLevels& chosen, const TileJob& job) {
     const auto& levels = job.ground->levels();
-    const auto at_level = [&](std::size_t k) {
+    const auto at_level = [&](std::size_t k, double x, double y) {
         const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
-        return texel_at(levels[k], (at.x + 0.5) * scale - 0.5, (at.y + 0.5) * scale - 0.5);
+        return texel_at(levels[k], (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
     };
-    std::array<double, 3> own = at_level(chosen.fine);
-    if (chosen.coarse_share > 0) {
-        const std::array<double, 3> coarse = at_level(std::size_t{chosen.fine} + 1);
+    std::array<double, 3> own{};
+    for (int probe = 0; probe < chosen.probes; ++probe) {
+        const double far = chosen.probes > 1 ? 2.0 * probe / (chosen.probes - 1) - 1.0 : 0.0;
+        const double x = at.x + far * static_cast<double>(chosen.reach[0]);
+        const double y = at.y + far * static_cast<double>(chosen.reach[1]);
+        const std::array<double, 3> fine = at_level(chosen.fine, x, y);
+        std::array<double, 3> coarse = fine;
+        if (chosen.coarse_share > 0) {
+            coarse = at_level(std::size_t{chosen.fine} + 1, x, y);
+        }
         for (std::size_t i = 0; i < 3; ++i) {
-            own[i] += chosen.coarse_share / 65536.0 * (coarse[i] - own[i]);
+            const double one = fine[i] + chosen.coarse_share / 65536.0 * (coarse[i] - fine[i]);
+            own[i] += one / chosen.probes;
         }
     }
     PixelColour colour;
@@ -133,19 +141,13 @@ by_texture_in_perspective(const TileTriangle& one, const TileJob& job, int colum
     const double x = value(0);
     const double y = value(1);
     // How far the place moves in the texture from this pixel to the next ones.
-    const auto moves = [&](double by_column, double by_row) {
-        const double step_x =
-            (extra.by_w[0].per_x * by_column + extra.by_w[0].per_y * by_row -
-             x * (extra.by_w[4].per_x * by_column + extra.by_w[4].per_y * by_row)) *
-            w;
-        const double step_y =
-            (extra.by_w[1].per_x * by_column + extra.by_w[1].per_y * by_row -
-             y * (extra.by_w[4].per_x * by_column + extra.by_w[4].per_y * by_row)) *
-            w;
-        return step_x * step_x + step_y * step_y;
+    const auto move = [&](double RealPlane::*per_px) {
+        const double w_part = extra.by_w[4].*per_px;
+        return std::array{
+            (extra.by_w[0].*per_px - x * w_part) * w, (extra.by_w[1].*per_px - y * w_part) * w};
     };
-    const double size2 = std::max(moves(1.0, 0.0), moves(0.0, 1.0));
-    return textured({x, y, value(2), value(3)}, levels_of(size2, job.ground->levels().size()), job);
+    const TexelSteps steps{move(&RealPlane::per_x), move(&RealPlane::per_y)};
+    return textured({x, y, value(2), value(3)}, levels_of(steps, job.ground->levels().size()), job);
 }
 
 /// Six hues around the wheel, one a level, so that neighbours are far apart; 0..1.

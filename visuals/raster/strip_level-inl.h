@@ -57,6 +57,17 @@ HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
     return hn::ShiftRight<3>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128 + 4)));
 }
 
+/// What a sample adds to a plane of sums: of ground its cover's number in steps of two levels and,
+/// in the five lowest bits, itself. `colour`: 1/16 level from 0.
+template <class Values>
+HWY_INLINE Values of_sample(std::size_t plane, Values colour) {
+    const hn::DFromV<Values> values;
+    return plane < 3 ? colour
+                     : hn::Or(
+                           hn::And(colour, hn::Set(values, std::uint16_t{0xffe0})),
+                           hn::Set(values, std::uint16_t{1}));
+}
+
 /// A level over a strip, row by row: 1/128 level from the level 128, wrapping.
 struct StripLevel {
     std::uint32_t at; ///< where columns are counted from, 2^-16 level

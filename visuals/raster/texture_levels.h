@@ -1,16 +1,26 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace octant::visuals::raster {
 
-/// Which levels of the ground's texture something is coloured by.
+/// Which levels of the ground's texture something is coloured by, and how often.
 struct TextureLevels {
     std::uint16_t fine = 0;
     std::uint16_t coarse_share = 0; ///< of the next level, 2^-16
+    std::uint16_t probes = 1;       ///< at even distances along the pixel's longer way
+    std::array<float, 2> reach{};   ///< from its middle to the last one, texels of the finest level
+};
+
+/// How the place in the texture moves from a pixel to the next ones, texels of the finest level.
+struct TexelSteps {
+    std::array<double, 2> across;
+    std::array<double, 2> down;
 };
 
 /// The logarithm to base 2 of a number above 0, straight between whole numbers: wrong by less than
@@ -38,6 +48,36 @@ inline TextureLevels levels_of(double size2, std::size_t count) {
         return {static_cast<std::uint16_t>(whole + 1), 0};
     }
     return {static_cast<std::uint16_t>(whole), static_cast<std::uint16_t>(share * 65535.0)};
+}
+
+/// Levels for pixels whose places move by such steps. Ground that is seen at a slant is longer in a
+/// pixel than wide: the pixel takes the level of its width, at several places along its length.
+/// These are mixed anyway: then a single level does.
+inline TextureLevels levels_of(const TexelSteps& steps, std::size_t count) {
+    constexpr double most_probes = 3.0;
+    constexpr double longer = 1.5; ///< than wide, where two probes begin
+    const auto& [across, down] = steps;
+    const double across2 = across[0] * across[0] + across[1] * across[1];
+    const double down2 = down[0] * down[0] + down[1] * down[1];
+    const double length2 = std::max(across2, down2);
+    const double area = std::abs(across[0] * down[1] - across[1] * down[0]);
+    if (!(length2 > 1.0) || !(longer * area < length2)) {
+        return levels_of(length2, count);
+    }
+    double size = std::max(area / length2, 1.0 / most_probes); // of a probe, in lengths
+    if (size * size * length2 < 1.0) {
+        size = 1.0 / std::sqrt(length2); // no finer than the finest level
+    }
+    TextureLevels levels = levels_of(size * size * length2, count);
+    levels.fine = static_cast<std::uint16_t>(levels.fine + (levels.coarse_share >> 15U));
+    levels.coarse_share = 0;
+    if (longer * size < 1.0 && std::size_t{levels.fine} + 1 < count) {
+        levels.probes = size * (longer + 1.0) < 1.0 ? 3 : 2;
+        const auto& way = across2 > down2 ? across : down;
+        const double reach = 0.5 * (1.0 - size);
+        levels.reach = {static_cast<float>(way[0] * reach), static_cast<float>(way[1] * reach)};
+    }
+    return levels;
 }
 
 } // namespace octant::visuals::raster

@@ -100,7 +100,7 @@ struct TileBuffer {
     static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
-    /// Red, green, blue, 1/256 level; and, where the picture has grain, the share of it likewise.
+    /// Red, green, blue, 1/256 level; and, where the picture has grain, the ground (of_sample()).
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
     /// Where the picture has grain: of each row's first pixel, third, and so on, one over the depth
     /// of the ground that was painted there last, 1/m; 0: none. Rows follow each other without

@@ -46,9 +46,8 @@ public:
         const Values value = stored(middle.value);
         const Values per_x = slope(planes.per_x, planes.by_w.per_x);
         const Values per_y = slope(planes.per_y, planes.by_w.per_y);
-        const double across2 = per_x[0] * per_x[0] + per_x[1] * per_x[1];
-        const double down2 = per_y[0] * per_y[0] + per_y[1] * per_y[1];
-        chosen = levels_of(std::max(across2, down2), image.levels().size());
+        chosen = levels_of(
+            TexelSteps{{per_x[0], per_x[1]}, {per_y[0], per_y[1]}}, image.levels().size());
         // Pixels that begin beyond the part keep numbers in their range.
         const glm::dvec2 reach_px = half_px + 1.0;
         const double bent =

@@ -96,8 +96,8 @@ HWY_INLINE void grain_over(
     for (std::size_t i = 0; i < strip_parts; ++i) {
         const std::size_t part = i * part_px;
         const auto is_drawn = hn::LoadMaskBits(Strip(), bits.data() + part / 8);
-        const auto value =
-            triangle.has_grain ? hn::ShiftLeft<4>(share.colour(i)) : hn::Zero(Strip());
+        const auto value = triangle.has_grain ? hn::ShiftLeft<4>(of_sample(3, share.colour(i)))
+                                              : hn::Zero(Strip());
         std::uint16_t* const sums = buffer.sums[3].data() + first + part;
         hn::StoreU(hn::IfThenElse(is_drawn, value, hn::LoadU(Strip(), sums)), Strip(), sums);
         if (triangle.has_grain) {
@@ -200,7 +200,10 @@ HWY_INLINE void paint_pixels_over(
             if (job.grain != nullptr) {
                 const Triangle& triangle = *one.triangle;
                 buffer.sums[3][pixel] =
-                    static_cast<std::uint16_t>(grain_share_of(one, at.x, at.y) * 16U);
+                    triangle.has_grain
+                        ? static_cast<std::uint16_t>(
+                              ((grain_share_of(one, at.x, at.y) & 0xffe0U) | 1U) * 16U)
+                        : std::uint16_t{0};
                 if (column % 2 == 0) {
                     buffer.nearness_of_row(row)[column / 2] =
                         triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;

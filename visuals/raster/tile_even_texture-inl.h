@@ -105,20 +105,21 @@ struct TextureLook {
     const GroundImage::Level& fine;
     const GroundImage::Level* coarse; ///< none where the fine one is all
     hn::Vec<Strip> coarse_share;
+    Probes probes;
     std::array<std::uint16_t, 3> haze;
 
     HWY_INLINE TextureLook(const TextureLevels& levels, const TileJob& job)
         : fine(job.ground->levels()[levels.fine])
         , coarse(levels.coarse_share > 0 ? &fine + 1 : nullptr)
-        , coarse_share(hn::Set(Strip(), levels.coarse_share)) {
+        , coarse_share(hn::Set(Strip(), levels.coarse_share))
+        , probes(levels, levels.fine) {
         for (std::size_t k = 0; k < haze.size(); ++k) {
             haze[k] = static_cast<std::uint16_t>(job.haze[static_cast<glm::length_t>(k)] * 128.0F);
         }
     }
 
-    /// 1/16 level.
-    HWY_INLINE Colours
-    seen(const Places& places, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
+    /// The texture's, 1/128 level.
+    HWY_INLINE Colours at(const Places& places) const {
         Colours colours = colours_at(fine, places);
         if (coarse != nullptr) {
             const Colours next = colours_at(*coarse, coarser(places));
@@ -126,6 +127,23 @@ struct TextureLook {
                 colours[k] = part_way(colours[k], next[k], coarse_share);
             }
         }
+        return colours;
+    }
+
+    static HWY_INLINE Places moved(const Places& places, std::int32_t dx, std::int32_t dy) {
+        const hn::RebindToSigned<Texels> whole;
+        const auto x = hn::Set(whole, dx);
+        const auto y = hn::Set(whole, dy);
+        return {
+            {hn::Add(places.x[0], x), hn::Add(places.x[1], x)},
+            {hn::Add(places.y[0], y), hn::Add(places.y[1], y)}};
+    }
+
+    /// 1/16 level.
+    HWY_INLINE Colours
+    seen(const Places& places, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
+        Colours colours = probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy)
+                                                 HWY_ATTR { return at(moved(places, dx, dy)); });
         const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
         for (std::size_t k = 0; k < 3; ++k) {
             const auto own = hn::MulHigh(colours[k], seen_share);

@@ -63,7 +63,7 @@ HWY_INLINE void add_level(
         hn::Min(hn::Max(raw, hn::Set(sign, levels.least[k])), hn::Set(sign, levels.most[k]));
     // To 1/16 level from 0, rounded.
     const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
-    const auto colour = hn::ShiftRight<3>(from_zero);
+    const auto colour = of_sample(k, hn::ShiftRight<3>(from_zero));
     hn::StoreU(hn::Add(hn::LoadU(px, sums), hn::Mul(colour, counts)), px, sums);
 }
 

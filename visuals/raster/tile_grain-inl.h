@@ -9,6 +9,7 @@
 #define OCTANT_RASTER_GRAIN_INL
 #endif
 
+#include "visuals/raster/grain_contrast-inl.h"
 #include "visuals/raster/grain_places-inl.h"
 #include "visuals/raster/strip_level-inl.h"
 #include "visuals/scene/grain_pattern.h"
@@ -89,54 +90,6 @@ grain_seen(const GrainRays& rays, const GrainLook& look, float haze_per_depth) {
     return hn::IfThenElseZero(hn::RebindMask(TwosBits(), look.is_ground()), seen);
 }
 
-/// What a row's pairs of pixels see, and what the one beside it does.
-struct GrainRow {
-    alignas(64) std::array<std::uint32_t, twos_a_row + 4> seen;
-
-    HWY_INLINE hn::Vec<TwosWhole> at(std::size_t two) const {
-        return hn::LoadU(TwosWhole(), reinterpret_cast<const std::int32_t*>(&seen[two]));
-    }
-};
-
-using TwosHalves = hn::Repartition<std::int16_t, TwosBits>;
-
-/// By how much each part of the colours of pairs of pixels changes, 2^-15 of itself.
-struct ContrastOfTwos {
-    std::array<hn::Vec<TwosHalves>, 3> part;
-
-    /// `numbers`: those of the pixels' covers, 2^-8.
-    HWY_INLINE ContrastOfTwos(
-        const GrainRow& grain,
-        std::size_t two,
-        hn::Vec<TwosBits> numbers,
-        const std::uint32_t* table) {
-        const TwosBits bits;
-        const TwosWhole whole;
-        const auto here = hn::ShiftRight<16>(grain.at(two));
-        const auto seen_beside = grain.at(two + 1);
-        const auto is_ground = hn::Ne(seen_beside, hn::Zero(whole));
-        const auto next = hn::IfThenElse(is_ground, hn::ShiftRight<16>(seen_beside), here);
-        const auto between = hn::ShiftRight<1>(hn::Add(here, next));
-        static_assert(scene::CoverContrast::patterns == 64 && scene::CoverContrast::kinds == 128);
-        const auto entry = [&](hn::Vec<TwosBits> kind, hn::Vec<TwosWhole> pattern) HWY_ATTR {
-            const auto column = hn::ShiftRight<10>(hn::Add(pattern, hn::Set(whole, 32768)));
-            const auto at = hn::Or(hn::ShiftLeft<6>(kind), hn::BitCast(bits, column));
-            return hn::GatherIndex(bits, table, hn::BitCast(whole, at));
-        };
-        const auto first = entry(hn::And(hn::ShiftRight<9>(numbers), twos_of(0x7f)), here);
-        const auto second = entry(hn::ShiftRight<25>(numbers), between);
-        const auto low = twos_of(0xffc0);
-        const auto high = twos_of(0xffc00000U);
-        const auto both = [&](hn::Vec<TwosBits> of_first, hn::Vec<TwosBits> of_second) HWY_ATTR {
-            return hn::BitCast(
-                TwosHalves(), hn::Or(hn::And(of_first, low), hn::And(of_second, high)));
-        };
-        part[0] = both(hn::ShiftRight<16>(first), second);
-        part[1] = both(hn::ShiftRight<6>(first), hn::ShiftLeft<10>(second));
-        part[2] = both(hn::ShiftLeft<4>(first), hn::ShiftLeft<20>(second));
-    }
-};
-
 /// Changes colours of a row of pixels from `first` on by the pattern.
 HWY_INLINE void change_row(
     const GrainRow& grain, const std::uint32_t* table, std::size_t first, TileBuffer& buffer) {
@@ -145,15 +98,19 @@ HWY_INLINE void change_row(
     const auto white = hn::Set(values, std::uint16_t{255 * 256});
     for (std::size_t two = 0; two < twos_a_row; two += twos_at_once) {
         const std::size_t at = first + 2 * two;
-        const auto numbers = hn::LoadU(values, buffer.sums[3].data() + at);
-        const ContrastOfTwos contrast(grain, two, hn::BitCast(TwosBits(), numbers), table);
+        const GroundOfPixels ground(hn::LoadU(values, buffer.sums[3].data() + at));
+        const ContrastOfTwos contrast(grain, two, hn::BitCast(TwosBits(), ground.kind), table);
         const auto left = hn::And(hn::LoadU(TwosBits(), &grain.seen[two]), twos_of(0x7fff));
-        const auto left_of_both = hn::BitCast(halves, hn::Or(left, hn::ShiftLeft<16>(left)));
+        const auto left_of_both = hn::BitCast(values, hn::Or(left, hn::ShiftLeft<16>(left)));
+        // Where other things than ground cover some samples, only the ground's share changes.
+        const auto is_whole = hn::Eq(ground.samples, hn::Set(values, std::uint16_t{16}));
+        const auto of_some = hn::MulHigh(left_of_both, hn::ShiftLeft<12>(ground.samples));
+        const auto of_ground = hn::BitCast(halves, hn::IfThenElse(is_whole, left_of_both, of_some));
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + at;
             const auto own = hn::LoadU(values, sums);
             const auto half_own = hn::BitCast(halves, hn::ShiftRight<1>(own));
-            const auto seen = hn::ShiftLeft<1>(hn::MulHigh(contrast.part[k], left_of_both));
+            const auto seen = hn::ShiftLeft<1>(hn::MulHigh(contrast.part[k], of_ground));
             const auto quarter = hn::MulHigh(half_own, seen);
             const auto times_four = [&](hn::Vec<TwosHalves> value) HWY_ATTR {
                 return hn::ShiftLeft<2>(hn::BitCast(values, hn::Max(value, hn::Zero(halves))));

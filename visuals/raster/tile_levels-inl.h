@@ -53,7 +53,9 @@ HWY_INLINE void paint_strip(
                 for (std::size_t k = 0; k < levels.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
                     hn::StoreU(
-                        hn::Add(hn::LoadU(Strip(), sums), hn::Mul(levels[k].colour(i), counts)),
+                        hn::Add(
+                            hn::LoadU(Strip(), sums),
+                            hn::Mul(of_sample(k, levels[k].colour(i)), counts)),
                         Strip(),
                         sums);
                 }
@@ -130,7 +132,7 @@ HWY_INLINE void paint_strip_of_middles(
                     hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
                 for (std::size_t k = 0; k < levels.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
-                    const auto sixteen = hn::ShiftLeft<4>(levels[k].colour(i));
+                    const auto sixteen = hn::ShiftLeft<4>(of_sample(k, levels[k].colour(i)));
                     hn::StoreU(
                         hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
                 }

@@ -272,7 +272,7 @@ HWY_INLINE void paint_levels_in_pairs(
         const auto counts = hn::PopulationCount(fresh);
         for (std::size_t k = 0; k < levels.size(); ++k) {
             std::uint16_t* const sums = buffer.sums[k].data();
-            const auto colour = from_level(levels[k].level(window));
+            const auto colour = of_sample(k, from_level(levels[k].level(window)));
             window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
         }
         if constexpr (has_grain) {

@@ -96,20 +96,19 @@ struct BlockWalk {
     }
 };
 
-/// How many texels of the finest level a pixel is wide, squared.
-HWY_INLINE double
-footprint2(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends, double share) {
+HWY_INLINE TexelSteps
+texel_steps(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends, double share) {
     const auto& [here, end] = ends;
-    const Reals reals;
     // The first two values are the place.
-    const auto squared = [&](hn::Vec<Reals> step) HWY_ATTR {
-        const auto squares = hn::Mul(step, step);
-        return hn::GetLane(hn::Add(squares, hn::Reverse2(reals, squares)));
+    const auto place = [](hn::Vec<Reals> step) HWY_ATTR {
+        alignas(32) std::array<double, 4> values;
+        hn::Store(step, Reals(), values.data());
+        return std::array{values[0], values[1]};
     };
-    const auto across = hn::Mul(hn::Sub(end.value[0], here.value[0]), real(share));
-    const auto down = hn::Mul(
-        hn::Sub(planes.per_y[0], hn::Mul(here.value[0], real(planes.by_w.per_y))), real(here.w));
-    return std::max(squared(across), squared(down));
+    const auto turned = hn::Mul(here.value[0], real(planes.by_w.per_y));
+    return {
+        place(hn::Mul(hn::Sub(end.value[0], here.value[0]), real(share))),
+        place(hn::Mul(hn::Sub(planes.per_y[0], turned), real(here.w)))};
 }
 
 /// The lower halves of both registers' values in turn: those of `even` in even lanes.
@@ -240,9 +239,53 @@ struct TexelLine {
     std::array<std::int32_t, 2> per_px;
 };
 
+/// Steps of a level's places, 2^-16 texel, in a texel of the finest level.
+HWY_INLINE double texel_scale(std::size_t level) {
+    return 65536.0 / static_cast<double>(std::uint64_t{1} << level);
+}
+
+/// The places of a level that a pixel's colour is the mean of, 2^-16 texel.
+struct Probes {
+    int count;
+    std::uint16_t share;              ///< 2^-16
+    std::array<std::int32_t, 2> last; ///< from the pixel's middle
+    std::array<std::int32_t, 2> step; ///< to the next one
+
+    HWY_INLINE Probes(const TextureLevels& levels, std::size_t level)
+        : count(levels.probes)
+        , share(static_cast<std::uint16_t>(65535 / levels.probes)) {
+        const double scale = texel_scale(level);
+        for (std::size_t k = 0; k < 2; ++k) {
+            last[k] = static_cast<std::int32_t>(static_cast<double>(levels.reach[k]) * scale);
+            step[k] = count > 1 ? 2 * last[k] / (count - 1) : 0;
+        }
+    }
+
+    /// The mean of colours_at(how far from the pixel's middle).
+    template <class Halves, class ColoursAt>
+    HWY_INLINE MixedColours<Halves> mean(const ColoursAt& colours_at) const {
+        const Halves halves;
+        MixedColours<Halves> sum{hn::Zero(halves), hn::Zero(halves), hn::Zero(halves)};
+        for (int k = 0; k < count; ++k) {
+            const MixedColours<Halves> one =
+                colours_at(k * step[0] - last[0], k * step[1] - last[1]);
+            if (count == 1) {
+                return one;
+            }
+            for (std::size_t i = 0; i < sum.size(); ++i) {
+                sum[i] = hn::Add(sum[i], hn::MulHigh(one[i], hn::Set(halves, share)));
+            }
+        }
+        return sum;
+    }
+};
+
 /// A level's colours along a block.
-HWY_INLINE void
-sample_line(const GroundImage::Level& level, const TexelLine& line, BlockColours& to) {
+HWY_INLINE void sample_line(
+    const GroundImage::Level& level,
+    const TexelLine& line,
+    const Probes& probes,
+    BlockColours& to) {
     const Pixels pixels;
     const hn::RebindToSigned<hn::Repartition<std::uint32_t, Pixels>> sign;
     for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(pixels)) {
@@ -253,22 +296,29 @@ sample_line(const GroundImage::Level& level, const TexelLine& line, BlockColours
         };
         const auto next = [&](std::size_t k)
                               HWY_ATTR { return hn::Add(even(k), hn::Set(sign, line.per_px[k])); };
-        const auto colours = mixed_colours<Pixels>(level, even(0), even(1), next(0), next(1));
+        const std::array x{even(0), next(0)};
+        const std::array y{even(1), next(1)};
+        const auto colours = probes.mean<Pixels>([&](std::int32_t dx, std::int32_t dy) HWY_ATTR {
+            const auto off_x = hn::Set(sign, dx);
+            const auto off_y = hn::Set(sign, dy);
+            return mixed_colours<Pixels>(
+                level,
+                hn::Add(x[0], off_x),
+                hn::Add(y[0], off_y),
+                hn::Add(x[1], off_x),
+                hn::Add(y[1], off_y));
+        });
         for (std::size_t k = 0; k < colours.size(); ++k) {
             hn::StoreU(colours[k], pixels, &to.level[k][i]);
         }
     }
 }
 
-/// Steps of a level's places, 2^-16 texel, in a texel of the finest level.
-HWY_INLINE double texel_scale(std::size_t level) {
-    return 65536.0 / static_cast<double>(std::uint64_t{1} << level);
-}
-
 /// The texture's colours along a block, from one of its levels.
 HWY_INLINE void sample_texture(
     const GroundImage& image,
     std::size_t number,
+    const TextureLevels& chosen,
     const std::array<TexturePoint, 2>& ends,
     double share,
     BlockColours& to) {
@@ -283,7 +333,11 @@ HWY_INLINE void sample_texture(
         });
     };
     const BlockWalk walk(places(ends[0]), places(ends[1]), share);
-    sample_line(level, {{walk.first[0], walk.first[1]}, {walk.per_px[0], walk.per_px[1]}}, to);
+    sample_line(
+        level,
+        {{walk.first[0], walk.first[1]}, {walk.per_px[0], walk.per_px[1]}},
+        Probes(chosen, number),
+        to);
 }
 
 } // namespace HWY_NAMESPACE

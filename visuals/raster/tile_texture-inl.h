@@ -130,12 +130,12 @@ HWY_INLINE void add_texture(
     const std::array ends{
         planes.at(block.at.x, block.at.y), planes.at(block.at.x + block.px(), block.at.y)};
     const TextureLevels chosen =
-        levels_of(footprint2(planes, ends, by_px), job.ground->levels().size());
+        levels_of(texel_steps(planes, ends, by_px), job.ground->levels().size());
     BlockTexels texels;
     texels.coarse_share = chosen.coarse_share;
-    sample_texture(*job.ground, chosen.fine, ends, by_px, texels.fine);
+    sample_texture(*job.ground, chosen.fine, chosen, ends, by_px, texels.fine);
     if (chosen.coarse_share > 0) {
-        sample_texture(*job.ground, chosen.fine + 1, ends, by_px, texels.coarse);
+        sample_texture(*job.ground, chosen.fine + 1, chosen, ends, by_px, texels.coarse);
     }
     add_colours(texels, shares_between(ends, by_px), job, block, buffer);
 }
@@ -149,9 +149,14 @@ HWY_INLINE void add_affine_texture(
     BlockTexels texels;
     texels.coarse_share = affine.chosen.coarse_share;
     const std::vector<GroundImage::Level>& levels = job.ground->levels();
-    sample_line(levels[affine.chosen.fine], affine.line(0, block.at), texels.fine);
+    const std::size_t fine = affine.chosen.fine;
+    sample_line(levels[fine], affine.line(0, block.at), Probes(affine.chosen, fine), texels.fine);
     if (affine.chosen.coarse_share > 0) {
-        sample_line(levels[affine.chosen.fine + 1], affine.line(1, block.at), texels.coarse);
+        sample_line(
+            levels[fine + 1],
+            affine.line(1, block.at),
+            Probes(affine.chosen, fine + 1),
+            texels.coarse);
     }
     BlockShares shares;
     affine.share(0, block.at, shares.light_left);

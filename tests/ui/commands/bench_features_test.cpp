@@ -49,4 +49,13 @@ TEST_CASE("a table of costs has the defaults as they are, by OpenGL, too") {
     CHECK(scenes.back().settings == by_gl);
 }
 
+TEST_CASE("a table of costs has ground by a texture from both renderers, else without features") {
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    settings::RunSettings expected = scenes.front().settings;
+    expected.air.ground_shading = visuals::scene::GroundShading::Texture;
+    CHECK(scene_named(scenes, "hills: ground by texture").settings == expected);
+    expected.drawing.renderer = settings::RendererKind::Gl;
+    CHECK(scene_named(scenes, "hills: ground by texture by OpenGL").settings == expected);
+}
+
 } // namespace octant::ui::commands

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 namespace octant::visuals::raster {
@@ -17,6 +18,7 @@ namespace {
 constexpr glm::ivec2 small_px{256, 192};
 constexpr int texels = 512;
 constexpr int levels_a_texel = 16;
+constexpr float ground_per_m = 0.02F;
 
 /// Up and down in steps of levels_a_texel.
 int zigzag(int texel) {
@@ -75,7 +77,95 @@ double level_at(double texel) {
     return zigzag(low) * (1.0 - part) + zigzag(low + 1) * part;
 }
 
+/// One over the distance of ground that reaches to the picture's upper edge.
+double nearness_of_ground(double y_px) {
+    return 0.01 + 0.09 * y_px / small_px.y;
+}
+
+/// That ground in triangles of so many pixels: at the top a pixel is five times as long as wide.
+void paint_ground(FlatPlan& plan, int cell_px, scene::DepthUse depth) {
+    std::vector<FlatTriangle> triangles;
+    const auto add = [&](const std::array<glm::ivec2, 3>& at_px) {
+        FlatTriangle triangle;
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.at_px[i] = glm::vec2(at_px[i]);
+            triangle.depth_m[i] = static_cast<float>(1.0 / nearness_of_ground(at_px[i].y));
+        }
+        triangles.push_back(triangle);
+    };
+    for (int y = 0; y < small_px.y; y += cell_px) {
+        for (int x = 0; x < small_px.x; x += cell_px) {
+            const glm::ivec2 at(x, y);
+            add({at, at + glm::ivec2(cell_px, 0), at + glm::ivec2(0, cell_px)});
+            add({at + glm::ivec2(cell_px, 0), at + cell_px, at + glm::ivec2(0, cell_px)});
+        }
+    }
+    plan.paint(triangles, depth);
+    plan.plan().ambient = glm::vec3(1.0F);
+    plan.plan().sunlight = glm::vec3(0.0F);
+    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(ground_per_m)};
+    plan.plan().ground_texture = {place, place};
+}
+
+/// The mean red of the zigzag over a pixel of that ground, which does not change along a column.
+double red_of_ground(int x, int y) {
+    constexpr int side = 16;
+    double sum = 0.0;
+    for (int k = 0; k < side * side; ++k) {
+        const glm::dvec2 at_px(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
+        const double across = at_px.x / small_px.x * 2.0 - 1.0;
+        const double texel =
+            (0.5 + across / nearness_of_ground(at_px.y) * double{ground_per_m}) * texels - 0.5;
+        sum += level_at(std::clamp(texel, 0.0, texels - 1.0));
+    }
+    return sum / (side * side);
+}
+
 } // namespace
+
+TEST_CASE("ground at a slant keeps the contrast that its width has room for") {
+    const scene::GroundTexture texture = zigzag_texture();
+    for (const int cell_px : {8, 64}) {
+        FlatPlan plan(small_px);
+        paint_ground(plan, cell_px, scene::DepthUse::None);
+        const scene::Picture picture = drawn(plan.plan(), small_px, 16, 1, &texture);
+        // The zigzag's period is thirty texels; a pixel is three to six wide and up to thirty long.
+        double errors = 0.0;
+        double contrast = 0.0;
+        for (int y = 8; y < 32; ++y) {
+            for (int x = 96; x < 160; ++x) { // where the texture lies
+                const double red = red_of_ground(x, y);
+                errors += (pixel(picture, x, y).x - red) * (pixel(picture, x, y).x - red);
+                contrast += (red - 120.0) * (red - 120.0);
+            }
+        }
+        CAPTURE(cell_px, errors / contrast);
+        CHECK(errors < 0.05 * contrast);
+    }
+}
+
+TEST_CASE("a texture looks the same in painting order and by depth") {
+    const scene::GroundTexture texture = zigzag_texture();
+    for (const int cell_px : {8, 64}) {
+        FlatPlan ordered(small_px);
+        paint_ground(ordered, cell_px, scene::DepthUse::None);
+        FlatPlan by_depth(small_px);
+        paint_ground(by_depth, cell_px, scene::DepthUse::Nearest);
+        const scene::Picture one = drawn(ordered.plan(), small_px, 16, 1, &texture);
+        const scene::Picture other = drawn(by_depth.plan(), small_px, 16, 1, &texture);
+        double differences = 0.0;
+        double contrast = 0.0;
+        for (int y = 8; y < 32; ++y) {
+            for (int x = 96; x < 160; ++x) {
+                const int red = pixel(one, x, y).x;
+                differences += std::abs(red - pixel(other, x, y).x);
+                contrast += std::abs(red - 120);
+            }
+        }
+        CAPTURE(cell_px, differences / contrast);
+        CHECK(differences < 0.03 * contrast);
+    }
+}
 
 TEST_CASE("places in a texture are right to a sixteenth of a texel in small triangles, a fifth in "
           "large") {

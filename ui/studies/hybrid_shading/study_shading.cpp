@@ -6,6 +6,7 @@
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"
 #include "ui/report/table_text.h"
+#include "ui/studies/hybrid_shading/held_times.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
 #include "ui/studies/hybrid_shading/shading_runs.h"
 #include "ui/studies/hybrid_shading/shading_tables.h"
@@ -168,7 +169,9 @@ void study_shading(const ShadingStudyOptions& options) {
             aircraft.push_back(mesh.string());
         }
         tables.push_back(shading_times_table(aircraft, options.quiet));
-        files.push_back("times");
+        files.emplace_back("times");
+        tables.push_back(held_times_table(aircraft, options.quiet));
+        files.emplace_back("held");
     }
     std::string markdown;
     for (std::size_t i = 0; i < tables.size(); ++i) {
