@@ -2,55 +2,59 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace octant::ui::commands {
 
 namespace {
 
+namespace scene = visuals::scene;
 using settings::RunSettings;
 
-/// What makes a picture richer, and how it is switched on.
+/// What makes a picture richer: its share of what it can be in settings, 0: off.
 struct Feature {
     std::string_view name;
-    void (*put)(RunSettings&, bool on);
+    double (*share)(const RunSettings&);
+    void (*put)(RunSettings&, double share);
+    double on = 1.0; ///< the share that is measured
 };
+
+/// A feature that is a field of a part of the settings: a flag or a share.
+template <auto part, auto field>
+constexpr Feature feature(std::string_view name, double on = 1.0) {
+    return {
+        name,
+        [](const RunSettings& settings) { return static_cast<double>((settings.*part).*field); },
+        [](RunSettings& settings, double share) {
+            auto& value = (settings.*part).*field;
+            value = static_cast<std::remove_reference_t<decltype(value)>>(share);
+        },
+        on};
+}
 
 constexpr double cloud_share = 0.5;
 
+using scene::AirSettings;
+using scene::GroundSettings;
+using scene::SurfaceSettings;
+
 constexpr std::array features{
-    Feature{"sky", [](RunSettings& settings, bool on) { settings.air.sky = on; }},
-    Feature{
-        "relief shadows", [](RunSettings& settings, bool on) { settings.air.relief_shadows = on; }},
-    Feature{
-        "aircraft's shadows",
-        [](RunSettings& settings, bool on) { settings.surface.shadows = on; }},
-    Feature{
-        "near detail", [](RunSettings& settings, bool on) { settings.ground.near_detail = on; }},
-    Feature{"scenery", [](RunSettings& settings, bool on) { settings.ground.scenery = on; }},
-    Feature{
-        "clouds",
-        [](RunSettings& settings, bool on) { settings.air.clouds = on ? cloud_share : 0.0; }},
-    Feature{"effects", [](RunSettings& settings, bool on) { settings.surface.effects = on; }},
-    Feature{"path ribbon", [](RunSettings& settings, bool on) { settings.view.path_ribbon = on; }}};
+    feature<&RunSettings::air, &AirSettings::sky>("sky"),
+    feature<&RunSettings::air, &AirSettings::relief_shadows>("relief shadows"),
+    feature<&RunSettings::surface, &SurfaceSettings::shadows>("aircraft's shadows"),
+    feature<&RunSettings::ground, &GroundSettings::near_detail>("near detail"),
+    feature<&RunSettings::ground, &GroundSettings::scenery>("scenery"),
+    feature<&RunSettings::air, &AirSettings::clouds>("clouds", cloud_share),
+    feature<&RunSettings::surface, &SurfaceSettings::effects>("effects"),
+    feature<&RunSettings::view, &scene::ViewSettings::path_ribbon>("path ribbon")};
 
-void put_all(RunSettings& settings, bool on) {
+/// The settings of a scene with each feature's share as `share_of` says.
+template <class ShareOf>
+RunSettings with_features(RunSettings settings, const ShareOf& share_of) {
     for (const Feature& feature : features) {
-        feature.put(settings, on);
+        feature.put(settings, share_of(feature));
     }
-}
-
-/// The settings of a scene with the features of the defaults.
-RunSettings with_defaults(RunSettings settings) {
-    const RunSettings defaults;
-    settings.air.sky = defaults.air.sky;
-    settings.air.relief_shadows = defaults.air.relief_shadows;
-    settings.air.clouds = defaults.air.clouds;
-    settings.surface.shadows = defaults.surface.shadows;
-    settings.surface.effects = defaults.surface.effects;
-    settings.ground.near_detail = defaults.ground.near_detail;
-    settings.ground.scenery = defaults.ground.scenery;
-    settings.view.path_ribbon = defaults.view.path_ribbon;
     return settings;
 }
 
@@ -61,26 +65,26 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
     const auto add = [&](std::string_view name, RunSettings settings) {
         scenes.push_back({scene.name + ": " + std::string(name), std::move(settings)});
     };
-    RunSettings none = scene.settings;
-    put_all(none, false);
+    const auto with = [&](const auto& share_of) { return with_features(scene.settings, share_of); };
+    const RunSettings none = with([](const Feature&) { return 0.0; });
     add("no features", none);
     for (const Feature& feature : features) {
         RunSettings one = none;
-        feature.put(one, true);
+        feature.put(one, feature.on);
         add(feature.name, one);
     }
     RunSettings textured = none;
     textured.air.ground_shading = visuals::scene::GroundShading::Texture;
     add("ground by texture", textured);
-    add("those of the defaults", with_defaults(scene.settings));
-    RunSettings all = scene.settings;
-    put_all(all, true);
-    add("all of them", all);
+    const RunSettings by_default =
+        with([](const Feature& feature) { return feature.share(RunSettings()); });
+    add("those of the defaults", by_default);
+    add("all of them", with([](const Feature& feature) { return feature.on; }));
     if (scene.settings.drawing.renderer != settings::RendererKind::Gl) {
         textured.drawing.renderer = settings::RendererKind::Gl;
         textured.view.samples.reset();
         add("ground by texture by OpenGL", textured);
-        RunSettings by_gl = with_defaults(scene.settings);
+        RunSettings by_gl = by_default;
         by_gl.drawing.renderer = settings::RendererKind::Gl;
         by_gl.view.samples.reset();
         add("those of the defaults by OpenGL", by_gl);

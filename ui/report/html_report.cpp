@@ -67,8 +67,9 @@ std::string badges(const LoadedRecording& recording) {
                  "then, and there are no hashes.";
     }
     if (!recording.disagreement.empty()) {
-        notes += "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
-                 recording.disagreement + ". ";
+        notes +=
+            "Rows are missing or the summary is not theirs; the figures are those of the rows: " +
+            recording.disagreement + ". ";
     }
     if (!recording.run.stopped.empty()) {
         notes += "Ended by " + recording.run.stopped + ". ";

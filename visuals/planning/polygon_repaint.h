@@ -38,8 +38,8 @@ public:
 
 private:
     /// More take longer than a frame has: some hundred are usual where two aircraft meet.
-    static constexpr int most_again = 4000;
-    static constexpr std::size_t most_compared = 1'000'000;
+    static constexpr int most_again = 1500;
+    static constexpr std::size_t most_compared = 250'000;
 
     static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
 

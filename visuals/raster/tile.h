@@ -129,6 +129,7 @@ struct TileBuffer {
     float* nearness_of_row(int row) {
         return nearness.data() + nearness_room + static_cast<std::size_t>(row) * (tile_width / 2);
     }
+
     const float* nearness_of_row(int row) const {
         return const_cast<TileBuffer*>(this)->nearness_of_row(row);
     }

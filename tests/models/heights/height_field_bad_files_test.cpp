@@ -219,7 +219,7 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
     RasterFile world = flat(72, 36);
     world.system = "EPSG:4326";
     world.transform = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
-    check_raster_refused(world, no_frame + "355.0 x 175.0 degrees about latitude 0.0");
+    check_raster_refused(world, no_frame + "358.6 x 175.0 degrees about latitude 0.0");
     RasterFile pole = flat(20, 20);
     pole.system = "EPSG:4326";
     pole.transform = {0.0, 0.05, 0.0, 90.5, 0.0, -0.05};

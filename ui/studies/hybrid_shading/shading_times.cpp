@@ -178,7 +178,8 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         "and the writing of refined meshes included. Times are the machine's, not the same twice. "
         "In the paper's count of operations Gouraud costs 1.3 times as much as flat, on devices "
         "that divided for each pixel; the columns say what it costs here, and what light in each "
-        "pixel (Phong) does. The last column is what the 1989 paper's 5.6 to 7.1 has become.",
+        "pixel (Phong) does. The last columns paint by a depth buffer, which asks for depth in each "
+        "sample of the aircraft and is not tuned as the painter is.",
         frames - warm_up_frames);
     return table;
 }
