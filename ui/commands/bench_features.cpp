@@ -75,15 +75,20 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
     }
     RunSettings textured = none;
     textured.air.ground_shading = visuals::scene::GroundShading::Texture;
-    add("ground by texture", textured);
+    const bool has_ground = scene.settings.path.terrain != "none";
+    if (has_ground) {
+        add("ground by texture", textured);
+    }
     const RunSettings by_default =
         with([](const Feature& feature) { return feature.share(RunSettings()); });
     add("those of the defaults", by_default);
     add("all of them", with([](const Feature& feature) { return feature.on; }));
     if (scene.settings.drawing.renderer != settings::RendererKind::Gl) {
-        textured.drawing.renderer = settings::RendererKind::Gl;
-        textured.view.samples.reset();
-        add("ground by texture by OpenGL", textured);
+        if (has_ground) {
+            textured.drawing.renderer = settings::RendererKind::Gl;
+            textured.view.samples.reset();
+            add("ground by texture by OpenGL", textured);
+        }
         RunSettings by_gl = by_default;
         by_gl.drawing.renderer = settings::RendererKind::Gl;
         by_gl.view.samples.reset();

@@ -80,7 +80,6 @@ GrainRays grain_rays(const scene::FramePlan& plan, const Projection& projection)
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;
     rays.haze_falloff_per_m = haze.falloff_per_m;
-    rays.texels = grain_image().texels();
     rays.contrast = plan.grain->contrast->table().data();
     return rays;
 }

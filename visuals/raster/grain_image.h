@@ -42,7 +42,6 @@ struct GrainRays {
     alignas(16) std::array<std::array<float, scene::GrainPattern::scales>, 3> at_eye{};
     float haze_per_m = 0.0F; ///< as Light
     float haze_falloff_per_m = 0.0F;
-    const std::uint16_t* texels = nullptr;   ///< of grain_image()
     const std::uint32_t* contrast = nullptr; ///< scene::CoverContrast::table()
 };
 

@@ -21,11 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// How many parts of a strip have columns that count: most triangles are narrower than half of one.
-HWY_INLINE std::size_t parts_of(std::uint32_t columns) {
-    return (static_cast<std::size_t>(std::bit_width(columns)) + part_px - 1) / part_px;
-}
-
 /// Paints the strip of a triangle that begins at a column of the tile.
 template <bool has_grain>
 HWY_INLINE void paint_strip(
@@ -37,7 +32,6 @@ HWY_INLINE void paint_strip(
     TileBuffer& buffer) {
     const std::uint32_t columns = box.columns_of_strip(left);
     const std::uint64_t wide_columns = std::uint64_t{columns} << left;
-    const std::size_t parts = parts_of(columns);
     const std::uint64_t full_row = job.full_row();
     const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
     const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
@@ -49,8 +43,7 @@ HWY_INLINE void paint_strip(
         if ((wide_columns & ~full) != 0) {
             const StripValues masks = coverage.samples();
             StripValues after;
-            after.fill(hn::Zero(Strip()));
-            for (std::size_t i = 0; i < parts; ++i) {
+            for (std::size_t i = 0; i < strip_parts; ++i) {
                 const std::size_t at = pixel + i * part_px;
                 const auto before = hn::LoadU(Strip(), buffer.covered.data() + at);
                 const auto fresh = hn::AndNot(before, masks[i]);
@@ -130,7 +123,7 @@ HWY_INLINE void paint_strip_of_middles(
             buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
             alignas(8) std::array<std::uint8_t, 8> bits{};
             std::memcpy(bits.data(), &fresh, sizeof fresh);
-            for (std::size_t i = 0; i < parts_of(columns); ++i) {
+            for (std::size_t i = 0; i < strip_parts; ++i) {
                 const std::size_t at = pixel + i * part_px;
                 const auto is_fresh = hn::LoadMaskBits(Strip(), bits.data() + i * part_px / 8);
                 std::uint16_t* const covered = buffer.covered.data() + at;

@@ -14,7 +14,7 @@ namespace octant::visuals::scene {
 /// each `scale_step` times as wide as the one before and turned by a right angle: a pixel sees two
 /// of them, so that it has contrast however large it is.
 struct GrainPattern {
-    static constexpr int texels_a_side = 256;
+    static constexpr int texels_a_side = 512;
     static constexpr float texels_per_m = 8.0F; ///< at the finest scale
     static constexpr int scales = 4;
     static constexpr int levels_a_scale = 4; ///< halvings of size from one scale to the next

@@ -270,8 +270,7 @@ TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
         plan.paint({wall});
         put_grain(plan);
         for (std::size_t scale = 0; scale < at_eye.size(); ++scale) {
-            const float tiles =
-                px * px_m / static_cast<float>(scene::grain_tile_m(static_cast<int>(scale)));
+            const float tiles = px * px_m / (64.0F * std::exp2(4.0F * static_cast<float>(scale)));
             glm::vec2& eye = plan.plan().grain->at_eye[scale];
             (scale % 2 == 0 ? eye.x : eye.y) += scale % 2 == 0 ? tiles : -tiles;
         }

@@ -6,7 +6,7 @@ layout(binding = 2) uniform sampler2D pattern;
 layout(binding = 3) uniform sampler2D contrast;
 
 const float texels_per_m = 8.0;
-const float texels_a_side = 256.0;
+const float texels_a_side = 512.0;
 const vec2 lean = vec2(0.22, -0.27);
 
 const float upright_from = 0.8;
@@ -39,8 +39,8 @@ vec3 grain_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     if (covers <= 0.0 || grain_x[0] < 0.0) {
         return vec3(0.0);
     }
-    // A little finer than usual: the pattern's finest features are two texels wide.
-    float width2 = max(dot(across, across), 0.75 * dot(down, down)) * texels_per_m * texels_per_m;
+    // Half a level finer than usual: the pattern's finest features are two texels wide.
+    float width2 = max(dot(across, across), 0.5 * dot(down, down)) * texels_per_m * texels_per_m;
     float level = clamp(0.5 * log2(max(width2, 1.0)), 0.0, 11.99);
     int scale = int(level / 4.0);
     float through = level / 4.0 - float(scale);
