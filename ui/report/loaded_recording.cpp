@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
@@ -41,14 +42,14 @@ std::string read_rows(const fs::path& file, FlightDigest& flight) {
     FrameReader rows(file);
     std::string gap;
     int line = 1;
-    std::optional<int> next;
+    std::optional<std::int64_t> next;
     while (const auto row = rows.next()) {
         ++line;
         if (gap.empty() && next && row->frame != *next) {
             gap = fmt::format(
                 "line {} of frames.csv: expected frame {}, got {}", line, *next, row->frame);
         }
-        next = row->frame + 1;
+        next = std::int64_t{row->frame} + 1;
         flight.add(*row);
     }
     return gap;
