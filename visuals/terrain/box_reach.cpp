@@ -6,13 +6,18 @@ namespace octant::visuals::terrain {
 
 void BoxReach::look(const glm::dvec3& ahead, double corner_cos) {
     in_picture_ = ahead != glm::dvec3(0.0);
-    ahead_east_m_ = static_cast<float>(ahead.x * spacing_m_);
-    ahead_north_m_ = static_cast<float>(ahead.y * spacing_m_);
-    tilt_m2_ = static_cast<float>(ahead.z * ahead.z) * spacing_squared_m2_;
-    corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
+    ahead_ = {static_cast<float>(ahead.x * spacing_m_), static_cast<float>(ahead.y * spacing_m_)};
     const double level = std::hypot(ahead.x, ahead.y);
-    const double most_across =
-        level + std::abs(ahead.z) * std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
+    const double tilt = level > 0.0 ? std::abs(ahead.z) / level : 0.0;
+    aside_ = {
+        static_cast<float>(-tilt * ahead.y * spacing_m_),
+        static_cast<float>(tilt * ahead.x * spacing_m_)};
+    level_ = static_cast<float>(level);
+    corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
+    const double corner = std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
+    const double most_aside = std::abs(ahead.z) * corner;
+    most_aside_squared_ = static_cast<float>(most_aside * most_aside);
+    const double most_across = level + most_aside;
     near_factor_ = static_cast<float>(1.0 / (most_across * most_across));
 }
 

@@ -37,13 +37,29 @@ public:
     FourFloats squared_m2(const FourBoxes& boxes) const;
 
 private:
+    /// What a sample east and a sample north bring along a level direction, in metres.
+    struct Along {
+        float east_m = 0.0F;
+        float north_m = 0.0F;
+    };
+
+    /// The ends of what boxes reach along a direction.
+    struct Range {
+        FourFloats least_m;
+        FourFloats most_m;
+    };
+
+    static Range range_along(const FourBoxes& boxes, const Along& along);
+    FourFloats least_share(const FourBoxes& boxes, const Range& level) const;
+
     double spacing_m_;
     float spacing_squared_m2_;
     bool in_picture_ = false;
-    float ahead_east_m_ = 0.0F; ///< What a sample east brings ahead.
-    float ahead_north_m_ = 0.0F;
-    float tilt_m2_ = 0.0F; ///< The square of the sine of the pitch, times a sample's.
+    Along ahead_;        ///< The level part of the direction.
+    Along aside_;        ///< Square to it, times the sine of the pitch.
+    float level_ = 1.0F; ///< The cosine of the pitch.
     float corner_cos_squared_ = 1.0F;
+    float most_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
     float near_factor_ = 1.0F;
 };
 
@@ -54,14 +70,26 @@ inline FourFloats squared_distance(FourFloats before, FourFloats after) {
     return off * off;
 }
 
-/// The larger square of the ends of four boxes.
-inline FourFloats squared_reach(FourFloats before, FourFloats after) {
-    return larger(before * before, after * after);
-}
-
-/// The least of a linear function over what reaches from `before` to `after`.
+/// A linear function at `before` where it rises and at `after` where it falls: its least over what
+/// reaches from `before` to `after`, and its most with the ends exchanged.
 inline FourFloats least_along(FourFloats before, FourFloats after, float slope) {
     return four(slope) * (slope > 0.0F ? before : after);
+}
+
+inline BoxReach::Range BoxReach::range_along(const FourBoxes& b, const Along& along) {
+    return {
+        least_along(b.west, b.east, along.east_m) + least_along(b.south, b.north, along.north_m),
+        least_along(b.east, b.west, along.east_m) + least_along(b.north, b.south, along.north_m)};
+}
+
+/// Lower bounds of the depth over the level distance ahead or behind, at or above zero.
+inline FourFloats BoxReach::least_share(const FourBoxes& b, const Range& level) const {
+    constexpr float no_way_m = 1e-6F; // in place of a division by zero
+    const FourFloats worst_m = b.ahead_m < four(0.0F) ? level.least_m : level.most_m;
+    const FourFloats before = four(1.0F) + b.ahead_m / larger(worst_m, four(no_way_m));
+    const FourFloats behind = b.ahead_m / larger(-level.least_m, four(no_way_m)) - four(1.0F);
+    const FourFloats share = level.least_m < four(0.0F) ? smaller(before, behind) : before;
+    return four(level_) * larger(share, four(0.0F));
 }
 
 inline FourFloats BoxReach::squared_m2(const FourBoxes& b) const {
@@ -73,16 +101,15 @@ inline FourFloats BoxReach::squared_m2(const FourBoxes& b) const {
     if (!in_picture_) {
         return distance_m2;
     }
-    const FourFloats level_m =
-        least_along(b.west, b.east, ahead_east_m_) + least_along(b.south, b.north, ahead_north_m_);
-    const FourFloats most_level_m = least_along(b.west, b.east, -ahead_east_m_) +
-                                    least_along(b.south, b.north, -ahead_north_m_);
-    const FourFloats depth_m = larger(level_m + b.ahead_m, four(0.0F));
+    const Range level = range_along(b, ahead_);
+    const FourFloats depth_m = larger(level.least_m + b.ahead_m, four(0.0F));
     const FourFloats depth_m2 = larger(depth_m * depth_m, four(corner_cos_squared_) * distance_m2);
-    const FourFloats across_m2 =
-        larger(level_m * level_m, most_level_m * most_level_m) +
-        four(tilt_m2_) * (squared_reach(b.west, b.east) + squared_reach(b.south, b.north));
-    return depth_m2 * larger(depth_m2 / across_m2, four(near_factor_));
+    const Range aside = range_along(b, aside_);
+    const FourFloats aside_m2 = larger(aside.least_m * aside.least_m, aside.most_m * aside.most_m);
+    const FourFloats share = least_share(b, level);
+    const FourFloats across =
+        four(1.0F) / (share * share) + smaller(aside_m2 / depth_m2, four(most_aside_squared_));
+    return depth_m2 * larger(four(1.0F) / across, four(near_factor_));
 }
 
 } // namespace octant::visuals::terrain

@@ -14,11 +14,14 @@
 // - D2 is at least 1 m^2.
 // - In a flat picture an error counts for more beside its middle than D tells. At a place p, whose
 //   depth is z = p f, where f is the direction of view, an error e moves a pixel by F e n / (z (z +
-//   e f_z)), with n^2 = (p_h f_h)^2 + f_z^2 p_h^2 (h: horizontal part). So D is replaced by a lower
-//   bound of z^2 / n over what a picture can see of the box: z is at least the least of the box,
-//   and at least D by the cosine of the picture's corners; n is at most the most of the box, and at
-//   most z by its most in the picture. All are nested as D is. The term e f_z is at most the wanted
-//   error: it adds one to F / wanted error.
+//   e f_z)), with n^2 = P^2 + f_z^2 R^2, where P and R are how far p lies ahead and aside on the
+//   level. So D is replaced by a lower bound of z / (n / z) over what a picture can see of the box.
+//   z is at least the least of the box, and at least D by the cosine of the picture's corners.
+//   With a = p_z f_z, z = P |f_h| + a (h: horizontal part), so that z / P is at least |f_h| + a / P
+//   for the least a of the box and its largest P, or its least P where a is below zero. R / z is at
+//   most the largest R of the box over its least z, and at most the tangent at the picture's
+//   corners. All are nested as D is. The term e f_z is at most the wanted error: it adds one to F /
+//   wanted error.
 // - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //

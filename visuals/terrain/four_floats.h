@@ -10,6 +10,11 @@ inline FourFloats larger(FourFloats a, FourFloats b) {
     return a > b ? a : b;
 }
 
+/// The smaller one of each pair.
+inline FourFloats smaller(FourFloats a, FourFloats b) {
+    return a < b ? a : b;
+}
+
 /// The same number four times.
 inline FourFloats four(float each) {
     return FourFloats{each, each, each, each};
