@@ -119,17 +119,22 @@ strip_levels(const Levels& levels, const glm::ivec2& from_px, int columns_right)
     }
 }
 
-/// A bit for each pixel of a strip whose value has all bits set.
-HWY_INLINE std::uint32_t full_bits(const StripValues& values) {
+/// A bit for each pixel of a strip that has a value.
+HWY_INLINE std::uint32_t bits_equal_to(const StripValues& values, std::uint16_t value) {
     alignas(8) std::array<std::uint8_t, 16> bytes;
     constexpr std::size_t bytes_a_part = part_px / 8;
     for (std::size_t i = 0; i < strip_parts; ++i) {
         hn::StoreMaskBits(
-            Strip(), hn::Eq(values[i], hn::Set(Strip(), 0xffff)), bytes.data() + i * bytes_a_part);
+            Strip(), hn::Eq(values[i], hn::Set(Strip(), value)), bytes.data() + i * bytes_a_part);
     }
     std::uint32_t bits = 0;
     std::memcpy(&bits, bytes.data(), sizeof bits);
     return bits;
+}
+
+/// A bit for each pixel of a strip whose value has all bits set.
+HWY_INLINE std::uint32_t full_bits(const StripValues& values) {
+    return bits_equal_to(values, 0xffff);
 }
 
 } // namespace HWY_NAMESPACE

@@ -8,6 +8,7 @@
 #endif
 
 #include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/texture_windows-inl.h"
 #include "visuals/raster/tile_rows-inl.h"
 #include "visuals/raster/tile_texels-inl.h"
 
@@ -31,48 +32,52 @@ struct Places {
     std::array<TexelPlaces, 2> y;
 };
 
-/// One coordinate of places over the picture: 2^-16 texel of the fine level, wrapping.
+/// Two rows' places, from those of a register's first pixel in each: of its even lanes, then of its
+/// odd ones. `px`: after how many a row begins.
+struct PlaceSteps {
+    TexelPlaces of_even;
+    TexelPlaces to_odd;
+
+    HWY_INLINE PlaceSteps(std::int32_t per_x, int px) {
+        const hn::RebindToSigned<Texels> whole;
+        const auto pairs = hn::And(counting_from(whole, 0), hn::Set(whole, px / 2 - 1));
+        to_odd = hn::Set(whole, per_x);
+        of_even = hn::Mul(hn::ShiftLeft<1>(pairs), to_odd);
+    }
+
+    HWY_INLINE std::array<TexelPlaces, 2> from(TexelPlaces first) const {
+        const auto even = hn::Add(first, of_even);
+        return {even, hn::Add(even, to_odd)};
+    }
+};
+
+/// One coordinate of places over two rows at a time: 2^-16 texel of the fine level, wrapping.
 struct PlacePlane {
     std::uint32_t at; ///< in the tile's first column, at the row at hand
     std::uint32_t per_x;
     std::uint32_t per_row;
-    TexelPlaces steps; ///< to even lanes; those of a window's next row begin anew
+    PlaceSteps steps;
 
     HWY_INLINE PlacePlane(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
         : per_x(static_cast<std::uint32_t>(levels.per_x[k]))
-        , per_row(static_cast<std::uint32_t>(levels.per_y[k])) {
+        , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
+        , steps(levels.per_x[k], window_px) {
         constexpr std::uint32_t middle_level = 128U << 16U;
         at = static_cast<std::uint32_t>(levels.base[k]) + middle_level +
              per_x * static_cast<std::uint32_t>(first_px.x) +
              per_row * static_cast<std::uint32_t>(first_px.y);
-        const hn::RebindToSigned<Texels> whole;
-        const auto pairs = hn::And(counting_from(whole, 0), hn::Set(whole, window_px / 2 - 1));
-        steps = hn::Mul(hn::ShiftLeft<1>(pairs), hn::Set(whole, levels.per_x[k]));
     }
 
-    /// From a column on.
-    HWY_INLINE std::array<TexelPlaces, 2> places(int column) const {
-        const hn::RebindToSigned<Texels> whole;
-        return both(hn::Set(whole, of_column(column, 0)));
-    }
-
-    /// Of two rows.
     HWY_INLINE std::array<TexelPlaces, 2> places(const PairWindow& window) const {
         const hn::RebindToSigned<Texels> whole;
         const hn::Half<decltype(whole)> row;
         const auto next = hn::Set(row, of_column(window.first[1], per_row));
-        return both(hn::Combine(whole, next, hn::Set(row, of_column(window.first[0], 0))));
+        return steps.from(hn::Combine(whole, next, hn::Set(row, of_column(window.first[0], 0))));
     }
 
 private:
     std::int32_t of_column(int column, std::uint32_t below) const {
         return static_cast<std::int32_t>(at + per_x * static_cast<std::uint32_t>(column) + below);
-    }
-
-    HWY_INLINE std::array<TexelPlaces, 2> both(TexelPlaces first) const {
-        const auto even = hn::Add(first, steps);
-        const hn::RebindToSigned<Texels> whole;
-        return {even, hn::Add(even, hn::Set(whole, static_cast<std::int32_t>(per_x)))};
     }
 };
 
@@ -139,11 +144,18 @@ struct TextureLook {
             {hn::Add(places.y[0], y), hn::Add(places.y[1], y)}};
     }
 
-    /// 1/16 level.
+    /// Whether a pixel takes one place of one level, as most do.
+    bool is_single() const { return probes.count == 1 && coarse == nullptr; }
+
+    /// The mean of a pixel's places, 1/128 level.
+    HWY_INLINE Colours around(const Places& places) const {
+        return probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy)
+                                      HWY_ATTR { return at(moved(places, dx, dy)); });
+    }
+
+    /// Under light and behind haze, 1/16 level.
     HWY_INLINE Colours
-    seen(const Places& places, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
-        Colours colours = probes.mean<Strip>([&](std::int32_t dx, std::int32_t dy)
-                                                 HWY_ATTR { return at(moved(places, dx, dy)); });
+    seen(Colours colours, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
         const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
         for (std::size_t k = 0; k < 3; ++k) {
             const auto own = hn::MulHigh(colours[k], seen_share);
@@ -177,7 +189,7 @@ HWY_INLINE void paint_texture_in_pairs(
             return;
         }
         const Colours colours = look.seen(
-            {planes[0].places(window), planes[1].places(window)},
+            look.around({planes[0].places(window), planes[1].places(window)}),
             share_of(shares[0].level(window)),
             share_of(shares[1].level(window)));
         const auto counts = hn::PopulationCount(fresh);
@@ -194,6 +206,95 @@ HWY_INLINE void paint_texture_in_pairs(
     });
 }
 
+/// Covers what is free of a triangle in a strip; what is new waits for its colours.
+HWY_INLINE void cover_texture_strip(
+    const Triangle& triangle,
+    const TileJob& job,
+    const SampleLanes& lanes,
+    const TileBox& box,
+    int left,
+    TileBuffer& buffer,
+    TextureQueue& queue) {
+    const std::uint32_t columns = box.columns_of_strip(left);
+    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
+    const std::uint64_t full_row = job.full_row();
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
+    StripCoverage coverage(triangle, first_px, columns, lanes);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
+        if ((wide_columns & ~full) != 0) {
+            std::uint16_t* const covered = buffer.covered.data() + row * tile_width + left;
+            const StripValues masks = coverage.samples();
+            StripValues fresh;
+            StripValues after;
+            for (std::size_t i = 0; i < strip_parts; ++i) {
+                const auto before = hn::LoadU(Strip(), covered + i * part_px);
+                fresh[i] = hn::AndNot(before, masks[i]);
+                after[i] = hn::Or(before, masks[i]);
+                hn::StoreU(after[i], Strip(), covered + i * part_px);
+            }
+            queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh);
+            full |= std::uint64_t{full_bits(after)} << left;
+            buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
+        }
+        coverage.next_row();
+    }
+    queue.finish(static_cast<std::size_t>(box.last_row - box.first_row + 1));
+}
+
+/// Light or haze along windows, as StripLevel.
+struct ShareSteps {
+    hn::Vec<StripSigned> steps;
+    hn::Vec<StripSigned> least;
+    hn::Vec<StripSigned> most;
+
+    HWY_INLINE ShareSteps(const Levels& levels, std::size_t k)
+        : least(hn::Set(StripSigned(), levels.least[k]))
+        , most(hn::Set(StripSigned(), levels.most[k])) {
+        const StripSigned sign;
+        const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
+        steps = hn::Mul(hn::And(counting_from(sign, 0), px), hn::Set(sign, levels.per_column[k]));
+    }
+
+    HWY_INLINE hn::Vec<Strip> share(hn::Vec<StripSigned> first) const {
+        return share_of(hn::Min(hn::Max(hn::Add(first, steps), least), most));
+    }
+};
+
+/// Colours what waits of a strip that begins at a column of the tile.
+template <bool is_single>
+HWY_INLINE void colour_windows(
+    const Triangle& triangle,
+    const TileJob& job,
+    const TextureLook& look,
+    const TileBox& box,
+    int left,
+    const TextureQueue& queue,
+    TileBuffer& buffer) {
+    const Levels& levels = triangle.levels;
+    const WindowPlanes planes(levels, job, box, left);
+    const PlaceSteps x(levels.per_x[0], texture_window_px);
+    const PlaceSteps y(levels.per_x[1], texture_window_px);
+    const ShareSteps light(levels, 2);
+    const ShareSteps haze(levels, 3);
+    const auto strip_begin = static_cast<std::size_t>(box.first_row * tile_width + left);
+    for (std::size_t i = 0; i < queue.count(); i += windows_at_once) {
+        const TextureWindows windows = queue.windows(i);
+        const auto first = planes.at(windows);
+        const auto halves = hn::BitCast(StripSigned(), first);
+        const Places places{x.from(hn::Broadcast<0>(first)), y.from(hn::Broadcast<1>(first))};
+        const Colours colours = look.seen(
+            is_single ? colours_at(look.fine, places) : look.around(places),
+            light.share(hn::Broadcast<4>(halves)),
+            haze.share(hn::Broadcast<6>(halves)));
+        const auto counts = hn::PopulationCount(queue.fresh(windows));
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint16_t* const sums = buffer.sums[k].data() + strip_begin;
+            windows.store(hn::Add(windows.load(sums), hn::Mul(colours[k], counts)), sums);
+        }
+    }
+}
+
 /// Paints the strip of a triangle that begins at a column of the tile.
 HWY_INLINE void paint_texture_strip(
     const Triangle& triangle,
@@ -202,54 +303,16 @@ HWY_INLINE void paint_texture_strip(
     const TileBox& box,
     int left,
     TileBuffer& buffer) {
-    const std::uint32_t columns = box.columns_of_strip(left);
-    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
-    const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
-    StripCoverage coverage(triangle, first_px, columns, lanes);
+    TextureQueue queue;
+    cover_texture_strip(triangle, job, lanes, box, left, buffer, queue);
+    if (queue.count() == 0) {
+        return;
+    }
     const TextureLook look(triangle.texture, job);
-    std::array planes{
-        PlacePlane(triangle.levels, 0, first_px), PlacePlane(triangle.levels, 1, first_px)};
-    std::array shares{
-        StripLevel(triangle.levels, 2, box_px, left - box.left),
-        StripLevel(triangle.levels, 3, box_px, left - box.left)};
-    auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
-    for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
-        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
-        if ((wide_columns & ~full) != 0) {
-            const StripValues masks = coverage.samples();
-            StripValues after;
-            for (std::size_t i = 0; i < strip_parts; ++i) {
-                const std::size_t at = pixel + i * part_px;
-                const auto before = hn::LoadU(Strip(), buffer.covered.data() + at);
-                const auto fresh = hn::AndNot(before, masks[i]);
-                after[i] = hn::Or(before, masks[i]);
-                hn::StoreU(after[i], Strip(), buffer.covered.data() + at);
-                if (!has_any(fresh)) {
-                    continue;
-                }
-                const auto first = static_cast<int>(i * part_px);
-                const Colours colours = look.seen(
-                    {planes[0].places(first), planes[1].places(first)},
-                    share_of(shares[0].level(i)),
-                    share_of(shares[1].level(i)));
-                const auto counts = hn::PopulationCount(fresh);
-                for (std::size_t k = 0; k < 3; ++k) {
-                    std::uint16_t* const sums = buffer.sums[k].data() + at;
-                    hn::StoreU(
-                        hn::Add(hn::LoadU(Strip(), sums), hn::Mul(colours[k], counts)),
-                        Strip(),
-                        sums);
-                }
-            }
-            full |= std::uint64_t{full_bits(after)} << left;
-            buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << row;
-        }
-        coverage.next_row();
-        for (std::size_t i = 0; i < 2; ++i) {
-            planes[i].at += planes[i].per_row;
-            shares[i].at += shares[i].per_row;
-        }
+    if (look.is_single()) {
+        colour_windows<true>(triangle, job, look, box, left, queue, buffer);
+    } else {
+        colour_windows<false>(triangle, job, look, box, left, queue, buffer);
     }
 }
 

@@ -7,6 +7,7 @@
 #define OCTANT_RASTER_TEXELS_INL
 #endif
 
+#include "visuals/raster/texel_mix-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 
 #include <algorithm>
@@ -111,123 +112,6 @@ texel_steps(const TexturePlanes& planes, const std::array<TexturePoint, 2>& ends
         place(hn::Mul(hn::Sub(planes.per_y[0], turned), real(here.w)))};
 }
 
-/// The lower halves of both registers' values in turn: those of `even` in even lanes.
-template <class Halves, class V>
-HWY_INLINE hn::Vec<Halves> lower_halves(V even, V odd) {
-    const Halves halves;
-    return hn::OddEven(hn::BitCast(halves, hn::ShiftLeft<16>(odd)), hn::BitCast(halves, even));
-}
-
-template <class Halves, class V>
-HWY_INLINE hn::Vec<Halves> upper_halves(V even, V odd) {
-    const Halves halves;
-    return hn::OddEven(hn::BitCast(halves, odd), hn::BitCast(halves, hn::ShiftRight<16>(even)));
-}
-
-/// How four corners are mixed, sixteen bits at a time.
-template <class Halves>
-struct CornerWeights {
-    hn::Vec<Halves> right; ///< share of the right ones, 2^-16
-    hn::Vec<Halves> up;    ///< share of the upper ones, 1/128
-
-    /// By the lower halves of places, 2^-16 texel.
-    template <class V>
-    HWY_INLINE CornerWeights(V even_x, V odd_x, V even_y, V odd_y)
-        : right(lower_halves<Halves>(even_x, odd_x))
-        , up(hn::ShiftRight<9>(lower_halves<Halves>(even_y, odd_y))) {}
-
-    /// Bytes, left below, right below, left above and right above; 1/128.
-    HWY_INLINE hn::Vec<Halves> mixed(const std::array<hn::Vec<Halves>, 4>& corner) const {
-        const auto column = [&](std::size_t side) HWY_ATTR {
-            const auto down = hn::Sub(hn::Set(Halves(), 128), up);
-            return hn::Add(hn::Mul(corner[side], down), hn::Mul(corner[side + 2], up));
-        };
-        // The left texel has what the right one leaves of 65,535.
-        return hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right));
-    }
-};
-
-/// Texels around places: those left below, right below, left above and right above.
-template <class Texels>
-struct TexelSquares {
-    using Places = hn::Vec<hn::RebindToSigned<Texels>>;
-
-    std::array<hn::Vec<Texels>, 4> corner;
-
-    /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
-    HWY_INLINE TexelSquares(const GroundImage::Level& level, Places x, Places y) {
-        const hn::RebindToSigned<Texels> sign;
-        const auto stride = hn::Set(sign, level.stride);
-        const auto first = hn::Add(hn::Mul(hn::ShiftRight<16>(y), stride), hn::ShiftRight<16>(x));
-        load_neighbours(level, first, corner[0], corner[1]);
-        load_neighbours(level, hn::Add(first, stride), corner[2], corner[3]);
-    }
-
-    /// Texels by their numbers in the level, and those right of them: both are loaded at once.
-    static HWY_INLINE void load_neighbours(
-        const GroundImage::Level& level,
-        Places number,
-        hn::Vec<Texels>& left_ones,
-        hn::Vec<Texels>& right_ones) {
-        const Texels texels;
-        const hn::Repartition<std::uint64_t, Texels> pairs;
-        const hn::RebindToSigned<decltype(pairs)> offsets;
-        const auto* const from = reinterpret_cast<const std::uint64_t*>(level.texels.data());
-        const auto load = [&](auto some) HWY_ATTR {
-            const auto bytes = hn::BitCast(offsets, hn::ShiftLeft<2>(some));
-            return hn::GatherOffset(pairs, from, bytes);
-        };
-        const auto numbers = hn::BitCast(pairs, number);
-        const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
-        const auto odd = load(hn::ShiftRight<32>(numbers));
-        left_ones =
-            hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
-        right_ones =
-            hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
-    }
-};
-
-/// Red, green and blue, 1/128 level, 32,640 at most.
-template <class Halves>
-using MixedColours = std::array<hn::Vec<Halves>, 3>;
-
-/// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond
-/// the level's rim have the rim's.
-template <class Halves, class V>
-HWY_INLINE MixedColours<Halves>
-mixed_colours(const GroundImage::Level& level, V even_x, V even_y, V odd_x, V odd_y) {
-    using Texels = hn::Repartition<std::uint32_t, Halves>;
-    const hn::RebindToSigned<Texels> sign;
-    const Halves halves;
-    const auto within = [&](V place, int size) HWY_ATTR {
-        return hn::Min(hn::Max(place, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
-    };
-    even_x = within(even_x, level.width);
-    odd_x = within(odd_x, level.width);
-    even_y = within(even_y, level.height);
-    odd_y = within(odd_y, level.height);
-    const TexelSquares<Texels> even(level, even_x, even_y);
-    const TexelSquares<Texels> odd(level, odd_x, odd_y);
-    const auto red_and_blue = [&](const TexelSquares<Texels>& of, V x, V y) HWY_ATTR {
-        std::array<hn::Vec<Halves>, 4> corner;
-        for (std::size_t i = 0; i < corner.size(); ++i) {
-            corner[i] = hn::BitCast(halves, hn::And(of.corner[i], hn::Set(Texels(), 0x00ff00ffU)));
-        }
-        const CornerWeights<Halves> weights(x, x, y, y);
-        return hn::BitCast(Texels(), weights.mixed(corner));
-    };
-    std::array<hn::Vec<Halves>, 4> green;
-    for (std::size_t i = 0; i < green.size(); ++i) {
-        green[i] = hn::ShiftRight<8>(lower_halves<Halves>(even.corner[i], odd.corner[i]));
-    }
-    const auto of_even = red_and_blue(even, even_x, even_y);
-    const auto of_odd = red_and_blue(odd, odd_x, odd_y);
-    return {
-        lower_halves<Halves>(of_even, of_odd),
-        CornerWeights<Halves>(even_x, odd_x, even_y, odd_y).mixed(green),
-        upper_halves<Halves>(of_even, of_odd)};
-}
-
 /// Red, green and blue of a block's pixels, 1/128 level, 32,640 at most.
 struct BlockColours {
     alignas(32) std::array<std::array<std::uint16_t, block_px>, 3> level;
@@ -264,14 +148,14 @@ struct Probes {
     /// The mean of colours_at(how far from the pixel's middle).
     template <class Halves, class ColoursAt>
     HWY_INLINE MixedColours<Halves> mean(const ColoursAt& colours_at) const {
+        if (count == 1) {
+            return colours_at(0, 0);
+        }
         const Halves halves;
         MixedColours<Halves> sum{hn::Zero(halves), hn::Zero(halves), hn::Zero(halves)};
         for (int k = 0; k < count; ++k) {
             const MixedColours<Halves> one =
                 colours_at(k * step[0] - last[0], k * step[1] - last[1]);
-            if (count == 1) {
-                return one;
-            }
             for (std::size_t i = 0; i < sum.size(); ++i) {
                 sum[i] = hn::Add(sum[i], hn::MulHigh(one[i], hn::Set(halves, share)));
             }

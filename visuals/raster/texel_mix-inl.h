@@ -1,0 +1,163 @@
+// The colours of a texture's level at places: four texels each, mixed in whole numbers.
+// Included once for each instruction set.
+#if defined(OCTANT_RASTER_TEXEL_MIX_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_TEXEL_MIX_INL
+#undef OCTANT_RASTER_TEXEL_MIX_INL
+#else
+#define OCTANT_RASTER_TEXEL_MIX_INL
+#endif
+
+#include "visuals/raster/tile.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The lower halves of both registers' values in turn: those of `even` in even lanes.
+template <class Halves, class V>
+HWY_INLINE hn::Vec<Halves> lower_halves(V even, V odd) {
+    const Halves halves;
+    return hn::OddEven(hn::BitCast(halves, hn::ShiftLeft<16>(odd)), hn::BitCast(halves, even));
+}
+
+template <class Halves, class V>
+HWY_INLINE hn::Vec<Halves> upper_halves(V even, V odd) {
+    const Halves halves;
+    return hn::OddEven(hn::BitCast(halves, odd), hn::BitCast(halves, hn::ShiftRight<16>(even)));
+}
+
+/// How four corners are mixed, sixteen bits at a time.
+template <class Halves>
+struct CornerWeights {
+    hn::Vec<Halves> right; ///< share of the right ones, 2^-16
+    hn::Vec<Halves> up;    ///< share of the upper ones, 1/128
+
+    /// By the lower halves of places, 2^-16 texel.
+    template <class V>
+    HWY_INLINE CornerWeights(V even_x, V odd_x, V even_y, V odd_y)
+        : right(lower_halves<Halves>(even_x, odd_x))
+        , up(hn::ShiftRight<9>(lower_halves<Halves>(even_y, odd_y))) {}
+
+    /// Bytes, left below, right below, left above and right above; 1/128.
+    HWY_INLINE hn::Vec<Halves> mixed(const std::array<hn::Vec<Halves>, 4>& corner) const {
+        const auto column = [&](std::size_t side) HWY_ATTR {
+            const auto down = hn::Sub(hn::Set(Halves(), 128), up);
+            return hn::Add(hn::Mul(corner[side], down), hn::Mul(corner[side + 2], up));
+        };
+        // The left texel has what the right one leaves of 65,535.
+        return hn::Add(hn::MulHigh(column(0), hn::Not(right)), hn::MulHigh(column(1), right));
+    }
+};
+
+/// Texels around places: those left below, right below, left above and right above.
+template <class Texels>
+struct TexelSquares {
+    using Places = hn::Vec<hn::RebindToSigned<Texels>>;
+
+    std::array<hn::Vec<Texels>, 4> corner;
+
+    /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
+    HWY_INLINE TexelSquares(const GroundImage::Level& level, Places x, Places y) {
+        const hn::RebindToSigned<Texels> sign;
+        const auto stride = hn::Set(sign, level.stride);
+        const auto first = hn::Add(hn::Mul(hn::ShiftRight<16>(y), stride), hn::ShiftRight<16>(x));
+        load_neighbours(level, first, corner[0], corner[1]);
+        load_neighbours(level, hn::Add(first, stride), corner[2], corner[3]);
+    }
+
+    /// Texels by their numbers in the level, and those right of them: both are loaded at once.
+    static HWY_INLINE void load_neighbours(
+        const GroundImage::Level& level,
+        Places number,
+        hn::Vec<Texels>& left_ones,
+        hn::Vec<Texels>& right_ones) {
+#if HWY_TARGET == HWY_AVX2
+        // One by one they come faster than by the processor's own gathering.
+        alignas(32) std::array<std::int32_t, 8> numbers;
+        hn::Store(number, hn::RebindToSigned<Texels>(), numbers.data());
+        const auto from = [&](std::size_t i) { return level.texels.data() + numbers[i]; };
+        const auto two = [&](std::size_t i) HWY_ATTR {
+            const auto* const second = reinterpret_cast<const __m64*>(from(i + 1));
+            const auto* const first = reinterpret_cast<const __m128i*>(from(i));
+            return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
+        };
+        const auto four = [&](std::size_t i)
+                              HWY_ATTR { return _mm256_set_m128(two(i + 4), two(i)); };
+        const __m256 front = four(0);
+        const __m256 back = four(2);
+        left_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0x88));
+        right_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0xdd));
+#else
+        const Texels texels;
+        const hn::Repartition<std::uint64_t, Texels> pairs;
+        const hn::RebindToSigned<decltype(pairs)> offsets;
+        const auto* const from = reinterpret_cast<const std::uint64_t*>(level.texels.data());
+        const auto load = [&](auto some) HWY_ATTR {
+            const auto bytes = hn::BitCast(offsets, hn::ShiftLeft<2>(some));
+            return hn::GatherOffset(pairs, from, bytes);
+        };
+        const auto numbers = hn::BitCast(pairs, number);
+        const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
+        const auto odd = load(hn::ShiftRight<32>(numbers));
+        left_ones =
+            hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
+        right_ones =
+            hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
+#endif
+    }
+};
+
+/// Red, green and blue, 1/128 level, 32,640 at most.
+template <class Halves>
+using MixedColours = std::array<hn::Vec<Halves>, 3>;
+
+/// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond
+/// the level's rim have the rim's.
+template <class Halves, class V>
+HWY_INLINE MixedColours<Halves>
+mixed_colours(const GroundImage::Level& level, V even_x, V even_y, V odd_x, V odd_y) {
+    using Texels = hn::Repartition<std::uint32_t, Halves>;
+    const hn::RebindToSigned<Texels> sign;
+    const Halves halves;
+    const auto within = [&](V place, int size) HWY_ATTR {
+        return hn::Min(hn::Max(place, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
+    };
+    even_x = within(even_x, level.width);
+    odd_x = within(odd_x, level.width);
+    even_y = within(even_y, level.height);
+    odd_y = within(odd_y, level.height);
+    const TexelSquares<Texels> even(level, even_x, even_y);
+    const TexelSquares<Texels> odd(level, odd_x, odd_y);
+    const auto red_and_blue = [&](const TexelSquares<Texels>& of, V x, V y) HWY_ATTR {
+        std::array<hn::Vec<Halves>, 4> corner;
+        for (std::size_t i = 0; i < corner.size(); ++i) {
+            corner[i] = hn::BitCast(halves, hn::And(of.corner[i], hn::Set(Texels(), 0x00ff00ffU)));
+        }
+        const CornerWeights<Halves> weights(x, x, y, y);
+        return hn::BitCast(Texels(), weights.mixed(corner));
+    };
+    std::array<hn::Vec<Halves>, 4> green;
+    for (std::size_t i = 0; i < green.size(); ++i) {
+        green[i] = hn::ShiftRight<8>(lower_halves<Halves>(even.corner[i], odd.corner[i]));
+    }
+    const auto of_even = red_and_blue(even, even_x, even_y);
+    const auto of_odd = red_and_blue(odd, odd_x, odd_y);
+    return {
+        lower_halves<Halves>(of_even, of_odd),
+        CornerWeights<Halves>(even_x, odd_x, even_y, odd_y).mixed(green),
+        upper_halves<Halves>(of_even, of_odd)};
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif
