@@ -160,6 +160,7 @@ TriangleBvh::TriangleBvh(
     for (const Item& item : builder.items) {
         triangles_.push_back(item.triangle);
     }
+    builder.items = std::vector<Item>(); // They are as large as the corners that are copied next.
     take_corners(vertices_m, triangles);
 }
 
@@ -169,6 +170,7 @@ void TriangleBvh::take_corners(
     std::span<const glm::dvec3> vertices_m, std::span<const Triangle> triangles) {
     std::vector<std::uint32_t> places(vertices_m.size(), NearestOnMesh::none);
     corners_.reserve(triangles.size());
+    vertices_m_.reserve(vertices_m.size());
     for (const std::uint32_t number : triangles_) {
         Triangle& corners = corners_.emplace_back(triangles[number]);
         for (std::uint32_t& corner : corners) {

@@ -295,7 +295,7 @@ void MeshBuilder::bake_pictures() {
 void MeshBuilder::finish_normals() {
     if (!has_normals_) {
         mesh_.normals.clear();
-        mesh_.corner_normals.clear();
+        mesh_.corner_normals = std::vector<Triangle>(); // It was as large as the triangles.
         return;
     }
     const auto is_faulty = [&](std::uint32_t normal) {
@@ -321,7 +321,7 @@ void MeshBuilder::finish_normals() {
 void MeshBuilder::finish_materials() {
     if (!has_materials_) {
         mesh_.materials.clear();
-        mesh_.triangle_materials.clear();
+        mesh_.triangle_materials = std::vector<std::uint32_t>();
         return;
     }
     std::uint32_t fallback = no_index;

@@ -37,6 +37,9 @@ public:
     /// The triangles of the mesh at first.
     std::size_t first_faces() const { return first_faces_; }
 
+    /// The vertices of the mesh at first.
+    std::size_t first_vertices() const { return first_vertices_; }
+
     /// The collapses so far, in file units: the progressive mesh in reverse.
     std::vector<Collapse>& collapses() { return collapses_; }
 

@@ -153,7 +153,8 @@ void begin_in_rounds(
     rounds.strictness = first_strictness(collapsing.surface(), chooser, options);
     rounds.low_may_turn = options.low_may_turn;
     rounds.threads = options.threads;
-    collapsing.collapses().reserve((collapsing.first_faces() - wanted_faces(options.goal)) / 2 + 1);
+    // No more than vertices: at a boundary a collapse takes one triangle instead of two.
+    collapsing.collapses().reserve(collapsing.first_vertices());
     collapse_in_rounds(collapsing, rounds);
 }
 

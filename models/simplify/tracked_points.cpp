@@ -163,9 +163,10 @@ void TrackedPoints::make_face_room(std::size_t count) {
 }
 
 void TrackedPoints::assign_all(std::span<const std::uint32_t> faces, std::size_t face_slots) {
-    first_.assign(face_slots, none);
-    counts_.assign(face_slots, 0);
-    costs_.assign(face_slots, 0.0);
+    // Fresh ones: there may have been far more triangles.
+    first_ = std::vector<std::uint32_t>(face_slots, none);
+    counts_ = std::vector<std::uint32_t>(face_slots, 0);
+    costs_ = std::vector<double>(face_slots, 0.0);
     for (std::uint32_t point = 0; point < size(); ++point) {
         const std::uint32_t face = faces[point];
         faces_[point] = face;

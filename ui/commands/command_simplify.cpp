@@ -4,6 +4,7 @@
 #include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
 #include "ui/base/figures_text.h"
+#include "ui/base/memory.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/simplify_work.h"
@@ -67,6 +68,7 @@ void refuse_faults(const SimplifyCommand& command) {
 
 void run(const SimplifyCommand& command) {
     refuse_faults(command);
+    base::give_memory_back();
     base::Figures figures;
     bool is_reached = true;
     figures["in"] = command.in;
