@@ -1,4 +1,4 @@
-// Opens imported grounds. A file of 16385 x 16385 samples is 800 MB; mapping it makes flights over
+// Opens imported grounds. A file of 16385 x 16385 samples is 940 MB; mapping it makes flights over
 // it start at once, and only the tiles that a mesh looks at are read.
 #include "visuals/groundfile/ground_file.h"
 
@@ -34,7 +34,7 @@ std::uint64_t checksum_at(const MappedFile& file, const GroundFilePlan& plan, st
 
 /// Throws Error unless the file is finished, has its full length and is sound before the tiles.
 void check_before_tiles(const path& path, const MappedFile& file, const GroundHeader& header) {
-    const GroundLayout layout(header.columns, header.rows);
+    const GroundLayout layout(shape_of(header));
     const GroundFilePlan plan(layout);
     if (header.progress.stage != GroundProgress::Stage::Complete) {
         error_in(path, "expected a finished ground, got one whose import was stopped");
@@ -70,7 +70,7 @@ GroundTiles open_ground(const path& path) {
     const GroundHeader header = read_header(path, std::as_const(*file).bytes());
     check_before_tiles(path, *file, header);
     const GroundShape shape = shape_of(header);
-    const GroundLayout layout(shape.columns, shape.rows);
+    const GroundLayout layout(shape);
     const auto tested = std::make_shared<const TestedTiles>(path, file, header);
     return {shape, facts_of(header), memory_of(*file, layout), file, tested};
 }
@@ -79,7 +79,7 @@ std::uint64_t hash_of_ground(const path& path) {
     const MappedFile file(path, MappedFile::Access::Read);
     const GroundHeader header = read_header(path, file.bytes());
     check_before_tiles(path, file, header);
-    const GroundLayout layout(header.columns, header.rows);
+    const GroundLayout layout(shape_of(header));
     Hash hash;
     hash.add(file.bytes().first(GroundHeader::bytes + layout.first_tile()));
     hash.add(file.bytes().subspan(GroundFilePlan(layout).checksums));
@@ -90,7 +90,7 @@ void verify_ground(const path& path, int threads) {
     const MappedFile file(path, MappedFile::Access::Read);
     const GroundHeader header = read_header(path, file.bytes());
     check_before_tiles(path, file, header);
-    const GroundLayout layout(header.columns, header.rows);
+    const GroundLayout layout(shape_of(header));
     const GroundFilePlan plan(layout);
     std::size_t before = 1;
     for (int level = 0; level < layout.levels(); ++level) {

@@ -135,11 +135,17 @@ std::uint64_t hash_of(const GroundLayout& layout) {
               at.tile_bytes,
               at.first_tile,
               at.north_heights,
-              at.north_errors,
+              at.north_errors[0],
               at.east_heights,
-              at.east_errors,
+              at.east_errors[0],
               at.ranges}) {
             hash.add_word(place);
+        }
+        if (layout.has_both_rooms()) {
+            hash.add_word(at.errors[1][0]);
+            hash.add_word(at.errors[1][1]);
+            hash.add_word(at.north_errors[1]);
+            hash.add_word(at.east_errors[1]);
         }
     }
     for (int code = 0; code < 256; ++code) {
@@ -151,6 +157,8 @@ std::uint64_t hash_of(const GroundLayout& layout) {
 
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     GroundHeader header;
+    header.version =
+        shape.has_both_rooms ? GroundHeader::right_version : GroundHeader::third_version;
     header.columns = shape.columns;
     header.rows = shape.rows;
     header.spacing_m = shape.spacing_m;
@@ -172,12 +180,18 @@ GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     header.mean_m = facts.mean_m;
     header.name_length = static_cast<std::uint32_t>(length_cut(facts.name, header.name.size()));
     std::copy_n(facts.name.begin(), header.name_length, header.name.begin());
-    header.layout = hash_of(GroundLayout(shape.columns, shape.rows));
+    header.layout = hash_of(GroundLayout(shape));
     return header;
 }
 
 GroundShape shape_of(const GroundHeader& h) {
-    return {h.columns, h.rows, h.spacing_m, h.height_base_m, h.height_unit_m};
+    return {
+        h.columns,
+        h.rows,
+        h.spacing_m,
+        h.height_base_m,
+        h.height_unit_m,
+        h.version > GroundHeader::third_version};
 }
 
 GroundFacts facts_of(const GroundHeader& h) {
@@ -252,7 +266,7 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         header.deviation_checksum != checksum_of(header.deviation) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
     }
-    if (header.layout != hash_of(GroundLayout(header.columns, header.rows))) {
+    if (header.layout != hash_of(GroundLayout(shape_of(header)))) {
         error_in(path, "expected today's layout, got that of another release: import it again");
     }
     return header;

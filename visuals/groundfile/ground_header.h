@@ -54,7 +54,9 @@ struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> right_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 3;
+    static constexpr std::uint32_t right_version = 4;
+    /// The same as version 4, but without errors without room (GroundShape::has_both_rooms).
+    static constexpr std::uint32_t third_version = 3;
     /// The same as version 3, but without a deviation.
     static constexpr std::uint32_t second_version = 2;
     /// The same as version 2, but without a system.

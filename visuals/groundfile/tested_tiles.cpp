@@ -19,14 +19,14 @@ std::span<const std::byte> tile_bytes(const GroundTiles& ground, int level, std:
 
 TestedTiles::TestedTiles(
     std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
-    : TileGuard(GroundLayout(header.columns, header.rows), false)
+    : TileGuard(GroundLayout(shape_of(header)), false)
     , path_(std::move(path))
     , file_(std::move(file))
     , ground_(
           shape_of(header),
           facts_of(header),
           std::as_const(*file_).bytes().subspan(
-              GroundHeader::bytes, GroundLayout(header.columns, header.rows).total_bytes()),
+              GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
           nullptr,
           std::shared_ptr<const TileGuard>(std::shared_ptr<const void>(), this))
     , checksums_(GroundFilePlan(ground_.layout()).checksums)

@@ -12,6 +12,7 @@ namespace octant::visuals::groundfile {
 namespace {
 
 using terrain::NodePart;
+using terrain::Room;
 
 constexpr std::array<NodePart, 3> parts = {NodePart::Centre, NodePart::South, NodePart::West};
 constexpr std::uint8_t greatest_code = 255;
@@ -49,27 +50,33 @@ public:
                 for (const NodePart part : parts) {
                     put_height(part, {column, row}, height(part, {column, row}));
                 }
-                put_code(NodePart::Centre, {column, row}, centre_code({column, row}));
+            }
+        }
+        // Where both rooms share a place, the smaller errors stay.
+        mend_errors(Room::Full);
+        mend_errors(Room::None);
+    }
+
+private:
+    void mend_errors(Room room) {
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                code(NodePart::Centre, {column, row}, room) = centre_code({column, row}, room);
             }
         }
         for (int row = first_.row; row < end_.row; ++row) {
             for (int column = first_.column; column < end_.column; ++column) {
-                const std::uint8_t own = code_of({column, row});
+                const std::uint8_t own = code_of({column, row}, room);
                 const bool in_south = row == 0;
                 const bool in_west = column == 0;
-                put_code(
-                    NodePart::South,
-                    {column, row},
-                    in_south ? own : std::min(own, code_of({column, row - 1})));
-                put_code(
-                    NodePart::West,
-                    {column, row},
-                    in_west ? own : std::min(own, code_of({column - 1, row})));
+                code(NodePart::South, {column, row}, room) =
+                    in_south ? own : std::min(own, code_of({column, row - 1}, room));
+                code(NodePart::West, {column, row}, room) =
+                    in_west ? own : std::min(own, code_of({column - 1, row}, room));
             }
         }
     }
 
-private:
     int side() const { return 1 << at_.tile_shift; }
 
     bool is_own(Place node) const {
@@ -88,29 +95,29 @@ private:
             stored;
     }
 
-    std::uint8_t& own_code(NodePart part, Place node) {
-        return reinterpret_cast<std::uint8_t*>(
-            bytes_.data())[(6 + static_cast<std::size_t>(part)) * at_.tile_nodes + index_of(node)];
+    std::uint8_t& code(NodePart part, Place node, Room room) {
+        const std::size_t first =
+            at_.errors[static_cast<std::size_t>(room)][static_cast<std::size_t>(part)];
+        return reinterpret_cast<std::uint8_t*>(bytes_.data())[first + index_of(node)];
     }
 
-    void put_code(NodePart part, Place node, std::uint8_t code) { own_code(part, node) = code; }
-
     /// The code of a node's centre, in this tile or another of its level.
-    std::uint8_t code_of(Place node) {
-        return is_own(node) ? own_code(NodePart::Centre, node)
-                            : ground_.error_code(level_, NodePart::Centre, node.column, node.row);
+    std::uint8_t code_of(Place node, Room room) {
+        return is_own(node)
+                   ? code(NodePart::Centre, node, room)
+                   : ground_.error_code(level_, NodePart::Centre, node.column, node.row, room);
     }
 
     /// A centre needs the middles of the two edges of its parent that lie on its own.
-    std::uint8_t centre_code(Place node) const {
+    std::uint8_t centre_code(Place node, Room room) const {
         if (level_ == 0) {
             return greatest_code;
         }
         const int column = node.column / 2;
         const int row = node.row / 2;
         return std::min(
-            ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2),
-            ground_.error_code(level_ - 1, NodePart::West, column + node.column % 2, row));
+            ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2, room),
+            ground_.error_code(level_ - 1, NodePart::West, column + node.column % 2, row, room));
     }
 
     Place clamped(Place sample) const {

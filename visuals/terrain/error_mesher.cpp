@@ -69,7 +69,7 @@ GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     meshed_ = false;
     view_ = view;
     target_ = target;
-    rule_.look_from(view);
+    rule_.look_from(view, room_share(target));
     limit_ = survey_.limit_for(horizon_.eased(view, target));
     nodes_ = survey_.nodes();
     morph_limit_ = target.geomorphs ? limit_ : std::numeric_limits<float>::infinity();

@@ -75,23 +75,26 @@ int whole_below(double place) {
     return static_cast<int>(std::floor(std::clamp(place, -farthest_eye, farthest_eye)));
 }
 
+float largest(FourFloats of) {
+    return std::max({of[0], of[1], of[2], of[3]});
+}
+
 } // namespace
 
 ErrorRule::ErrorRule(const GroundTiles& ground)
     : ground_(&ground)
     , reach_(ground.spacing_m())
     , range_level_(ground.layout().range_level()) {
-    for (unsigned code = 0; code < 256; ++code) {
-        error_m_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
-    }
     for (int level = 0; level < ground.levels(); ++level) {
         const LevelMemory memory(ground, level);
         levels_.push_back({memory, 0.5F * static_cast<float>(memory.edge())});
     }
 }
 
-void ErrorRule::look_from(const MeshView& view) {
+void ErrorRule::look_from(const MeshView& view, double room_share) {
     assert(view.focal_px > 0.0 && view.earth_radius_m >= 0.0);
+    assert(room_share >= 0.0 && room_share <= 1.0);
+    share_room(static_cast<float>(room_share));
     const glm::dvec2 half_m = ground_->half_extent_m();
     view_ = view;
     west_m_ = -half_m.x - view.eye_m.x;
@@ -115,6 +118,16 @@ void ErrorRule::look_from(const MeshView& view) {
     }
 }
 
+/// Fills in the tables of errors.
+void ErrorRule::share_room(float share) {
+    has_full_room_ = share == 1.0F;
+    for (unsigned code = 0; code < 256; ++code) {
+        const float error_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+        full_room_m_[code] = share * error_m;
+        no_room_m_[code] = (1.0F - share) * error_m;
+    }
+}
+
 float ErrorRule::limit_of(double error_px) const {
     const double ratio = view_.focal_px / error_px + (reach_.in_picture() ? 1.0 : 0.0);
     return static_cast<float>(ratio * ratio);
@@ -126,8 +139,7 @@ double ErrorRule::error_px_of(float limit) const {
 }
 
 float ErrorRule::root_error_m() const {
-    return error_m_[ground_->error_code(0, NodePart::Centre, 0, 0)] +
-           2.0F * levels_.front().middle_error_m;
+    return centre_error_m(0, 0, 0) + 2.0F * levels_.front().middle_error_m;
 }
 
 HeightGaps ErrorRule::gaps_around(int level, int column, int row) const {
@@ -188,16 +200,15 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
     centres.ahead_m = of_centres(place.gaps->ahead_m);
     FanCriticals criticals;
     const FourFloats middle_error_m =
-        metres_of(at.memory.middle_codes(place.column, place.row)) + four(at.middle_error_m);
+        middle_errors_m(place.level, place.column, place.row) + four(at.middle_error_m);
     criticals.middle = reach_.squared_m2(middles) / (middle_error_m * middle_error_m);
     if (place.level + 1 == ground_->levels()) {
         criticals.quadrant = four(std::numeric_limits<float>::infinity());
         criticals.quadrant_error_m = four(0.0F);
         return criticals;
     }
-    const LevelMemory& below = levels_[static_cast<std::size_t>(place.level) + 1].memory;
     const FourFloats error_m =
-        metres_of(below.child_codes(2 * place.column, 2 * place.row)) + four(at.quadrant_error_m);
+        child_errors_m(place.level, place.column, place.row) + four(at.quadrant_error_m);
     criticals.quadrant = reach_.squared_m2(centres) / (error_m * error_m);
     criticals.quadrant_error_m = error_m;
     return criticals;
@@ -205,10 +216,8 @@ FanCriticals ErrorRule::criticals_of(const ErrorPlace& place) const {
 
 float ErrorRule::share_below_centre(int level, int column, int row) const {
     const Level& at = levels_[static_cast<std::size_t>(level)];
-    const float below_m =
-        error_m_[std::ranges::max(at.memory.middle_codes(column, row))] + at.middle_error_m;
-    const float own_m = error_m_[at.memory.centre_code(column, row)] + 2.0F * at.middle_error_m;
-    return below_m / own_m;
+    const float below_m = largest(middle_errors_m(level, column, row)) + at.middle_error_m;
+    return below_m / (centre_error_m(level, column, row) + 2.0F * at.middle_error_m);
 }
 
 float ErrorRule::share_below_middle(int level, int column, int row, std::size_t edge) const {
@@ -216,25 +225,49 @@ float ErrorRule::share_below_middle(int level, int column, int row, std::size_t 
         return 0.0F;
     }
     const Level& at = levels_[static_cast<std::size_t>(level)];
-    const LevelMemory& below = levels_[static_cast<std::size_t>(level) + 1].memory;
     const FanEdge& side = fan_edges[edge];
-    const LevelMemory::FourCodes own = below.child_codes(2 * column, 2 * row);
-    std::uint8_t code = std::max(own[side.quadrant_a], own[side.quadrant_b]);
+    const FourFloats own = child_errors_m(level, column, row);
+    float below_m = std::max(own[side.quadrant_a], own[side.quadrant_b]);
     const int beyond_column = column + side.beyond_east;
     const int beyond_row = row + side.beyond_north;
     if (beyond_column >= 0 && beyond_row >= 0 && beyond_column < at.memory.columns() &&
         beyond_row < at.memory.rows()) {
-        const LevelMemory::FourCodes beyond = below.child_codes(2 * beyond_column, 2 * beyond_row);
+        const FourFloats beyond = child_errors_m(level, beyond_column, beyond_row);
         const unsigned across = side.beyond_east != 0 ? 1U : 2U;
-        code = std::max({code, beyond[side.quadrant_a ^ across], beyond[side.quadrant_b ^ across]});
+        below_m =
+            std::max({below_m, beyond[side.quadrant_a ^ across], beyond[side.quadrant_b ^ across]});
     }
-    const float own_m = error_m_[at.memory.middle_codes(column, row)[edge]] + at.middle_error_m;
-    return (error_m_[code] + at.quadrant_error_m) / own_m;
+    const float own_m = middle_errors_m(level, column, row)[edge] + at.middle_error_m;
+    return (below_m + at.quadrant_error_m) / own_m;
 }
 
-inline FourFloats ErrorRule::metres_of(const LevelMemory::FourCodes& codes) const {
-    return FourFloats{
-        error_m_[codes[0]], error_m_[codes[1]], error_m_[codes[2]], error_m_[codes[3]]};
+/// The stored errors of the mid-points of a node's fan_edges, with the room that counts.
+inline FourFloats ErrorRule::middle_errors_m(int level, int column, int row) const {
+    const LevelMemory& memory = levels_[static_cast<std::size_t>(level)].memory;
+    return errors_m([&](Room room) { return memory.middle_codes(column, row, room); });
+}
+
+/// The same of the centres of its children; meaningless for children that do not exist.
+inline FourFloats ErrorRule::child_errors_m(int level, int column, int row) const {
+    const LevelMemory& below = levels_[static_cast<std::size_t>(level) + 1].memory;
+    return errors_m([&](Room room) { return below.child_codes(2 * column, 2 * row, room); });
+}
+
+/// The same of its centre.
+inline float ErrorRule::centre_error_m(int level, int column, int row) const {
+    const LevelMemory& memory = levels_[static_cast<std::size_t>(level)].memory;
+    return full_room_m_[memory.centre_code(column, row, Room::Full)] +
+           no_room_m_[memory.centre_code(column, row, Room::None)];
+}
+
+/// Errors by their codes for each Room. With full room the others are not read.
+template <typename Codes>
+inline FourFloats ErrorRule::errors_m(const Codes& codes_with) const {
+    const auto metres = [](const std::array<float, 256>& of, const LevelMemory::FourCodes& codes) {
+        return FourFloats{of[codes[0]], of[codes[1]], of[codes[2]], of[codes[3]]};
+    };
+    const FourFloats full_m = metres(full_room_m_, codes_with(Room::Full));
+    return has_full_room_ ? full_m : full_m + metres(no_room_m_, codes_with(Room::None));
 }
 
 unsigned ErrorRule::planes_cutting_node(

@@ -35,8 +35,9 @@ public:
     /// The ground must outlive the rule.
     explicit ErrorRule(const GroundTiles& ground);
 
-    /// Judges by this view from now on, until it is given another.
-    void look_from(const MeshView& view);
+    /// Judges by this view from now on, until it is given another. Errors are those with this share
+    /// of the full room to move (tile_builder_errors.cpp), from 0 to 1.
+    void look_from(const MeshView& view, double room_share = 1.0);
 
     const GroundTiles& ground() const { return *ground_; }
 
@@ -94,12 +95,21 @@ private:
         float quadrant_error_m = 0.0F;
     };
 
-    FourFloats metres_of(const LevelMemory::FourCodes& codes) const;
+    void share_room(float share);
+    FourFloats middle_errors_m(int level, int column, int row) const;
+    FourFloats child_errors_m(int level, int column, int row) const;
+    float centre_error_m(int level, int column, int row) const;
+    template <typename Codes>
+    FourFloats errors_m(const Codes& codes_with) const;
 
     const GroundTiles* ground_;
     MeshView view_;
     std::vector<Level> levels_;
-    std::array<float, 256> error_m_{}; ///< For each code its error.
+    /// For each code of an error with full room the share of it that counts, and the same for those
+    /// without room: an error is the sum of both.
+    std::array<float, 256> full_room_m_{};
+    std::array<float, 256> no_room_m_{};
+    bool has_full_room_ = true;
     double west_m_ = 0.0;
     double south_m_ = 0.0;
     double half_curvature_per_m_ = 0.0;

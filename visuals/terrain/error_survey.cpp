@@ -21,6 +21,11 @@ constexpr double first_look_px = 4.0;
 
 } // namespace
 
+double room_share(const ErrorTarget& target) {
+    const bool has_budget = target.most_triangles < any_triangles;
+    return has_budget ? 1.0 : std::min(target.error_px / full_room_px, 1.0);
+}
+
 float ErrorSurvey::limit_for(const ErrorTarget& target) {
     assert(target.error_px >= 0.0 && target.most_triangles >= 1);
     nodes_tested_ = 0;

@@ -33,6 +33,16 @@ inline constexpr float morph_ratio = 2.5F;
 
 inline constexpr int any_triangles = 1 << 30;
 
+/// The wanted error from which on vertices have full room to move (tile_builder_errors.cpp) where
+/// that error is the same in every frame; below it, they move S full_room_px pixels at most while
+/// a distance shrinks by a small share of itself, divided by that share. With 14, vertices jump by
+/// at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
+inline constexpr double full_room_px = 14.0;
+
+/// The share of their full room that vertices get: all of it with a budget, which changes the
+/// wanted error from frame to frame, else in proportion to the wanted error.
+double room_share(const ErrorTarget& target);
+
 /// A node whose fan is in the mesh at some limits. Its members tell from which limit on each part
 /// is there.
 struct alignas(64) ErrorNode {

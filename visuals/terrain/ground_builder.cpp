@@ -40,7 +40,7 @@ GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
         static_cast<double>(field.highest_m()));
     const std::vector<std::int16_t> numbers = numbers_of(field, shape, threads);
     const StoredHeights heights{numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
-    const GroundLayout layout(shape.columns, shape.rows);
+    const GroundLayout layout(shape);
     const std::shared_ptr<std::byte[]> memory(new std::byte[layout.total_bytes()]);
     std::memset(memory.get(), 0, layout.first_tile());
     const std::span<std::byte> bytes(memory.get(), layout.total_bytes());

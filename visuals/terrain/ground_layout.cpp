@@ -10,7 +10,8 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr std::size_t node_bytes = 9; ///< Three heights of two bytes and three errors of one byte.
+constexpr std::size_t parts = 3; ///< Of a node.
+constexpr std::size_t height_bytes = 2;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t multiple) {
     return (bytes + multiple - 1) / multiple * multiple;
@@ -22,7 +23,8 @@ int rounded_up_quotient(int dividend, int divisor) {
 
 } // namespace
 
-GroundLayout::GroundLayout(int columns, int rows) {
+GroundLayout::GroundLayout(int columns, int rows, bool has_both_rooms)
+    : has_both_rooms_(has_both_rooms) {
     assert(columns >= 2 && rows >= 2 && columns <= 65536 && rows <= 65536);
     const int longest = std::max({columns, rows, 3}) - 1;
     const int count = static_cast<int>(std::bit_width(static_cast<unsigned>(longest - 1)));
@@ -38,7 +40,7 @@ GroundLayout::GroundLayout(int columns, int rows) {
         level.tiles_across = rounded_up_quotient(level.columns, 1 << level.tile_shift);
         level.tiles_up = rounded_up_quotient(level.rows, 1 << level.tile_shift);
         level.tile_nodes = std::size_t{1} << static_cast<unsigned>(2 * level.tile_shift);
-        level.tile_bytes = rounded_up(node_bytes * level.tile_nodes, 2);
+        place_errors(level, index + 1 == count);
         if (index == 0 || level.edge >= finest_range_edge) {
             range_level_ = index;
             level.ranges = end;
@@ -51,9 +53,13 @@ GroundLayout::GroundLayout(int columns, int rows) {
         const auto up = static_cast<std::size_t>(level.rows);
         level.north_heights = end;
         level.east_heights = level.north_heights + 2 * across;
-        level.north_errors = level.east_heights + 2 * up;
-        level.east_errors = level.north_errors + across;
-        end = rounded_up(level.east_errors + up, 2);
+        end = level.east_heights + 2 * up;
+        for (std::size_t room = 0; room < (has_both_rooms ? 2 : 1); ++room) {
+            std::fill(level.north_errors.begin() + room, level.north_errors.end(), end);
+            std::fill(level.east_errors.begin() + room, level.east_errors.end(), end + across);
+            end += across + up;
+        }
+        end = rounded_up(end, 2);
     }
     end = rounded_up(end, page_bytes);
     for (Level& level : levels_) {
@@ -62,6 +68,20 @@ GroundLayout::GroundLayout(int columns, int rows) {
                static_cast<std::size_t>(level.tiles_up);
     }
     total_bytes_ = end;
+}
+
+/// Places the errors in a level's tiles, and the end of the tiles behind them.
+void GroundLayout::place_errors(Level& level, bool finest) const {
+    std::size_t planes = height_bytes * parts;
+    for (std::size_t part = 0; part < parts; ++part) {
+        level.errors[0][part] = planes++ * level.tile_nodes;
+    }
+    for (std::size_t part = 0; part < parts; ++part) {
+        const bool is_needing = part == static_cast<std::size_t>(NodePart::Centre) || !finest;
+        level.errors[1][part] =
+            has_both_rooms_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
+    }
+    level.tile_bytes = rounded_up(planes * level.tile_nodes, 2);
 }
 
 } // namespace octant::visuals::terrain

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,10 @@ enum class NodePart : std::uint8_t {
     West    ///< The middle of its west edge.
 };
 
+/// Which of a sample's two errors: with the room that a vertex needs to move slowly while the
+/// wanted error changes from frame to frame, or without any (tile_builder_errors.cpp).
+enum class Room : std::uint8_t { Full, None };
+
 /// The size of a ground and what its numbers mean.
 struct GroundShape {
     int columns = 0; ///< Samples from west to east, 2 to 65,536.
@@ -21,6 +26,8 @@ struct GroundShape {
     double spacing_m = 0.0;
     double height_base_m = 0.0; ///< The height of the stored number 0.
     double height_unit_m = 0.0; ///< The height of one unit; a power of two.
+    /// Whether errors are stored without room, too; else those with full room stand for both.
+    bool has_both_rooms = true;
 };
 
 /// The lowest and highest stored height of a node's samples.
@@ -35,13 +42,15 @@ struct HeightRange {
 /// last level's edge is two samples. The field is padded to a square of 2^n + 1 samples by
 /// repeating its last column and row in place, and nodes without area do not exist. Every sample
 /// but the root's four corners is a NodePart of exactly one node. So heights and errors are each
-/// stored once, 3 bytes a sample, and the first levels alone are a coarser ground (an image pyramid
-/// without repetition).
+/// stored once, 3.5 bytes a sample, and the first levels alone are a coarser ground (an image
+/// pyramid without repetition).
 ///
 /// The nodes of a level lie in square tiles, tiles and the nodes in them row after row from the
-/// south. A tile holds all its heights (Centre of all nodes, then South, then West; int16) and then
-/// all its errors (in the same order, one byte each). Beyond the last row and column of nodes there
-/// are strips: the Souths of the row beyond the last, and the Wests of the column beyond.
+/// south. A tile holds all its heights (Centre of all nodes, then South, then West; int16), then
+/// all its errors with full room (in the same order, one byte each) and then those without room;
+/// but the finest level's Souths and Wests, which no sample needs, have only one error. Beyond the
+/// last row and column of nodes there are strips: the Souths of the row beyond the last, and the
+/// Wests of the column beyond.
 ///
 /// The order in memory is corners, ranges, strips by level and then, from a page boundary on, tiles
 /// by level. Little endian.
@@ -62,20 +71,27 @@ public:
         int tiles_up = 0;
         std::size_t tile_nodes = 0;
         std::size_t tile_bytes = 0;
+        /// By Room and NodePart: the offset in a tile of the nodes' errors.
+        std::array<std::array<std::size_t, 3>, 2> errors{};
         std::size_t first_tile = 0; ///< The offset of the first tile.
         /// The offset of the Souths of row `rows`: int16 by column.
         std::size_t north_heights = 0;
-        std::size_t north_errors = 0; ///< Their errors: bytes by column.
+        std::array<std::size_t, 2> north_errors{}; ///< Their errors by Room: bytes by column.
         /// The offset of the Wests of column `columns`: int16 by row.
         std::size_t east_heights = 0;
-        std::size_t east_errors = 0; ///< Their errors: bytes by row.
+        std::array<std::size_t, 2> east_errors{}; ///< Their errors by Room: bytes by row.
         /// The offset of the HeightRanges of all nodes, row after row; only for edges >= 32 and
         /// level 0.
         std::size_t ranges = 0;
     };
 
-    /// The layout of a field of so many samples.
-    GroundLayout(int columns, int rows);
+    /// The layout of a field of so many samples; for `has_both_rooms` see GroundShape.
+    GroundLayout(int columns, int rows, bool has_both_rooms = true);
+
+    explicit GroundLayout(const GroundShape& shape)
+        : GroundLayout(shape.columns, shape.rows, shape.has_both_rooms) {}
+
+    bool has_both_rooms() const { return has_both_rooms_; }
 
     int levels() const { return static_cast<int>(levels_.size()); }
 
@@ -94,6 +110,9 @@ public:
     std::size_t total_bytes() const { return total_bytes_; }
 
 private:
+    void place_errors(Level& level, bool finest) const;
+
+    bool has_both_rooms_;
     std::vector<Level> levels_;
     int range_level_ = 0;
     std::size_t total_bytes_ = 0;

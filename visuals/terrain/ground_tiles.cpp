@@ -19,7 +19,7 @@ GroundTiles::GroundTiles(
     std::shared_ptr<const TileGuard> guard)
     : shape_(shape)
     , facts_(std::move(facts))
-    , layout_(shape.columns, shape.rows)
+    , layout_(shape)
     , memory_(memory)
     , owner_(std::move(owner))
     , guard_(guard ? std::move(guard) : std::make_shared<const TileGuard>(layout_))

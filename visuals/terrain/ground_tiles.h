@@ -39,14 +39,15 @@ struct GroundFacts {
 /// The error of a sample belongs to the longest-edge bisection of the field. A sample halves the
 /// longest edge of two triangles (of one at the border). Its own error is the largest vertical
 /// distance of the field's samples from those two triangles. Stored is the largest of its own error
-/// and those of all samples that need it (the saturated error), so that errors never grow from a
-/// sample to one that it needs. The middle of an edge needs the centres of both nodes beside the
-/// edge. The centre of a node needs the middles of two edges of its parent: those two of its
-/// corners that are neither its parent's centre nor its parent's corner.
+/// and those of all samples that need it (the saturated error), once with room to move and once
+/// without, so that errors never grow from a sample to one that needs it. The middle of an edge
+/// needs the centres of both nodes beside the edge. The centre of a node needs the middles of two
+/// edges of its parent: those two of its corners that are neither its parent's centre nor its
+/// parent's corner.
 class GroundTiles {
 public:
-    /// `memory` is laid out as GroundLayout(shape.columns, shape.rows) says (its size is asserted)
-    /// and kept alive by `owner`. A tile is read after `guard` has let it; null trusts all tiles.
+    /// `memory` is laid out as GroundLayout(shape) says (its size is asserted) and kept alive by
+    /// `owner`. A tile is read after `guard` has let it; null trusts all tiles.
     GroundTiles(
         const GroundShape& shape,
         GroundFacts facts,
@@ -86,8 +87,9 @@ public:
 
     /// The code of a sample's error by its node, as for height_m; error_m_of makes it metres. It is
     /// 0 only where the error is 0.
-    std::uint8_t error_code(int level, NodePart part, int column, int row) const {
-        return *stored_error(level, part, column, row);
+    std::uint8_t
+    error_code(int level, NodePart part, int column, int row, Room room = Room::Full) const {
+        return *stored_error(level, part, column, row, room);
     }
 
     /// The metres of an error code: at or above every error that has this code, and at most 6 %
@@ -165,17 +167,19 @@ private:
             static_cast<std::size_t>(((row & mask) << at.tile_shift) + (column & mask))};
     }
 
-    const std::uint8_t* stored_error(int level, NodePart part, int column, int row) const {
+    const std::uint8_t*
+    stored_error(int level, NodePart part, int column, int row, Room room) const {
         const GroundLayout::Level& at = layout_.level(level);
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(memory_.data());
         if (row == at.rows) {
-            return bytes + at.north_errors + column;
+            return bytes + at.north_errors[static_cast<std::size_t>(room)] + column;
         }
         if (column == at.columns) {
-            return bytes + at.east_errors + row;
+            return bytes + at.east_errors[static_cast<std::size_t>(room)] + row;
         }
         const TilePlace place = place_of(level, column, row);
-        return bytes + place.tile + (6 + static_cast<std::size_t>(part)) * at.tile_nodes +
+        return bytes + place.tile +
+               at.errors[static_cast<std::size_t>(room)][static_cast<std::size_t>(part)] +
                place.node;
     }
 

@@ -45,27 +45,28 @@ public:
     }
 
     /// The error codes of the mid-points of a node's fan_edges.
-    FourCodes middle_codes(int column, int row) const {
+    FourCodes middle_codes(int column, int row, Room room) const {
         const Spot own = spot(column, row);
+        const auto r = static_cast<std::size_t>(room);
         return {
-            *error(own, NodePart::South),
-            *(column + 1 == at_.columns ? codes(at_.east_errors) + row
-                                        : error(east_of(own, column, row), NodePart::West)),
-            *(row + 1 == at_.rows ? codes(at_.north_errors) + column
-                                  : error(north_of(own, column, row), NodePart::South)),
-            *error(own, NodePart::West)};
+            *error(own, NodePart::South, room),
+            *(column + 1 == at_.columns ? codes(at_.east_errors[r]) + row
+                                        : error(east_of(own, column, row), NodePart::West, room)),
+            *(row + 1 == at_.rows ? codes(at_.north_errors[r]) + column
+                                  : error(north_of(own, column, row), NodePart::South, room)),
+            *error(own, NodePart::West, room)};
     }
 
     /// The error codes of the centres of the four children of one node of the level above, the
     /// first of which is at (column, row); meaningless for children that do not exist.
-    FourCodes child_codes(int column, int row) const {
-        const std::uint8_t* first = error(spot(column, row), NodePart::Centre);
+    FourCodes child_codes(int column, int row, Room room) const {
+        const std::uint8_t* first = error(spot(column, row), NodePart::Centre, room);
         const std::uint8_t* above = first + (std::ptrdiff_t{1} << at_.tile_shift);
         return {first[0], first[1], above[0], above[1]};
     }
 
-    std::uint8_t centre_code(int column, int row) const {
-        return *error(spot(column, row), NodePart::Centre);
+    std::uint8_t centre_code(int column, int row, Room room) const {
+        return *error(spot(column, row), NodePart::Centre, room);
     }
 
     /// The stored height of the root's corner in a quadrant.
@@ -100,8 +101,9 @@ private:
         return reinterpret_cast<const std::int16_t*>(memory_ + offset);
     }
 
-    const std::uint8_t* error(const Spot& spot, NodePart part) const {
-        const std::size_t plane = (6 + static_cast<std::size_t>(part)) * at_.tile_nodes;
+    const std::uint8_t* error(const Spot& spot, NodePart part, Room room) const {
+        const std::size_t plane =
+            at_.errors[static_cast<std::size_t>(room)][static_cast<std::size_t>(part)];
         return reinterpret_cast<const std::uint8_t*>(spot.tile) + plane + spot.node;
     }
 

@@ -27,12 +27,16 @@ TileBuilder::TileBuilder(
     , heights_(heights)
     , coder_(coder)
     , memory_(memory)
-    , children_((2 * most + 2) * (2 * most + 2))
     , unseen_((most + 2) * (most + 2))
-    , souths_((most + 1) * most)
-    , wests_((most + 1) * most)
-    , centres_(most * most)
-    , errors_(most + 1) {}
+    , own_codes_(most + 1)
+    , errors_(most + 1) {
+    for (Codes& codes : codes_) {
+        codes.children.resize((2 * most + 2) * (2 * most + 2));
+        codes.souths.resize((most + 1) * most);
+        codes.wests.resize((most + 1) * most);
+        codes.centres.resize(most * most);
+    }
+}
 
 std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     level_ = place.level;
@@ -45,7 +49,8 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     e.half = e.at.edge / 2;
     e.stride = std::max(1, e.half / widest_half);
     choose_lattice();
-    fetch_children();
+    fetch_children(Room::Full);
+    fetch_children(Room::None);
     fetch_unseen();
     measure_relief();
     measure_souths();
@@ -53,7 +58,9 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     measure_centres();
     tile_.assign(e.at.tile_bytes, std::byte{0});
     put_heights();
-    put_errors();
+    // Where both rooms share a place, errors with full room are written last.
+    put_errors(Room::None);
+    put_errors(Room::Full);
     put_strips();
     return tile_;
 }
@@ -91,14 +98,15 @@ DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
 }
 
 /// Copies the codes of the centres one level finer from finished tiles.
-void TileBuilder::fetch_children() {
+void TileBuilder::fetch_children(Room room) {
     const int edge = 2 * most + 2;
     if (level_ + 1 == layout_.levels()) {
         return;
     }
     const GroundLayout::Level& finer = layout_.level(level_ + 1);
     const int tile_nodes_edge = 1 << finer.tile_shift;
-    std::fill(children_.begin(), children_.end(), std::uint8_t{0});
+    std::vector<std::uint8_t>& children = codes_with(room).children;
+    std::fill(children.begin(), children.end(), std::uint8_t{0});
     const int west = std::max(0, 2 * extent_.first_column - 1);
     const int east = std::min(finer.columns, 2 * (extent_.first_column + extent_.columns) + 1);
     const int south = std::max(0, 2 * extent_.first_row - 1);
@@ -111,10 +119,11 @@ void TileBuilder::fetch_children() {
                 index_of(column >> finer.tile_shift, row >> finer.tile_shift, finer.tiles_across);
             const std::size_t node =
                 index_of(in_tile, row & (tile_nodes_edge - 1), tile_nodes_edge);
-            const std::byte* const codes =
-                memory_.data() + finer.first_tile + tile * finer.tile_bytes + 6 * finer.tile_nodes;
+            const std::byte* const codes = memory_.data() + finer.first_tile +
+                                           tile * finer.tile_bytes +
+                                           finer.errors[static_cast<std::size_t>(room)][0];
             std::memcpy(
-                &children_[index_of(
+                &children[index_of(
                     column - 2 * extent_.first_column + 1, row - 2 * extent_.first_row + 1, edge)],
                 codes + node,
                 static_cast<std::size_t>(count));
@@ -125,12 +134,12 @@ void TileBuilder::fetch_children() {
 
 /// The largest code of the four centres one level finer around a sample, whose place is given in
 /// half nodes from the tile's south-west corner.
-std::uint8_t TileBuilder::children(int column, int row) const {
+std::uint8_t TileBuilder::children(const Codes& codes, int column, int row) const {
     if (level_ + 1 == layout_.levels()) {
         return 0;
     }
     const int edge = 2 * most + 2;
-    const std::uint8_t* const south_west = &children_[index_of(column, row, edge)];
+    const std::uint8_t* const south_west = &codes.children[index_of(column, row, edge)];
     return std::max({south_west[0], south_west[1], south_west[edge], south_west[edge + 1]});
 }
 
@@ -170,10 +179,11 @@ void TileBuilder::put_heights() {
     part(static_cast<std::size_t>(2), 0, 1);
 }
 
-void TileBuilder::put_errors() {
+void TileBuilder::put_errors(Room room) {
     const Extent& e = extent_;
+    const Codes& own = codes_with(room);
     const auto part = [&](std::size_t which, const std::vector<std::uint8_t>& codes, int pitch) {
-        std::byte* const out = tile_.data() + (6 + which) * e.at.tile_nodes;
+        std::byte* const out = tile_.data() + e.at.errors[static_cast<std::size_t>(room)][which];
         for (int row = 0; row < e.rows; ++row) {
             std::memcpy(
                 out + index_of(0, row, 1 << e.at.tile_shift),
@@ -181,9 +191,9 @@ void TileBuilder::put_errors() {
                 static_cast<std::size_t>(e.columns));
         }
     };
-    part(0, centres_, e.columns);
-    part(1, souths_, e.columns);
-    part(2, wests_, e.columns + 1);
+    part(0, own.centres, e.columns);
+    part(1, own.souths, e.columns);
+    part(2, own.wests, e.columns + 1);
 }
 
 /// Writes the strips beyond the last row and column of nodes, where this tile is beside them.
@@ -194,17 +204,21 @@ void TileBuilder::put_strips() {
         for (int column = e.first_column; column < e.first_column + e.columns; ++column) {
             out[column] = height(2 * column + 1, 2 * e.at.rows);
         }
-        std::memcpy(
-            memory_.data() + e.at.north_errors + e.first_column,
-            &souths_[index_of(0, e.rows, e.columns)],
-            static_cast<std::size_t>(e.columns));
+        for (const std::size_t room : {1U, 0U}) {
+            std::memcpy(
+                memory_.data() + e.at.north_errors[room] + e.first_column,
+                &codes_[room].souths[index_of(0, e.rows, e.columns)],
+                static_cast<std::size_t>(e.columns));
+        }
     }
     if (e.first_column + e.columns == e.at.columns) {
         auto* const out = reinterpret_cast<std::int16_t*>(memory_.data() + e.at.east_heights);
-        auto* const codes = reinterpret_cast<std::uint8_t*>(memory_.data() + e.at.east_errors);
         for (int row = 0; row < e.rows; ++row) {
             out[e.first_row + row] = height(2 * e.at.columns, 2 * (e.first_row + row) + 1);
-            codes[e.first_row + row] = wests_[index_of(e.columns, row, e.columns + 1)];
+            for (const std::size_t room : {1U, 0U}) {
+                memory_[e.at.east_errors[room] + static_cast<std::size_t>(e.first_row + row)] =
+                    std::byte{codes_[room].wests[index_of(e.columns, row, e.columns + 1)]};
+            }
         }
     }
 }

@@ -57,14 +57,25 @@ private:
         std::array<int, 2> end_b{};
     };
 
+    /// Codes of errors of one Room, row after row.
+    struct Codes {
+        std::vector<std::uint8_t> children; ///< Centres one level finer, one more on each side.
+        std::vector<std::uint8_t> souths;   ///< One row more than nodes.
+        std::vector<std::uint8_t> wests;    ///< One column more than nodes.
+        std::vector<std::uint8_t> centres;
+    };
+
+    Codes& codes_with(Room room) { return codes_[static_cast<std::size_t>(room)]; }
+
     void choose_lattice();
     DiamondRow lattice_row(int column, int row, int count) const;
-    void fetch_children();
+    void fetch_children(Room room);
     void fetch_unseen();
     std::uint8_t largest_code(int level, int column, int row) const;
     float unseen(int column, int row) const;
     float unseen_by(int index, int row, Diamond diamond) const;
-    std::uint8_t children(int column, int row) const;
+    std::uint8_t children(const Codes& codes, int column, int row) const;
+    std::uint8_t middles(const Codes& codes, int column, int row) const;
     void measure_relief();
     void measure_souths();
     void measure_wests();
@@ -74,7 +85,7 @@ private:
     std::uint8_t with_room(std::uint8_t below, const Halved& edge) const;
     std::int16_t height(int column, int row) const;
     void put_heights();
-    void put_errors();
+    void put_errors(Room room);
     void put_strips();
 
     const GroundLayout& layout_;
@@ -92,14 +103,11 @@ private:
     std::ptrdiff_t pitch_ = 0;
     int lattice_column_ = 0; ///< The column of lattice_[0] in samples.
     int lattice_row_ = 0;
-    /// The codes of the centres one level finer, one more on each side of the tile.
-    std::vector<std::uint8_t> children_;
     /// For each node, and for one more on each side of the tile, the error that samples beside the
     /// lattice may have in a mesh of the lattice, in units of the numbers.
     std::vector<float> unseen_;
-    std::vector<std::uint8_t> souths_; ///< Codes, row after row; one row more than nodes.
-    std::vector<std::uint8_t> wests_;  ///< Codes, row after row; one column more than nodes.
-    std::vector<std::uint8_t> centres_;
+    std::array<Codes, 2> codes_;          ///< By Room.
+    std::vector<std::uint8_t> own_codes_; ///< Those of a row, not saturated.
     std::vector<float> errors_;
     std::vector<std::byte> tile_;
 };

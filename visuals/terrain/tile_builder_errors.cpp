@@ -19,6 +19,10 @@
 //   distance, of which the eye's way is a smaller share: S grows with the least error that the
 //   sample can get, up to where the wanted error's own changes count, which are alike at all
 //   distances. With the same triangles the wanted error grows with the ground's relief: S shrinks.
+// - Errors are stored with this room and without any. Where the wanted error E stays as it is from
+//   frame to frame, vertices may move farther in wanted errors the smaller E is, up to S E0 pixels:
+//   d E / (S E0) is enough, and errors between the two stored ones are nested as they are
+//   (full_room_px in error_survey.h).
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/tile_builder.h"
 
@@ -65,7 +69,8 @@ void TileBuilder::fetch_unseen() {
     }
 }
 
-/// The largest code of the centres of a finer level in a node of this level; 0 beyond the field.
+/// The largest code, without room, of the centres of a finer level in a node of this level; 0
+/// beyond the field.
 std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
     const GroundLayout::Level& finer = layout_.level(level);
     const int across = 1 << (level - level_);
@@ -77,8 +82,9 @@ std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
              ++x) {
             const std::size_t tile =
                 index_of(x >> finer.tile_shift, y >> finer.tile_shift, finer.tiles_across);
-            const std::byte* const codes =
-                memory_.data() + finer.first_tile + tile * finer.tile_bytes + 6 * finer.tile_nodes;
+            const std::byte* const codes = memory_.data() + finer.first_tile +
+                                           tile * finer.tile_bytes +
+                                           finer.errors[static_cast<std::size_t>(Room::None)][0];
             largest = std::max(
                 largest, static_cast<std::uint8_t>(codes[index_of(x & mask, y & mask, mask + 1)]));
         }
@@ -179,16 +185,20 @@ float TileBuilder::unseen_by(int index, int row, Diamond diamond) const {
 /// The stored errors of the middles of south edges.
 void TileBuilder::measure_souths() {
     const Extent& e = extent_;
+    Codes& full = codes_with(Room::Full);
+    Codes& none = codes_with(Room::None);
+    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
     for (int row = 0; row <= e.rows; ++row) {
-        const std::span codes = std::span(souths_).subspan(
-            index_of(0, row, e.columns), static_cast<std::size_t>(e.columns));
-        measure((e.first_row + row) * e.at.edge, Diamond::Lying, codes);
+        measure((e.first_row + row) * e.at.edge, Diamond::Lying, own);
         for (int column = 0; column < e.columns; ++column) {
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
+            const std::uint8_t code = own[static_cast<std::size_t>(column)];
+            const std::size_t to = index_of(column, row, e.columns);
             const int west = (e.first_column + column) * e.at.edge;
             const int at = (e.first_row + row) * e.at.edge;
             const Halved edge{{west + e.half, at}, {west, at}, {west + e.at.edge, at}};
-            code = std::max(code, with_room(children(2 * column + 1, 2 * row), edge));
+            const std::uint8_t below = children(full, 2 * column + 1, 2 * row);
+            full.souths[to] = std::max(code, with_room(below, edge));
+            none.souths[to] = std::max(code, children(none, 2 * column + 1, 2 * row));
         }
     }
 }
@@ -196,16 +206,20 @@ void TileBuilder::measure_souths() {
 /// The stored errors of the middles of west edges.
 void TileBuilder::measure_wests() {
     const Extent& e = extent_;
+    Codes& full = codes_with(Room::Full);
+    Codes& none = codes_with(Room::None);
+    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns) + 1);
     for (int row = 0; row < e.rows; ++row) {
-        const std::span codes = std::span(wests_).subspan(
-            index_of(0, row, e.columns + 1), static_cast<std::size_t>(e.columns) + 1);
-        measure((e.first_row + row) * e.at.edge + e.half, Diamond::Upright, codes);
+        measure((e.first_row + row) * e.at.edge + e.half, Diamond::Upright, own);
         for (int column = 0; column <= e.columns; ++column) {
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
+            const std::uint8_t code = own[static_cast<std::size_t>(column)];
+            const std::size_t to = index_of(column, row, e.columns + 1);
             const int at = (e.first_column + column) * e.at.edge;
             const int south = (e.first_row + row) * e.at.edge;
             const Halved edge{{at, south + e.half}, {at, south}, {at, south + e.at.edge}};
-            code = std::max(code, with_room(children(2 * column, 2 * row + 1), edge));
+            const std::uint8_t below = children(full, 2 * column, 2 * row + 1);
+            full.wests[to] = std::max(code, with_room(below, edge));
+            none.wests[to] = std::max(code, children(none, 2 * column, 2 * row + 1));
         }
     }
 }
@@ -213,27 +227,35 @@ void TileBuilder::measure_wests() {
 /// The stored errors of the centres, which come last because they need those of the edges.
 void TileBuilder::measure_centres() {
     const Extent& e = extent_;
+    Codes& full = codes_with(Room::Full);
+    Codes& none = codes_with(Room::None);
+    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
     for (int row = 0; row < e.rows; ++row) {
-        const std::span codes = std::span(centres_).subspan(
-            index_of(0, row, e.columns), static_cast<std::size_t>(e.columns));
         const bool falling = ((e.first_row + row + e.first_column) & 1) != 0;
         measure(
             (e.first_row + row) * e.at.edge + e.half,
             falling ? Diamond::Falling : Diamond::Rising,
-            codes);
+            own);
         for (int column = 0; column < e.columns; ++column) {
-            const std::size_t south = index_of(column, row, e.columns);
-            const std::size_t west = index_of(column, row, e.columns + 1);
-            std::uint8_t& code = codes[static_cast<std::size_t>(column)];
-            const std::uint8_t below = std::max(
-                {souths_[south],
-                 souths_[south + static_cast<std::size_t>(e.columns)],
-                 wests_[west],
-                 wests_[west + 1]});
-            code = std::max(
-                code, with_room(below, diagonal_of(column, row, falling != ((column & 1) != 0))));
+            const std::uint8_t code = own[static_cast<std::size_t>(column)];
+            const std::size_t to = index_of(column, row, e.columns);
+            const Halved edge = diagonal_of(column, row, falling != ((column & 1) != 0));
+            full.centres[to] = std::max(code, with_room(middles(full, column, row), edge));
+            none.centres[to] = std::max(code, middles(none, column, row));
         }
     }
+}
+
+/// The largest code of the middles of a node's edges.
+std::uint8_t TileBuilder::middles(const Codes& codes, int column, int row) const {
+    const auto columns = static_cast<std::size_t>(extent_.columns);
+    const std::size_t south = index_of(column, row, extent_.columns);
+    const std::size_t west = index_of(column, row, extent_.columns + 1);
+    return std::max(
+        {codes.souths[south],
+         codes.souths[south + columns],
+         codes.wests[west],
+         codes.wests[west + 1]});
 }
 
 /// The edge that a node's centre halves.

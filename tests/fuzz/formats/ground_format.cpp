@@ -42,7 +42,7 @@ void seal(std::string& bytes) {
     std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
     if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 &&
         header.rows <= 65536) {
-        const terrain::GroundLayout layout(header.columns, header.rows);
+        const terrain::GroundLayout layout(shape_of(header));
         const groundfile::GroundFilePlan plan(layout);
         header.layout = groundfile::hash_of(layout);
         if (bytes.size() == plan.file_bytes) {

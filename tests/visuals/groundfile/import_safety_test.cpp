@@ -1,19 +1,24 @@
 #include "sim/base/error.h"
+#include "tests/rough_heights.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/ground_import.h"
+#include "visuals/terrain/ground_assembly.h"
+#include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +30,8 @@ namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
+using terrain::NodePart;
+using terrain::Room;
 
 const auto never_save = [](ImportStage, double) { return false; };
 
@@ -64,6 +71,48 @@ std::string name_read(const std::string& name) {
     GroundFacts facts;
     facts.name = name;
     return facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).name;
+}
+
+/// The file that version 3 made of a field.
+void write_third_version(
+    const path& file, const models::heights::HeightField& field, const GroundTiles& today) {
+    GroundShape shape = today.shape();
+    shape.has_both_rooms = false;
+    std::vector<std::int16_t> numbers;
+    for (int row = 0; row < shape.rows; ++row) {
+        for (int column = 0; column < shape.columns; ++column) {
+            numbers.push_back(terrain::stored_number(field.height_m(column, row), shape));
+        }
+    }
+    const GroundLayout layout(shape);
+    const GroundFilePlan plan(layout);
+    std::vector<std::byte> bytes(plan.file_bytes);
+    const auto memory = std::span(bytes).subspan(GroundHeader::bytes, layout.total_bytes());
+    const auto checksums = std::span(bytes).subspan(plan.checksums);
+    const auto put_checksum = [&](std::size_t index, std::uint64_t checksum) {
+        std::memcpy(&checksums[8 * index], &checksum, sizeof checksum);
+    };
+    const terrain::StoredHeights heights{
+        numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
+    terrain::GroundAssembly assembly(shape, layout, heights, memory, 1);
+    assembly.put_outline();
+    for (std::size_t tile = 0; tile < assembly.tiles();) {
+        tile = assembly.build(tile, 1, [&](std::size_t index, std::size_t offset, auto made) {
+            std::copy(
+                made.begin(), made.end(), memory.begin() + static_cast<std::ptrdiff_t>(offset));
+            put_checksum(index + 1, hash_of(made));
+        });
+    }
+    put_checksum(0, hash_of(memory.first(layout.first_tile())));
+    GroundHeader header = header_of(shape, today.facts());
+    header.progress.stage = GroundProgress::Stage::Complete;
+    header.checksums = hash_of(checksums);
+    const auto page = page_of(header);
+    std::copy(page.begin(), page.end(), bytes.begin());
+    std::ofstream(file, std::ios::binary)
+        .write(
+            reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
 }
 
 } // namespace
@@ -161,16 +210,41 @@ TEST_CASE("a header keeps the coordinate system, and one of the first version ha
     spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
     CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
 
-    GroundHeader first = header;
+    GroundHeader first = header_of({40, 30, 30.0, 7.0, 1.0, false}, facts);
     first.version = 1;
     auto page = page_of(first);
     std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
     CHECK_FALSE(facts_of(read_header("header", page)).system);
-    first.version = 4;
-    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 4"));
+    first.version = 5;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 5"));
 
     facts.system->wkt.assign(4000, 'x');
     CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
+}
+
+TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
+    const models::heights::HeightField field(33, 33, 30.0, tests::rough_heights(33, 33));
+    const GroundTiles today = terrain::ground_of(field);
+    const path file = scratch("third.ground");
+    write_third_version(file, field, today);
+    const GroundTiles third = open_ground(file);
+    CHECK_NOTHROW(verify_ground(file));
+    CHECK_FALSE(third.layout().has_both_rooms());
+    int beyond = 0;
+    for (int level = 0; level < today.levels(); ++level) {
+        const GroundLayout::Level& at = today.layout().level(level);
+        for (int row = 0; row < at.rows; ++row) {
+            for (int column = 0; column < at.columns; ++column) {
+                const auto code = [&](const GroundTiles& ground, Room room) {
+                    return ground.error_code(level, NodePart::Centre, column, row, room);
+                };
+                CHECK(code(third, Room::Full) == code(today, Room::Full));
+                CHECK(code(third, Room::None) == code(today, Room::Full));
+                beyond += code(today, Room::Full) > code(today, Room::None) ? 1 : 0;
+            }
+        }
+    }
+    CHECK(beyond > 20);
 }
 
 TEST_CASE("a name is cut between characters and read as UTF-8 without control characters") {

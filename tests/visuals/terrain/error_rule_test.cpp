@@ -83,7 +83,7 @@ TEST_CASE("critical values never shrink from a sample to one that needs it, to t
             const glm::dvec3 sample_m = ground.field.sample_m(size.columns / 2, size.rows / 3);
             view.eye_m = {sample_m.x, sample_m.y, view.eye_m.z};
         }
-        rule.look_from(view);
+        rule.look_from(view, numbers.coin() ? 1.0 : numbers.between(0.0, 1.0));
         const AllCriticals all(rule, ground.tiles);
         INFO("seed " << seed);
         for (std::size_t level = 0; level < all.of_level.size(); ++level) {

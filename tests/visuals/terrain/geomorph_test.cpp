@@ -19,7 +19,7 @@ struct Moves {
     int vertices = 0;       ///< that came or went
 };
 
-Moves moves_of(ErrorGround& ground, bool geomorphs, double error_px) {
+Moves moves_of(ErrorGround& ground, const ErrorTarget& wanted) {
     constexpr double move_m = 0.01;
     MeshView view;
     view.earth_radius_m = 0.0;
@@ -29,7 +29,7 @@ Moves moves_of(ErrorGround& ground, bool geomorphs, double error_px) {
     for (int frame = 0; frame < 150; ++frame) {
         view.eye_m = {
             -20.0 + move_m * frame, 13.0 - 0.5 * move_m * frame, 8.0 + 0.3 * move_m * frame};
-        const GroundMesh mesh = ground.mesher.mesh(view, {error_px, any_triangles, geomorphs});
+        const GroundMesh mesh = ground.mesher.mesh(view, wanted);
         const auto after_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
         for (std::size_t k = 0; k < before_m.size(); ++k) {
             moves.largest_m = std::max(moves.largest_m, std::abs(after_m[k] - before_m[k]));
@@ -67,11 +67,17 @@ TEST_CASE(
             INFO(size << " samples, " << height << " times as high");
             ErrorGround ground(stretched(rough_field(size, size, 4), of.height));
             const double error_px = 4.0 * height;
-            const Moves smooth = moves_of(ground, true, error_px);
+            const auto most_m = [&](double px) {
+                return of.fastest * 0.01 * px / 869.1 + 2e-5 * height;
+            };
+            const Moves smooth = moves_of(ground, {error_px, 1'000'000, true});
             CHECK(smooth.vertices > 30);
-            CHECK(smooth.largest_m < of.fastest * 0.01 * error_px / 869.1 + 2e-5 * height);
-            const Moves jumping = moves_of(ground, false, error_px);
+            CHECK(smooth.largest_m < most_m(error_px));
+            const Moves jumping = moves_of(ground, {error_px, any_triangles, false});
             CHECK(jumping.largest_m > 50.0 * smooth.largest_m);
+            // Without a budget an error below full_room_px moves as many pixels as that one.
+            const Moves steady = moves_of(ground, {error_px, any_triangles, true});
+            CHECK(steady.largest_m < most_m(std::max(error_px, full_room_px)));
         }
     }
 }

@@ -92,9 +92,9 @@ TEST_CASE("fractions of a metre are kept to half a unit") {
     }
 }
 
-TEST_CASE("a ground takes at most 3.02 bytes a sample") {
+TEST_CASE("a ground takes at most 3.52 bytes a sample") {
     const GroundLayout layout(1025, 1025);
-    CHECK(static_cast<double>(layout.total_bytes()) <= 3.02 * 1025 * 1025);
+    CHECK(static_cast<double>(layout.total_bytes()) <= 3.52 * 1025 * 1025);
 }
 
 TEST_CASE("the table of codes agrees with the search") {

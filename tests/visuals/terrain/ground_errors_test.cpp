@@ -31,14 +31,16 @@ public:
         : field_(field)
         , factor_(factor)
         , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge)
-        , codes_(static_cast<std::size_t>((root_edge_ + 1) * (root_edge_ + 1))) {
+        , codes_{std::vector<std::uint8_t>(index(root_edge_, root_edge_) + 1), codes_[0]} {
         for (int half = 1; half < root_edge_; half *= 2) {
             for_each(half, false);
             for_each(half, true);
         }
     }
 
-    std::uint8_t code(int x, int y) const { return codes_[index(x, y)]; }
+    std::uint8_t code(int x, int y, Room room) const {
+        return codes_[static_cast<std::size_t>(room)][index(x, y)];
+    }
 
     /// The largest deviation of samples from the triangles whose longest edge a sample halves;
     /// `half`: from the middle to a corner or a side of the square around them.
@@ -108,14 +110,16 @@ private:
                 const bool odd_y = is_odd(y, half);
                 if ((odd_x || odd_y) && (odd_x && odd_y) == centres) {
                     const double own_m = own({x, y}, half, Look::AsBuilt) + unseen({x, y}, half);
-                    const std::uint8_t below = largest_below({x, y}, half, centres);
-                    codes_[index(x, y)] = std::max(coded(own_m), with_room({x, y}, half, below));
+                    const std::uint8_t below = largest_below({x, y}, half, centres, Room::Full);
+                    codes_[0][index(x, y)] = std::max(coded(own_m), with_room({x, y}, half, below));
+                    codes_[1][index(x, y)] =
+                        std::max(coded(own_m), largest_below({x, y}, half, centres, Room::None));
                 }
             }
         }
     }
 
-    std::uint8_t largest_below(Point at, int half, bool centre) const {
+    std::uint8_t largest_below(Point at, int half, bool centre, Room room) const {
         static constexpr std::array<Point, 4> straight = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
         static constexpr std::array<Point, 4> aslant = {{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
         const int step = centre ? half : half / 2;
@@ -124,7 +128,7 @@ private:
             const int x = at.x + way.x * step;
             const int y = at.y + way.y * step;
             if (step > 0 && padded(x, y) && (centre || has_area(x, y, step))) {
-                largest = std::max(largest, code(x, y));
+                largest = std::max(largest, code(x, y, room));
             }
         }
         return largest;
@@ -161,7 +165,7 @@ private:
             for (int x = least_x; x < end_x; x += stride) {
                 const Point centre{x + stride / 2, y + stride / 2};
                 if (padded(centre.x, centre.y) && has_area(centre.x, centre.y, stride / 2)) {
-                    largest = std::max(largest, code(centre.x, centre.y));
+                    largest = std::max(largest, code(centre.x, centre.y, Room::None));
                 }
             }
         }
@@ -213,10 +217,10 @@ private:
     const models::heights::HeightField& field_;
     double factor_;
     int root_edge_;
-    std::vector<std::uint8_t> codes_;
+    std::array<std::vector<std::uint8_t>, 2> codes_; ///< By Room.
 };
 
-/// Calls check(code, sample, half) for each stored error of a ground.
+/// Calls check(code, room, sample, half) for each stored error of a ground.
 template <typename Check>
 void for_each_error(const GroundTiles& ground, const Check& check) {
     for (int level = 0; level < ground.levels(); ++level) {
@@ -226,7 +230,9 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
             for (int x = 0; x <= at.columns; ++x) {
                 const Point corner{x * at.edge, y * at.edge};
                 const auto check_part = [&](NodePart part, Point sample) {
-                    check(ground.error_code(level, part, x, y), sample, half);
+                    for (const Room room : {Room::Full, Room::None}) {
+                        check(ground.error_code(level, part, x, y, room), room, sample, half);
+                    }
                 };
                 if (x < at.columns) {
                     check_part(NodePart::South, {corner.x + half, corner.y});
@@ -248,8 +254,9 @@ int wrong_errors(const models::heights::HeightField& field) {
     const PlainErrors least(field, 1.0 - 1e-6);
     const PlainErrors most(field, 1.0 + 1e-6);
     int wrong = 0;
-    for_each_error(ground_of(field), [&](std::uint8_t code, Point sample, int /*half*/) {
-        wrong += code < least.code(sample.x, sample.y) || code > most.code(sample.x, sample.y);
+    for_each_error(ground_of(field), [&](std::uint8_t code, Room room, Point sample, int /*half*/) {
+        wrong += code < least.code(sample.x, sample.y, room) ||
+                 code > most.code(sample.x, sample.y, room);
     });
     return wrong;
 }
@@ -258,7 +265,7 @@ int wrong_errors(const models::heights::HeightField& field) {
 int errors_too_small(const models::heights::HeightField& field) {
     const PlainErrors plain(field, 1.0);
     int wrong = 0;
-    for_each_error(ground_of(field), [&](std::uint8_t code, Point sample, int half) {
+    for_each_error(ground_of(field), [&](std::uint8_t code, Room /*room*/, Point sample, int half) {
         const double own_m = plain.own(sample, half, Look::AtAll);
         wrong += static_cast<double>(GroundTiles::error_m_of(code)) < own_m * (1.0 - 1e-6);
     });
@@ -267,7 +274,8 @@ int errors_too_small(const models::heights::HeightField& field) {
 
 } // namespace
 
-TEST_CASE("errors are the largest deviations in the diamonds, saturated with room to move") {
+TEST_CASE(
+    "errors are the largest deviations in the diamonds, saturated with room to move and without") {
     for (const int size : {3, 5, 9, 17, 33, 65, 129}) {
         INFO(size);
         CHECK(wrong_errors(rough_field(size, size, static_cast<unsigned>(size))) == 0);
