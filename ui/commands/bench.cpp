@@ -16,7 +16,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -121,6 +123,7 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         frame_ms.push_back(record.frame_ms);
     }
     const report::Statistics statistics = report::statistics_of_times(frame_ms);
+    const double triangles = median_of(timed, [](const Record& r) { return r.terrain_triangles; });
     return {
         .name = timed.name,
         .median_ms = statistics.p50_ms,
@@ -133,8 +136,9 @@ BenchResult result_of(const Timed& timed, double floor_ms) {
         .mesh_wait_ms = median_of(timed, [](const Record& r) { return r.mesh_wait_ms; }),
         .draw_wait_ms = median_of(timed, [](const Record& r) { return r.draw_wait_ms; }),
         .cpu_ms = median(timed.cpu_ms),
-        .triangles =
-            static_cast<int>(median_of(timed, [](const Record& r) { return r.terrain_triangles; })),
+        .triangles = static_cast<int>(triangles),
+        .ms_per_1000_triangles =
+            triangles > 0.0 ? std::optional(statistics.p50_ms * 1000.0 / triangles) : std::nullopt,
         .hash = timed.hash.value()};
 }
 
@@ -172,7 +176,12 @@ std::vector<BenchScene> scenes_of(const BenchOptions& options) {
             if (kind == RendererKind::Gl && settings.view.samples == 16) {
                 settings.view.samples.reset();
             }
-            scenes.push_back({name_of(settings), settings});
+            const BenchScene scene{name_of(settings), settings};
+            if (options.growth) {
+                std::ranges::move(growth_scenes(scene), std::back_inserter(scenes));
+            } else {
+                scenes.push_back(scene);
+            }
         }
     }
     return scenes;

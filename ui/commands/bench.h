@@ -15,6 +15,7 @@ struct BenchOptions {
     std::vector<std::string> terrains; ///< one scene each, and each renderer if none is asked for
     int frames = 300;                  ///< timed, of each scene
     bool features = false;             ///< each scene with and without each feature of the picture
+    bool growth = false;               ///< each scene with 20,000 to 200,000 triangles of ground
     bool quiet = false;
 };
 
@@ -33,7 +34,9 @@ struct BenchResult {
     double cpu_ms = 0.0;       ///< median of the time that all threads took of processors
     /// That, over the same scene's without features.
     std::optional<double> of_plain = {};
-    int triangles = 0;      ///< of ground, median
+    int triangles = 0; ///< of ground, median
+    /// median_ms for each 1,000 of them; nothing where there are none.
+    std::optional<double> ms_per_1000_triangles = {};
     std::uint64_t hash = 0; ///< over the pixels of the timed frames
 };
 

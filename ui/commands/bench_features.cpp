@@ -1,6 +1,7 @@
 #include "ui/commands/bench_features.h"
 
 #include <array>
+#include <fmt/format.h>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -93,6 +94,15 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
         by_gl.drawing.renderer = settings::RendererKind::Gl;
         by_gl.view.samples.reset();
         add("those of the defaults by OpenGL", by_gl);
+    }
+    return scenes;
+}
+
+std::vector<BenchScene> growth_scenes(const BenchScene& scene) {
+    std::vector<BenchScene> scenes;
+    for (const int triangles : {20000, 50000, 100000, 200000}) {
+        scenes.push_back({fmt::format("{}, {}", scene.name, triangles), scene.settings});
+        scenes.back().settings.ground.triangles = triangles;
     }
     return scenes;
 }

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace octant::ui::commands {
 
@@ -28,11 +30,15 @@ void put_formation(BenchOptions& options) {
     options.settings.ground.triangles = 25000;
 }
 
+std::string figure_or_dash(const std::optional<double>& value, int decimals) {
+    return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
+}
+
 void print_table(const std::vector<BenchResult>& results) {
     std::fputs(
         fmt::format(
-            "{:<59} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>9}  "
-            "{}\n",
+            "{:<59} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>9} "
+            "{:>8}  {}\n",
             "scene",
             "median ms",
             "p99 ms",
@@ -46,6 +52,7 @@ void print_table(const std::vector<BenchResult>& results) {
             "CPU ms",
             "of plain",
             "triangles",
+            "ms/1000",
             "hash")
             .c_str(),
         stdout);
@@ -53,7 +60,7 @@ void print_table(const std::vector<BenchResult>& results) {
         std::fputs(
             fmt::format(
                 "{:<59} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>10.2f} "
-                "{:>10.2f} {:>8.2f} {:>8} {:>9}  {:016x}\n",
+                "{:>10.2f} {:>8.2f} {:>8} {:>9} {:>8}  {:016x}\n",
                 r.name,
                 r.median_ms,
                 r.p99_ms,
@@ -65,8 +72,9 @@ void print_table(const std::vector<BenchResult>& results) {
                 r.mesh_wait_ms,
                 r.draw_wait_ms,
                 r.cpu_ms,
-                r.of_plain ? fmt::format("{:.2f}", *r.of_plain) : "-",
+                figure_or_dash(r.of_plain, 2),
                 r.triangles,
+                figure_or_dash(r.ms_per_1000_triangles, 3),
                 r.hash)
                 .c_str(),
             stdout);
@@ -90,6 +98,7 @@ void print_json(const std::vector<BenchResult>& results) {
              {"cpu_ms", r.cpu_ms},
              {"of_plain", r.of_plain},
              {"triangles", r.triangles},
+             {"ms_per_1000_triangles", r.ms_per_1000_triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
     base::print_figures({{"scenes", scenes}}, true);
@@ -139,6 +148,11 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "a table of costs: each scene without features, with each one alone (near detail, "
             "scenery, sky, ...), with the defaults and with all, frame by frame in turn",
             options.features),
+        flag(
+            "--growth",
+            "each scene with 20,000, 50,000, 100,000 and 200,000 triangles of ground in turn, in "
+            "place of --triangles; ms/1000 is the median for each 1,000 triangles",
+            options.growth),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
 }
@@ -154,7 +168,8 @@ Command bench_command() {
                    "ratio to it",
         .options = options_of(*bench),
         .footer = "Example:\n  octant bench --terrain map.tif --size 1920x1080 --json\n"
-                  "  octant bench --features --terrain hills --aircraft 500md --renderer raster",
+                  "  octant bench --features --terrain hills --aircraft 500md --renderer raster\n"
+                  "  octant bench --growth --terrain canyon",
         .run = [bench] {
             if (bench->formation) {
                 put_formation(bench->options);

@@ -58,4 +58,18 @@ TEST_CASE("a table of costs has ground by a texture from both renderers, else wi
     CHECK(scene_named(scenes, "hills: ground by texture by OpenGL").settings == expected);
 }
 
+TEST_CASE("growth is measured from 20,000 to 200,000 triangles of ground, all else alike") {
+    settings::RunSettings measured = settings::of_given_ground();
+    measured.path.terrain = "canyon";
+    const std::vector<BenchScene> scenes = growth_scenes({"canyon", measured});
+    REQUIRE(scenes.size() == 4);
+    CHECK(scenes.front().name == "canyon, 20000");
+    CHECK(scenes.front().settings.ground.triangles == 20000);
+    CHECK(scenes.back().settings.ground.triangles == 200000);
+    for (BenchScene scene : scenes) {
+        scene.settings.ground.triangles = measured.ground.triangles;
+        CHECK(scene.settings == measured);
+    }
+}
+
 } // namespace octant::ui::commands
