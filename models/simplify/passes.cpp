@@ -2,8 +2,7 @@
 // then, by distances as by quadrics. So several ways are tried where that is cheap, and measured.
 #include "models/simplify/passes.h"
 
-#include "models/measure/flipped_area.h"
-#include "models/measure/mesh_distance.h"
+#include "models/simplify/fault.h"
 #include "models/simplify/shells.h"
 #include "sim/base/worker_team.h"
 
@@ -34,61 +33,33 @@ bool is_reached(const Simplified& result, const Goal& goal) {
            (!goal.vertices || result.mesh.vertices_m.size() <= *goal.vertices);
 }
 
-/// With one percent of its area turned over a result counts as twice as far off.
-constexpr double turned_price = 100.0;
-
-/// How far a result is off.
-struct Fault {
-    double off_m = 0.0; ///< The certified distance; 0 where it lies on the original.
-    double rms_m = 0.0;
-    double turned = 0.0; ///< The share of its area that is turned over.
-    /// The one times the other, more where triangles are turned over.
-    double product = 0.0;
-};
-
-Fault fault_of(const Simplified& result, const SimplifyOptions& options) {
-    if (result.mesh.triangles.empty()) {
-        return {0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
-    }
-    if (result.sequence.collapses.empty()) {
-        return {};
-    }
-    constexpr std::size_t samples = 50'000;
-    measure::DistanceOptions how;
-    how.tightness = 1.02;
-    how.samples = samples;
-    how.negligible_m = 1e-6 * diagonal_m(result.sequence.original);
-    how.threads = options.threads;
-    how.larger_alone = true;
-    const measure::MeshDistance distance =
-        measure::distance(result.sequence.original, result.mesh, how);
-    const double off_m = distance.most_hausdorff_m();
-    if (!(off_m > 2.0 * how.negligible_m)) {
-        return {};
-    }
-    const double turned = measure::flipped_area_share(
-        result.mesh, result.sequence.original, {.samples = samples, .threads = options.threads});
-    const double rms_m = distance.rms_m();
-    return {off_m, rms_m, turned, off_m * rms_m * (1.0 + turned_price * turned)};
-}
-
-/// A result and how far it is off; one that misses the goal comes after all that reach it.
+/// A result and how far it is off.
 struct Candidate {
     Simplified result;
     bool misses = false;
     Fault fault;
+    bool fits_slivers = false; ///< By SimplifyOptions::fits_slivers.
 
-    bool is_better_than(const Candidate& other) const {
+    /// One that misses the goal comes after all that reach it.
+    bool is_better_than(const Candidate& other, const Yardstick& yardstick) const {
         constexpr double clearly = 0.99;
-        return misses != other.misses ? other.misses
-                                      : fault.product < clearly * other.fault.product;
+        return misses != other.misses
+                   ? other.misses
+                   : yardstick.badness(fault) < clearly * yardstick.badness(other.fault);
     }
 };
 
 Candidate judged(Simplified result, const SimplifyOptions& options) {
+    constexpr double tightness = 1.02;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
     const bool misses = !is_reached(result, options.goal);
-    const Fault fault = fault_of(result, options);
-    return {std::move(result), misses, fault};
+    Fault fault;
+    if (result.mesh.triangles.empty()) {
+        fault = {infinite, infinite, 1.0};
+    } else if (!result.sequence.collapses.empty()) {
+        fault = fault_of(result.mesh, result.sequence.original, tightness, options.threads);
+    }
+    return {std::move(result), misses, fault, options.fits_slivers};
 }
 
 /// What chooses the collapses of each pass that is tried; the usual one first.
@@ -111,34 +82,32 @@ std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOp
     return choosers;
 }
 
-/// The root mean square distance of the better one of the plain passes before its polish: about
-/// what others reach. 0 where no plain one was tried.
-double plain_rms_m(std::span<const Candidate> tried, const SimplifyOptions& options) {
-    double least_m = std::numeric_limits<double>::infinity();
+/// What the plain ones of the passes reached before their polish. Nothing is known where none was
+/// tried.
+Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& options) {
+    Yardstick yardstick;
     for (const Candidate& one : tried) {
         const CollapseSequence& sequence = one.result.sequence;
         if (measures_distances(one.result.chosen_by) || one.misses || sequence.collapses.empty()) {
             continue;
         }
-        measure::DistanceOptions how;
-        how.tightness = 4.0;
-        how.samples = 50'000;
-        how.threads = options.threads;
         const TriangleMesh mesh = mesh_after(sequence, sequence.collapses.size());
-        if (mesh.triangles.empty()) {
-            continue;
+        if (!mesh.triangles.empty()) {
+            yardstick.add(mesh, sequence.original, options.threads);
         }
-        least_m = std::min(least_m, measure::distance(sequence.original, mesh, how).rms_m());
     }
-    return std::isinf(least_m) ? 0.0 : least_m;
+    return yardstick;
 }
 
 /// Tries to lower the largest distance of the best result so far: passes that avoid all beyond a
 /// part of it, side by side, as long as one of them is better, turns no more over and is hardly
 /// farther off in the mean, or clearly less than plain passes are. Where most triangles stay there
 /// is room for that.
-Candidate
-lowered(Candidate best, double plain_m, const SimplifyOptions& options, const OnePass& one_pass) {
+Candidate lowered(
+    Candidate best,
+    const Yardstick& yardstick,
+    const SimplifyOptions& options,
+    const OnePass& one_pass) {
     struct Try {
         Chooser chooser;
         double part;
@@ -154,27 +123,59 @@ lowered(Candidate best, double plain_m, const SimplifyOptions& options, const On
     constexpr double hardly = 1.02;
     constexpr double clearly_less = 0.88;
     const double most_turned = best.fault.turned;
-    const double most_rms_m = std::max(hardly * best.fault.rms_m, clearly_less * plain_m);
+    const double plain_m =
+        std::isfinite(yardstick.rms_m()) ? clearly_less * yardstick.rms_m() : 0.0;
+    const double most_rms_m = std::max(hardly * best.fault.rms_m, plain_m);
     bool is_better = !best.misses && best.fault.off_m > 0.0;
     for (int time = 0; time < most_times && is_better; ++time) {
         std::array<Candidate, tries.size()> tried;
         share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
             SimplifyOptions how = options;
+            how.fits_slivers = best.fits_slivers;
             how.avoided_m = tries[i].part * best.fault.off_m;
             how.slivers_too = tries[i].slivers_too;
-            tried[i] =
-                judged(one_pass(best.result.sequence.original, how, tries[i].chooser), options);
+            tried[i] = judged(one_pass(best.result.sequence.original, how, tries[i].chooser), how);
         });
         is_better = false;
         for (Candidate& other : tried) {
             if (other.fault.rms_m <= most_rms_m && other.fault.turned <= most_turned &&
-                other.is_better_than(best)) {
+                other.is_better_than(best, yardstick)) {
                 best = std::move(other);
                 is_better = true;
             }
         }
     }
     return best;
+}
+
+/// The best result so far, or a better balanced one where plain passes beat it in one value, or
+/// nearly so: of the passes that were tried, and of the same ones with a polish that makes slivers.
+/// It turns no more over.
+Candidate beside_plain(
+    std::vector<Candidate> tried,
+    std::size_t best,
+    const Yardstick& yardstick,
+    const SimplifyOptions& options,
+    const OnePass& one_pass) {
+    const Fault fault = tried[best].fault;
+    if (tried[best].misses || !(fault.off_m > 0.0) || yardstick.is_beaten_by(fault)) {
+        return std::move(tried[best]);
+    }
+    const std::size_t passes = tried.size();
+    tried.resize(2 * passes);
+    SimplifyOptions how = options;
+    how.fits_slivers = true;
+    share_out(passes, options.threads, [&](std::size_t i, std::size_t) {
+        const Simplified& other = tried[i].result;
+        tried[passes + i] = judged(one_pass(other.sequence.original, how, other.chosen_by), how);
+    });
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        if (tried[i].fault.turned <= fault.turned &&
+            tried[i].is_better_than(tried[best], yardstick)) {
+            best = i;
+        }
+    }
+    return std::move(tried[best]);
 }
 
 /// Tries the passes side by side and returns the best result, the first one where none is clearly
@@ -194,14 +195,15 @@ best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& 
     });
     std::size_t best = 0;
     for (std::size_t i = 1; i < tried.size(); ++i) {
-        best = tried[i].is_better_than(tried[best]) ? i : best;
+        best = tried[i].is_better_than(tried[best], Yardstick()) ? i : best;
     }
     const bool is_small = tried[best].result.sequence.original.triangles.size() <= small;
     if (options.quality == Quality::Fast || !is_small) {
         return std::move(tried[best].result);
     }
-    const double plain_m = plain_rms_m(tried, options);
-    return lowered(std::move(tried[best]), plain_m, quiet, one_pass).result;
+    const Yardstick yardstick = yardstick_of(tried, options);
+    Candidate found = beside_plain(std::move(tried), best, yardstick, quiet, one_pass);
+    return lowered(std::move(found), yardstick, quiet, one_pass).result;
 }
 
 } // namespace

@@ -13,9 +13,10 @@ using OnePass = std::function<Simplified(
 
 /// The best of several passes: with Quality::Surface plain ones by quadrics and volumes are tried
 /// too, where few faces are to be left and they cost little, and with Quality::Fast the one by
-/// volumes, where the mesh is small. On small meshes Quality::Surface then tries passes that avoid
-/// the largest distance of the best. Where a goal is out of reach the smallest shells
-/// go first, unless the options keep them.
+/// volumes, where the mesh is small. On small meshes Quality::Surface then tries passes that fit
+/// slivers, where a plain one is better than the best in one value, and passes that avoid the
+/// largest distance of the best. Where a goal is out of reach the smallest shells go first, unless
+/// the options keep them.
 Simplified
 best_of_passes(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass);
 

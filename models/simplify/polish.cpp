@@ -37,6 +37,8 @@ public:
         , target_(target)
         , threads_(options.threads)
         , avoided2_(options.avoided2)
+        , strictness_(
+              options.slivers_too && !surface.coloured() ? Strictness::Loose : Strictness::Normal)
         , aims_(options.fields) {}
 
     void round() {
@@ -65,6 +67,7 @@ private:
     PolishTarget target_;
     int threads_;
     double avoided2_;
+    Strictness strictness_;
     SampleAims aims_;
     double most2_ = 0.0; ///< The largest squared distance that cost_at saw last.
     SurfaceCost cost_;
@@ -124,7 +127,7 @@ void Polishing::fit(std::uint32_t vertex) {
     for (const double step : {1.0, 0.4}) {
         const glm::dvec3 there = place + step * way;
         const glm::dvec3 new_colour = colour + step * colour_change;
-        if (!may_move(surface_, ring_, there, Strictness::Normal)) {
+        if (!may_move(surface_, ring_, there, strictness_)) {
             continue;
         }
         if (cost_at(there, new_colour) < before && most2_ <= most2) {

@@ -13,6 +13,9 @@ struct PolishOptions {
     int rounds = 7;
     int fields = 3;       ///< The number of grid fields along a triangle's side, for samples.
     bool extremes = true; ///< Calls lower_peaks and turn_back at the end.
+    /// Vertices of an uncoloured surface may move to where triangles become slivers: along
+    /// cylinders and rims those lie best.
+    bool slivers_too = false;
     /// No squared distance that is seen rises beyond this, in working units.
     double avoided2 = std::numeric_limits<double>::infinity();
     int threads = 1; ///< The number of threads; it does not change the result.

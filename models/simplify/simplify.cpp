@@ -51,6 +51,7 @@ PolishOptions polish_options(
     constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
     PolishOptions polish;
     polish.threads = options.threads;
+    polish.slivers_too = options.fits_slivers;
     polish.avoided2 = std::pow(options.avoided_m / diagonal_m, 2.0);
     if (options.quality == Quality::Fast) {
         polish.rounds = stands_for_many(target, surface.mesh.face_count()) ? 2 : 1;

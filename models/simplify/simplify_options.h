@@ -62,6 +62,8 @@ struct SimplifyOptions {
     double avoided_m = std::numeric_limits<double>::infinity();
     /// Chooser::Distances may make slivers of uncoloured triangles, as the plain choosers may.
     bool slivers_too = false;
+    /// The polish may make slivers of uncoloured triangles; best_of_passes tries it out.
+    bool fits_slivers = false;
     int threads = 1;            ///< The number of threads; it does not change the result.
     ShowProgress show_progress; ///< May be empty.
 };

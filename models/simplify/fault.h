@@ -1,0 +1,45 @@
+#pragma once
+
+#include "models/triangle_mesh.h"
+
+#include <limits>
+
+namespace octant::models::simplify {
+
+/// How far a surface is off its original.
+struct Fault {
+    double off_m = 0.0; ///< The certified distance; 0 where it lies on the original.
+    double rms_m = 0.0;
+    double turned = 0.0; ///< The share of its area that is turned over.
+
+    /// The distance times the root mean square, more where triangles are turned over.
+    double product() const;
+};
+
+/// The fault of a mesh that has triangles. The upper bound of the distance is at most `tightness`
+/// times the lower one.
+Fault fault_of(
+    const TriangleMesh& mesh, const TriangleMesh& original, double tightness, int threads);
+
+/// What plain ways to simplify reach without a polish, which is about what others reach, each value
+/// by the best one for it. Infinite where none was tried.
+class Yardstick {
+public:
+    void add(const TriangleMesh& plain, const TriangleMesh& original, int threads);
+    void add(double off_m, double rms_m);
+
+    double rms_m() const { return rms_m_; }
+
+    /// Whether a fault is clearly below the yardstick in both values.
+    bool is_beaten_by(const Fault& fault) const;
+
+    /// How bad a fault is: its product, and much more where one value is not clearly below the
+    /// yardstick.
+    double badness(const Fault& fault) const;
+
+private:
+    double off_m_ = std::numeric_limits<double>::infinity();
+    double rms_m_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace octant::models::simplify

@@ -1,0 +1,56 @@
+#include "models/simplify/fault.h"
+#include "tests/models/simplify/simplify_meshes.h"
+
+#include <catch2/catch.hpp>
+
+#include <utility>
+
+using namespace octant::models;
+using namespace octant::models::simplify;
+using namespace octant::tests;
+
+TEST_CASE("a surface is not off itself, and a larger one by what it is larger") {
+    const TriangleMesh small = ball(12);
+    TriangleMesh large = small;
+    for (glm::dvec3& vertex_m : large.vertices_m) {
+        vertex_m *= 1.1;
+    }
+    CHECK(fault_of(small, small, 1.02, 1).off_m == 0.0);
+    const Fault fault = fault_of(large, small, 1.02, 1);
+    CHECK(fault.off_m == Approx(0.1).epsilon(0.05));
+    CHECK(fault.rms_m == Approx(0.1).epsilon(0.05));
+    CHECK(fault.turned == 0.0);
+}
+
+TEST_CASE("a surface that faces inwards is turned over") {
+    const TriangleMesh outwards = ball(12);
+    TriangleMesh inwards = outwards;
+    for (std::size_t v = 0; v < inwards.vertices_m.size(); ++v) {
+        inwards.vertices_m[v] *= 1.1;
+    }
+    for (Triangle& triangle : inwards.triangles) {
+        std::swap(triangle[0], triangle[1]);
+    }
+    CHECK(fault_of(inwards, outwards, 1.02, 1).turned > 0.99);
+}
+
+TEST_CASE("without a yardstick the product of distance and root mean square counts") {
+    const Yardstick none_known;
+    CHECK(none_known.is_beaten_by({100.0, 100.0, 0.0}));
+    CHECK(none_known.badness({2.0, 0.1, 0.0}) < none_known.badness({1.0, 0.3, 0.0}));
+    CHECK(none_known.badness({1.0, 0.1, 0.0}) < none_known.badness({1.0, 0.1, 0.001}));
+}
+
+TEST_CASE("what plain ways beat in one value is worse than what they beat in none") {
+    Yardstick yardstick;
+    yardstick.add(1.0, 0.5);
+    yardstick.add(2.0, 0.1);
+    const Fault balanced{0.9, 0.08, 0.0};
+    const Fault far_off{1.5, 0.03, 0.0};
+    const Fault far_in_the_mean{0.4, 0.15, 0.0};
+    CHECK(yardstick.is_beaten_by(balanced));
+    CHECK_FALSE(yardstick.is_beaten_by(far_off));
+    CHECK_FALSE(yardstick.is_beaten_by(far_in_the_mean));
+    CHECK(yardstick.badness(balanced) < yardstick.badness(far_off));
+    CHECK(yardstick.badness(balanced) < yardstick.badness(far_in_the_mean));
+}
