@@ -7,7 +7,7 @@
 #define OCTANT_RASTER_GRAIN_CONTRAST_INL
 #endif
 
-#include "visuals/raster/grain_places-inl.h"
+#include "visuals/raster/grain_row-inl.h"
 #include "visuals/scene/grain_pattern.h"
 
 #include <array>
@@ -18,17 +18,6 @@ HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
-
-/// What a row's pairs of pixels see, and what the one beside it does.
-struct GrainRow {
-    alignas(64) std::array<std::uint32_t, twos_a_row + 4> seen;
-
-    HWY_INLINE hn::Vec<TwosWhole> at(std::size_t two) const {
-        return hn::LoadU(TwosWhole(), reinterpret_cast<const std::int32_t*>(&seen[two]));
-    }
-};
-
-using TwosHalves = hn::Repartition<std::int16_t, TwosBits>;
 
 /// A byte of 2048 over 1 to 16, rounded up.
 constexpr std::array<std::uint8_t, 16> bytes_of_shares(unsigned shift) {

@@ -9,7 +9,7 @@
 #endif
 
 #include "visuals/raster/grain_image.h"
-#include "visuals/raster/tile_counting-inl.h"
+#include "visuals/raster/grain_nearness-inl.h"
 
 #include <array>
 #include <cmath>
@@ -20,21 +20,6 @@ HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
-
-/// A lane for two neighbouring pixels.
-using Twos = hn::CappedTag<float, 16>;
-using TwosWhole = hn::RebindToSigned<Twos>;
-using TwosBits = hn::RebindToUnsigned<Twos>;
-constexpr std::size_t twos_at_once = hn::MaxLanes(Twos());
-constexpr std::size_t twos_a_row = tile_width / 2;
-
-HWY_INLINE hn::Vec<Twos> twos(float value) {
-    return hn::Set(Twos(), value);
-}
-
-HWY_INLINE hn::Vec<TwosBits> twos_of(unsigned value) {
-    return hn::Set(TwosBits(), value);
-}
 
 /// A part of the lines of sight over a tile, from a row on.
 struct GrainRay {
@@ -54,64 +39,14 @@ struct GrainRay {
         return hn::Add(twos(first), hn::Mul(columns, twos(per_x)));
     }
 
-    /// Of the pixels right of the tile, in rows from one on.
+    /// Of the pixels right of the tile, in every second row from one on.
     HWY_INLINE hn::Vec<Twos> beside(std::size_t first_row) const {
-        const auto rows = hn::Add(twos(static_cast<float>(first_row)), counting_from(Twos(), 0));
+        const auto numbers = counting_from(Twos(), 0);
+        const auto rows = hn::Add(twos(static_cast<float>(first_row)), hn::Add(numbers, numbers));
         const float right = first + static_cast<float>(tile_width) * per_x;
         return hn::Add(twos(right), hn::Mul(rows, twos(per_y)));
     }
 };
-
-/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside
-/// and below.
-struct Nearness {
-    hn::Vec<Twos> here; ///< 1/m; 0: no ground
-    hn::Vec<Twos> across;
-    hn::Vec<Twos> down;
-};
-
-/// Of two changes the smaller one: at a rim the larger one leads to other ground.
-HWY_INLINE hn::Vec<Twos> smaller_change(hn::Vec<Twos> one, hn::Vec<Twos> other) {
-    return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
-}
-
-/// Of every second pair of a row, from one on. Beyond the tile the ground goes on as within it.
-/// None where what lies beside is no ground: a pixel at the rim may be half sky.
-HWY_INLINE Nearness
-nearness_of_row(const TileJob& job, const TileBuffer& buffer, int row, std::size_t first_two) {
-    const Twos real;
-    const float* const near = buffer.nearness_of_row(row) + first_two;
-    constexpr std::size_t stride = twos_a_row;
-    hn::Vec<Twos> own;
-    hn::Vec<Twos> after;
-    hn::LoadInterleaved2(real, near, own, after);
-    const auto every_second = [&](const float* from) HWY_ATTR {
-        hn::Vec<Twos> first;
-        hn::Vec<Twos> second;
-        hn::LoadInterleaved2(real, from, first, second);
-        return first;
-    };
-    const auto mirrored = [&](hn::Vec<Twos> other)
-                              HWY_ATTR { return hn::Sub(hn::Add(own, own), other); };
-    const bool is_first = row == 0;
-    const bool is_last = row + 1 == job.size_px.y;
-    auto below = is_last ? own : every_second(near + stride);
-    const auto above = is_first ? mirrored(below) : every_second(near - stride);
-    below = is_last ? mirrored(above) : below;
-    const auto numbers = counting_from(real, 0);
-    const auto number = hn::Add(hn::Add(numbers, numbers), twos(static_cast<float>(first_two)));
-    const auto last = twos(static_cast<float>((job.size_px.x - 1) / 2));
-    const auto before =
-        hn::IfThenElse(hn::Eq(number, twos(0.0F)), mirrored(after), every_second(near - 1));
-    const auto next = hn::IfThenElse(hn::Eq(number, last), mirrored(before), after);
-    const auto least = hn::Min(own, hn::Min(hn::Min(above, below), hn::Min(before, next)));
-    const auto is_ground = hn::Gt(least, hn::Zero(real));
-    const auto of_two = smaller_change(hn::Sub(next, own), hn::Sub(own, before));
-    return {
-        hn::IfThenElseZero(is_ground, own),
-        hn::Mul(of_two, twos(0.5F)),
-        smaller_change(hn::Sub(below, own), hn::Sub(own, above))};
-}
 
 /// The lines of sight of a row of a tile, or of all its rows: east, north and up.
 struct GrainWays {
@@ -179,8 +114,7 @@ public:
         constexpr float texel2 =
             1.0F / (scene::GrainPattern::texels_per_m * scene::GrainPattern::texels_per_m);
         const auto wide2 = hn::Max(hn::Mul(widest, depth2), twos(texel2));
-        is_even_ = hn::AllTrue(
-            Twos(), hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(16.0F)), wide2));
+        is_even_ = hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(16.0F)), wide2);
         choose_sides(across, down);
         look_at(rays);
     }
@@ -189,9 +123,9 @@ public:
 
     HWY_INLINE hn::Mask<Twos> is_ground() const { return is_ground_; }
 
-    /// Whether what they see changes so slowly along the row that it is even between every second
-    /// pair.
-    HWY_INLINE bool is_even() const { return is_even_; }
+    /// Whether what they see changes so slowly along the row that it is even to the next pair but
+    /// one.
+    HWY_INLINE hn::Mask<Twos> is_even() const { return is_even_; }
 
     /// What the haze leaves, 2^-15, where ground one unit deep dims by so much. As scene::Haze, by
     /// polynomials: the pattern need not fade to the bit.
@@ -331,7 +265,7 @@ private:
     hn::Mask<Twos> upright_in_x_; ///< the pattern's east is up
     hn::Mask<Twos> upright_in_y_; ///< its north is
     bool any_upright_ = false;
-    bool is_even_ = false;
+    hn::Mask<Twos> is_even_;
 };
 
 } // namespace HWY_NAMESPACE

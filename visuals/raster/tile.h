@@ -102,11 +102,11 @@ struct TileBuffer {
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
     /// Red, green, blue, 1/256 level; and, where the picture has grain, the ground (of_sample()).
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
-    /// Where the picture has grain: of each row's first pixel, third, and so on, one over the depth
-    /// of the ground that was painted there last, 1/m; 0: none. Rows follow each other without
-    /// gaps; there is room before the first one and behind the last.
+    /// Where the picture has grain: of the first pixel, third, and so on of the first row, third,
+    /// and so on, one over the depth of the ground that was painted there last, 1/m; 0: none. Rows
+    /// follow each other without gaps; there is room before the first one and behind the last.
     static constexpr std::size_t nearness_room = 16;
-    alignas(64) std::array<float, pixels / 2 + 2 * nearness_room> nearness{};
+    alignas(64) std::array<float, pixels / 4 + 2 * nearness_room> nearness{};
     /// A bit for each column that is covered whole; one row more than there are.
     std::array<std::uint64_t, tile_height + 1> full{};
     std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole
@@ -126,8 +126,9 @@ struct TileBuffer {
     std::vector<std::uint16_t> waiting;
     std::vector<std::uint32_t> waiting_colour;
 
+    /// Of a row of even number.
     float* nearness_of_row(int row) {
-        return nearness.data() + nearness_room + static_cast<std::size_t>(row) * (tile_width / 2);
+        return nearness.data() + nearness_room + static_cast<std::size_t>(row) * (tile_width / 4);
     }
 
     const float* nearness_of_row(int row) const {

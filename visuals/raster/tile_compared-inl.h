@@ -110,7 +110,8 @@ HWY_INLINE void grain_over(
                 buffer);
         }
     }
-    for (std::uint32_t left = triangle.has_grain ? 0 : pixels; left != 0; left &= left - 1) {
+    for (std::uint32_t left = triangle.has_grain || at.y % 2 != 0 ? 0 : pixels; left != 0;
+         left &= left - 1) {
         const int column = at.x + std::countr_zero(left);
         if (column % 2 == 0) {
             buffer.nearness_of_row(at.y)[column / 2] = 0.0F;
@@ -204,7 +205,7 @@ HWY_INLINE void paint_pixels_over(
                         ? static_cast<std::uint16_t>(
                               ((grain_share_of(one, at.x, at.y) & 0xffe0U) | 1U) * 16U)
                         : std::uint16_t{0};
-                if (column % 2 == 0) {
+                if (column % 2 == 0 && row % 2 == 0) {
                     buffer.nearness_of_row(row)[column / 2] =
                         triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;
                 }

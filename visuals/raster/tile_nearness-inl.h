@@ -1,6 +1,6 @@
-// How near the ground is at every second pixel that is newly covered: what its fine pattern is
-// placed by when the tile's triangles are painted.
-// Included once for each instruction set.
+// How near the ground is at every second pixel of every second row that is newly covered: what its
+// fine pattern is placed by when the tile's triangles are painted. Included once for each
+// instruction set.
 #if defined(OCTANT_RASTER_NEARNESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_NEARNESS_INL
 #undef OCTANT_RASTER_NEARNESS_INL
@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 
 using HalfStrip = hn::Half<Strip>;
 
-/// Writes it for those of a row's pixels that lie in even columns of the tile, where samples are
-/// fresh. The row begins at a column and row of the tile.
+/// Writes it for those of a row's pixels that lie in even columns and rows of the tile, where
+/// samples are fresh. The row begins at a column and row of the tile.
 template <class Tag>
 HWY_INLINE void put_nearness(
     Tag /*pixels*/,
@@ -30,6 +30,9 @@ HWY_INLINE void put_nearness(
     const glm::ivec2& at,
     hn::Vec<Tag> fresh,
     TileBuffer& buffer) {
+    if (at.y % 2 != 0) {
+        return;
+    }
     const hn::Repartition<std::uint32_t, Tag> bits;
     const hn::RebindToFloat<decltype(bits)> real;
     const int odd = at.x & 1;

@@ -1,0 +1,181 @@
+// How near the ground of a tile is where its fine pattern is looked up: at every second pixel of
+// every second row, those of a row in two phases, so that the pattern can be found for one pair of
+// pixels in two first and for those between only where it must.
+// Included once for each instruction set.
+#if defined(OCTANT_RASTER_GRAIN_NEARNESS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTANT_RASTER_GRAIN_NEARNESS_INL
+#undef OCTANT_RASTER_GRAIN_NEARNESS_INL
+#else
+#define OCTANT_RASTER_GRAIN_NEARNESS_INL
+#endif
+
+#include "visuals/raster/tile_counting-inl.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace octant::visuals::raster {
+namespace HWY_NAMESPACE {
+
+/// A lane for two neighbouring pixels.
+using Twos = hn::CappedTag<float, 16>;
+using TwosWhole = hn::RebindToSigned<Twos>;
+using TwosBits = hn::RebindToUnsigned<Twos>;
+using TwosHalves = hn::Repartition<std::int16_t, TwosBits>;
+constexpr std::size_t twos_at_once = hn::MaxLanes(Twos());
+constexpr std::size_t twos_a_row = tile_width / 2;
+constexpr std::size_t phases = 2; ///< pairs 0, 2, 4 ..., then 1, 3, 5 ...
+constexpr std::size_t twos_a_phase = twos_a_row / phases;
+
+HWY_INLINE hn::Vec<Twos> twos(float value) {
+    return hn::Set(Twos(), value);
+}
+
+HWY_INLINE hn::Vec<TwosBits> twos_of(unsigned value) {
+    return hn::Set(TwosBits(), value);
+}
+
+/// Of two changes the smaller one: at a rim the larger one leads to other ground.
+HWY_INLINE hn::Vec<Twos> smaller_change(hn::Vec<Twos> one, hn::Vec<Twos> other) {
+    return hn::IfThenElse(hn::Lt(hn::Abs(one), hn::Abs(other)), one, other);
+}
+
+/// How near the ground is at the first pixels of pairs, and how that changes to the pixels beside
+/// and below.
+struct Nearness {
+    hn::Vec<Twos> here; ///< 1/m; 0: no ground
+    hn::Vec<Twos> across;
+    hn::Vec<Twos> down;
+};
+
+/// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right
+/// of the tile and below it the ground goes on as within it.
+class TileNearness {
+public:
+    HWY_INLINE TileNearness(const TileJob& job, const TileBuffer& buffer)
+        : rows_((job.size_px.y + 1) / 2) {
+        for (int row = 0; row < rows_; ++row) {
+            put_row(buffer.nearness_of_row(2 * row), row);
+        }
+        if (any_ != 0) {
+            go_on(1, 0, -1, true);
+            go_on(rows_ - 2, rows_ - 1, rows_, false);
+            std::fill_n(of_row(rows_ + 1), row_size, 0.0F);
+        }
+    }
+
+    int rows() const { return rows_; }
+
+    bool has_ground() const { return any_ != 0; }
+
+    /// Whether a pair of a row sees ground; beyond the last row as in it.
+    bool has_ground(int row) const { return (any_ >> std::min(row, rows_ - 1) & 1U) != 0; }
+
+    /// Of pairs of a row and phase, from one of them on. None below what is no ground: a pixel at
+    /// the horizon may be half sky.
+    HWY_INLINE Nearness at(int row, std::size_t phase, std::size_t first) const {
+        const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
+        const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
+        const Twos real;
+        return between(
+            hn::LoadU(real, own),
+            {hn::LoadU(real, before), hn::LoadU(real, before + 1)},
+            {hn::LoadU(real, own - row_size), hn::LoadU(real, own + row_size)});
+    }
+
+    /// Of what lies right of the tile, in rows from one on.
+    HWY_INLINE Nearness beside(int first_row) const {
+        std::array<std::array<float, twos_at_once>, 4> columns{};
+        for (std::size_t i = 0; i < twos_at_once; ++i) {
+            const int row = first_row + static_cast<int>(i);
+            if (row < rows_) {
+                const float* const right = of_row(row) + twos_a_phase;
+                columns[0][i] = right[0];
+                columns[1][i] = right[odd_pairs - 1];
+                columns[2][i] = right[-static_cast<std::ptrdiff_t>(row_size)];
+                columns[3][i] = right[row_size];
+            }
+        }
+        const auto column = [&](std::size_t which)
+                                HWY_ATTR { return hn::LoadU(Twos(), columns[which].data()); };
+        return between(column(0), {column(1), hn::Zero(Twos())}, {column(2), column(3)});
+    }
+
+private:
+    static constexpr std::size_t odd_pairs = 32; ///< from those of the first phase to the others
+    static constexpr std::size_t row_size = 2 * odd_pairs;
+    static constexpr std::size_t most_rows = tile_height / 2;
+    static_assert(twos_a_phase + 1 < odd_pairs);
+
+    static HWY_INLINE Nearness between(
+        hn::Vec<Twos> own,
+        const std::array<hn::Vec<Twos>, 2>& beside,
+        const std::array<hn::Vec<Twos>, 2>& above_and_below) {
+        const auto& [before, next] = beside;
+        const auto& [above, below] = above_and_below;
+        const auto half = twos(0.5F);
+        const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
+        return {
+            hn::IfThenElseZero(hn::Gt(least, hn::Zero(Twos())), own),
+            hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
+            hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
+    }
+
+    const float* of_row(int row) const {
+        return near_.data() + static_cast<std::size_t>(row + 1) * row_size;
+    }
+
+    float* of_row(int row) { return const_cast<float*>(std::as_const(*this).of_row(row)); }
+
+    HWY_INLINE void put_row(const float* near, int row) {
+        const Twos real;
+        float* const to = of_row(row);
+        auto most = twos(near[0]);
+        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
+            hn::Vec<Twos> even;
+            hn::Vec<Twos> odd;
+            hn::LoadInterleaved2(real, near + phases * i, even, odd);
+            hn::StoreU(even, real, to + i);
+            hn::StoreU(odd, real, to + odd_pairs + i);
+            most = hn::Max(most, hn::Max(even, odd));
+        }
+        const float last = near[twos_a_row - 1];
+        const float before = near[twos_a_row - 2];
+        to[twos_a_phase] = std::min(last, before) > 0.0F ? std::max(2.0F * last - before, 0.0F) : 0;
+        to[odd_pairs - 1] = 0.0F;
+        const std::uint32_t bit = std::uint32_t{1} << row;
+        const auto zero = hn::Zero(real);
+        any_ |= hn::AllTrue(real, hn::Eq(most, zero)) ? 0U : bit;
+    }
+
+    /// The row beyond one at the tile's border, by the one before it, which need not see ground.
+    HWY_INLINE void go_on(int from, int last, int beyond, bool alone) {
+        const Twos real;
+        const bool has_from = from >= 0 && from < rows_;
+        for (std::size_t i = 0; i < row_size; i += twos_at_once) {
+            const auto own = hn::LoadU(real, of_row(last) + i);
+            const auto before = has_from ? hn::LoadU(real, of_row(from) + i) : own;
+            const auto is_ground = hn::Gt(before, hn::Zero(real));
+            const auto next =
+                hn::Max(hn::Sub(hn::Add(own, own), before), hn::Mul(own, twos(0.25F)));
+            const auto otherwise = alone ? own : hn::Zero(real);
+            hn::StoreU(hn::IfThenElse(is_ground, next, otherwise), real, of_row(beyond) + i);
+        }
+    }
+
+    int rows_;
+    std::uint32_t any_ = 0;
+    alignas(64) std::array<float, (most_rows + 3) * row_size> near_; ///< set as far as at() reads
+};
+
+} // namespace HWY_NAMESPACE
+} // namespace octant::visuals::raster
+
+HWY_AFTER_NAMESPACE();
+
+#endif
