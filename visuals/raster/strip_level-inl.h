@@ -121,15 +121,25 @@ strip_levels(const Levels& levels, const glm::ivec2& from_px, int columns_right)
 
 /// A bit for each pixel of a strip that has a value.
 HWY_INLINE std::uint32_t bits_equal_to(const StripValues& values, std::uint16_t value) {
+    const auto is_equal = [&](std::size_t part)
+                              HWY_ATTR { return hn::Eq(values[part], hn::Set(Strip(), value)); };
+#if HWY_TARGET == HWY_AVX2
+    // Written to memory part by part and read as one, they would come late.
+    const __m256i bytes = _mm256_packs_epi16(
+        hn::VecFromMask(Strip(), is_equal(0)).raw, hn::VecFromMask(Strip(), is_equal(1)).raw);
+    constexpr int in_order = 0xd8; // of four times eight
+    return static_cast<std::uint32_t>(
+        _mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
+#else
     alignas(8) std::array<std::uint8_t, 16> bytes;
     constexpr std::size_t bytes_a_part = part_px / 8;
     for (std::size_t i = 0; i < strip_parts; ++i) {
-        hn::StoreMaskBits(
-            Strip(), hn::Eq(values[i], hn::Set(Strip(), value)), bytes.data() + i * bytes_a_part);
+        hn::StoreMaskBits(Strip(), is_equal(i), bytes.data() + i * bytes_a_part);
     }
     std::uint32_t bits = 0;
     std::memcpy(&bits, bytes.data(), sizeof bits);
     return bits;
+#endif
 }
 
 /// A bit for each pixel of a strip whose value has all bits set.

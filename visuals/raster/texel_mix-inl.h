@@ -56,6 +56,27 @@ struct CornerWeights {
     }
 };
 
+/// A level as its texels are found.
+template <class Texels>
+struct TexelGrid {
+    using Places = hn::Vec<hn::RebindToSigned<Texels>>;
+
+    const std::uint32_t* texels;
+    const std::uint32_t* above; ///< the row above the first one
+    Places stride;
+    Places last_x; ///< a step before the rim, 2^-16 texel
+    Places last_y;
+
+    HWY_INLINE explicit TexelGrid(const GroundImage::Level& level)
+        : texels(level.texels.data())
+        , above(level.texels.data() + level.stride) {
+        const hn::RebindToSigned<Texels> sign;
+        stride = hn::Set(sign, level.stride);
+        last_x = hn::Set(sign, (level.width - 1) * 65536 - 1);
+        last_y = hn::Set(sign, (level.height - 1) * 65536 - 1);
+    }
+};
+
 /// Texels around places: those left below, right below, left above and right above.
 template <class Texels>
 struct TexelSquares {
@@ -64,44 +85,60 @@ struct TexelSquares {
     std::array<hn::Vec<Texels>, 4> corner;
 
     /// `x`, `y`: places in 2^-16 texel, at least a texel within the rim above and right.
-    HWY_INLINE TexelSquares(const GroundImage::Level& level, Places x, Places y) {
-        const hn::RebindToSigned<Texels> sign;
-        const auto stride = hn::Set(sign, level.stride);
-        const auto first = hn::Add(hn::Mul(hn::ShiftRight<16>(y), stride), hn::ShiftRight<16>(x));
-        load_neighbours(level, first, corner[0], corner[1]);
-        load_neighbours(level, hn::Add(first, stride), corner[2], corner[3]);
+    HWY_INLINE TexelSquares(const TexelGrid<Texels>& grid, Places x, Places y) {
+        const auto number =
+            hn::Add(hn::Mul(hn::ShiftRight<16>(y), grid.stride), hn::ShiftRight<16>(x));
+        load_neighbours(grid.texels, number, corner[0], corner[1]);
+        load_neighbours(grid.above, number, corner[2], corner[3]);
     }
 
-    /// Texels by their numbers in the level, and those right of them: both are loaded at once.
+#if HWY_TARGET == HWY_AVX2
+
+    /// Texels by their numbers, and those right of them: both are loaded at once. One by one they
+    /// come faster than by the processor's own gathering.
     static HWY_INLINE void load_neighbours(
-        const GroundImage::Level& level,
+        const std::uint32_t* from,
         Places number,
         hn::Vec<Texels>& left_ones,
         hn::Vec<Texels>& right_ones) {
-#if HWY_TARGET == HWY_AVX2
-        // One by one they come faster than by the processor's own gathering.
-        alignas(32) std::array<std::int32_t, 8> numbers;
-        hn::Store(number, hn::RebindToSigned<Texels>(), numbers.data());
-        const auto from = [&](std::size_t i) { return level.texels.data() + numbers[i]; };
-        const auto two = [&](std::size_t i) HWY_ATTR {
-            const auto* const second = reinterpret_cast<const __m64*>(from(i + 1));
-            const auto* const first = reinterpret_cast<const __m128i*>(from(i));
-            return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
-        };
-        const auto four = [&](std::size_t i)
-                              HWY_ATTR { return _mm256_set_m128(two(i + 4), two(i)); };
-        const __m256 front = four(0);
-        const __m256 back = four(2);
+        const __m128i low = _mm256_castsi256_si128(number.raw);
+        const __m128i high = _mm256_extracti128_si256(number.raw, 1);
+        // The first two of each four, then the others.
+        const __m256 front = texels_of(from, _mm_cvtsi128_si64(low), _mm_cvtsi128_si64(high));
+        const __m256 back = texels_of(from, _mm_extract_epi64(low, 1), _mm_extract_epi64(high, 1));
         left_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0x88));
         right_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0xdd));
+    }
+
+private:
+    /// By two numbers of 32 bits each.
+    static HWY_INLINE __m256
+    texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
+        return _mm256_set_m128(
+            texels_of(from, static_cast<std::uint64_t>(high)),
+            texels_of(from, static_cast<std::uint64_t>(low)));
+    }
+
+    static HWY_INLINE __m128 texels_of(const std::uint32_t* from, std::uint64_t two) {
+        const auto* const first = reinterpret_cast<const __m128i*>(from + (two & 0xffffffff));
+        const auto* const second = reinterpret_cast<const __m64*>(from + (two >> 32U));
+        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
+    }
+
 #else
+
+    /// Texels by their numbers, and those right of them: both are loaded at once.
+    static HWY_INLINE void load_neighbours(
+        const std::uint32_t* from,
+        Places number,
+        hn::Vec<Texels>& left_ones,
+        hn::Vec<Texels>& right_ones) {
         const Texels texels;
         const hn::Repartition<std::uint64_t, Texels> pairs;
         const hn::RebindToSigned<decltype(pairs)> offsets;
-        const auto* const from = reinterpret_cast<const std::uint64_t*>(level.texels.data());
         const auto load = [&](auto some) HWY_ATTR {
             const auto bytes = hn::BitCast(offsets, hn::ShiftLeft<2>(some));
-            return hn::GatherOffset(pairs, from, bytes);
+            return hn::GatherOffset(pairs, reinterpret_cast<const std::uint64_t*>(from), bytes);
         };
         const auto numbers = hn::BitCast(pairs, number);
         const auto even = load(hn::And(numbers, hn::Set(pairs, std::uint64_t{0xffffffff})));
@@ -110,31 +147,34 @@ struct TexelSquares {
             hn::OddEven(hn::BitCast(texels, hn::ShiftLeft<32>(odd)), hn::BitCast(texels, even));
         right_ones =
             hn::OddEven(hn::BitCast(texels, odd), hn::BitCast(texels, hn::ShiftRight<32>(even)));
-#endif
     }
+
+#endif
 };
 
 /// Red, green and blue, 1/128 level, 32,640 at most.
 template <class Halves>
 using MixedColours = std::array<hn::Vec<Halves>, 3>;
 
+template <class Halves>
+using TexelsOf = hn::Repartition<std::uint32_t, Halves>;
+
 /// A level's colours at places, 2^-16 texel, of pixels in even lanes and in odd ones. Places beyond
 /// the level's rim have the rim's.
 template <class Halves, class V>
 HWY_INLINE MixedColours<Halves>
-mixed_colours(const GroundImage::Level& level, V even_x, V even_y, V odd_x, V odd_y) {
-    using Texels = hn::Repartition<std::uint32_t, Halves>;
+mixed_colours(const TexelGrid<TexelsOf<Halves>>& grid, V even_x, V even_y, V odd_x, V odd_y) {
+    using Texels = TexelsOf<Halves>;
     const hn::RebindToSigned<Texels> sign;
     const Halves halves;
-    const auto within = [&](V place, int size) HWY_ATTR {
-        return hn::Min(hn::Max(place, hn::Zero(sign)), hn::Set(sign, (size - 1) * 65536 - 1));
-    };
-    even_x = within(even_x, level.width);
-    odd_x = within(odd_x, level.width);
-    even_y = within(even_y, level.height);
-    odd_y = within(odd_y, level.height);
-    const TexelSquares<Texels> even(level, even_x, even_y);
-    const TexelSquares<Texels> odd(level, odd_x, odd_y);
+    const auto within = [&](V place, V last)
+                            HWY_ATTR { return hn::Min(hn::Max(place, hn::Zero(sign)), last); };
+    even_x = within(even_x, grid.last_x);
+    odd_x = within(odd_x, grid.last_x);
+    even_y = within(even_y, grid.last_y);
+    odd_y = within(odd_y, grid.last_y);
+    const TexelSquares<Texels> even(grid, even_x, even_y);
+    const TexelSquares<Texels> odd(grid, odd_x, odd_y);
     const auto red_and_blue = [&](const TexelSquares<Texels>& of, V x, V y) HWY_ATTR {
         std::array<hn::Vec<Halves>, 4> corner;
         for (std::size_t i = 0; i < corner.size(); ++i) {

@@ -182,6 +182,30 @@ private:
     hn::Vec<Blocks> per_column_;
 };
 
+/// A share of light or haze, 2^-16, from its level.
+HWY_INLINE hn::Vec<Strip> share_of(hn::Vec<StripSigned> level) {
+    return hn::ShiftLeft<1>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128)));
+}
+
+/// Light or haze along windows, as StripLevel.
+struct ShareSteps {
+    hn::Vec<StripSigned> steps;
+    hn::Vec<StripSigned> least;
+    hn::Vec<StripSigned> most;
+
+    HWY_INLINE ShareSteps(const Levels& levels, std::size_t k)
+        : least(hn::Set(StripSigned(), levels.least[k]))
+        , most(hn::Set(StripSigned(), levels.most[k])) {
+        const StripSigned sign;
+        const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
+        steps = hn::Mul(hn::And(counting_from(sign, 0), px), hn::Set(sign, levels.per_column[k]));
+    }
+
+    HWY_INLINE hn::Vec<Strip> share(hn::Vec<StripSigned> first) const {
+        return share_of(hn::Min(hn::Max(hn::Add(first, steps), least), most));
+    }
+};
+
 } // namespace HWY_NAMESPACE
 } // namespace octant::visuals::raster
 

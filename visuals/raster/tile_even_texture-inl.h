@@ -81,18 +81,13 @@ private:
     }
 };
 
-/// A share of light or haze, 2^-16, from its level.
-HWY_INLINE hn::Vec<Strip> share_of(hn::Vec<StripSigned> level) {
-    return hn::ShiftLeft<1>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128)));
-}
-
 /// `how_much`: of the other one, 2^-16.
 HWY_INLINE hn::Vec<Strip>
 part_way(hn::Vec<Strip> from, hn::Vec<Strip> to, hn::Vec<Strip> how_much) {
     return hn::Add(hn::Sub(from, hn::MulHigh(from, how_much)), hn::MulHigh(to, how_much));
 }
 
-HWY_INLINE Colours colours_at(const GroundImage::Level& level, const Places& places) {
+HWY_INLINE Colours colours_at(const TexelGrid<Texels>& level, const Places& places) {
     return mixed_colours<Strip>(level, places.x[0], places.y[0], places.x[1], places.y[1]);
 }
 
@@ -107,15 +102,17 @@ HWY_INLINE Places coarser(const Places& places) {
 
 /// What all of a triangle's pixels have in common.
 struct TextureLook {
-    const GroundImage::Level& fine;
-    const GroundImage::Level* coarse; ///< none where the fine one is all
+    TexelGrid<Texels> fine;
+    TexelGrid<Texels> coarse;
+    bool has_coarse; ///< else the fine one is all
     hn::Vec<Strip> coarse_share;
     Probes probes;
     std::array<std::uint16_t, 3> haze;
 
     HWY_INLINE TextureLook(const TextureLevels& levels, const TileJob& job)
         : fine(job.ground->levels()[levels.fine])
-        , coarse(levels.coarse_share > 0 ? &fine + 1 : nullptr)
+        , coarse(job.ground->levels()[levels.fine + (levels.coarse_share > 0 ? 1U : 0U)])
+        , has_coarse(levels.coarse_share > 0)
         , coarse_share(hn::Set(Strip(), levels.coarse_share))
         , probes(levels, levels.fine) {
         for (std::size_t k = 0; k < haze.size(); ++k) {
@@ -126,8 +123,8 @@ struct TextureLook {
     /// The texture's, 1/128 level.
     HWY_INLINE Colours at(const Places& places) const {
         Colours colours = colours_at(fine, places);
-        if (coarse != nullptr) {
-            const Colours next = colours_at(*coarse, coarser(places));
+        if (has_coarse) {
+            const Colours next = colours_at(coarse, coarser(places));
             for (std::size_t k = 0; k < 3; ++k) {
                 colours[k] = part_way(colours[k], next[k], coarse_share);
             }
@@ -145,7 +142,7 @@ struct TextureLook {
     }
 
     /// Whether a pixel takes one place of one level, as most do.
-    bool is_single() const { return probes.count == 1 && coarse == nullptr; }
+    bool is_single() const { return probes.count == 1 && !has_coarse; }
 
     /// The mean of a pixel's places, 1/128 level.
     HWY_INLINE Colours around(const Places& places) const {
@@ -153,17 +150,27 @@ struct TextureLook {
                                       HWY_ATTR { return at(moved(places, dx, dy)); });
     }
 
+    /// The same, of a pixel that is_single() says takes one place where it is.
+    template <bool is_single>
+    HWY_INLINE Colours texture(const Places& places) const {
+        if constexpr (is_single) {
+            return colours_at(fine, places);
+        } else {
+            return around(places);
+        }
+    }
+
     /// Under light and behind haze, 1/16 level.
     HWY_INLINE Colours
-    seen(Colours colours, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
+    seen(const Colours& colours, hn::Vec<Strip> light_left, hn::Vec<Strip> haze_share) const {
         const auto seen_share = hn::MulHigh(light_left, hn::Not(haze_share));
-        for (std::size_t k = 0; k < 3; ++k) {
+        const auto of = [&](std::size_t k) HWY_ATTR {
             const auto own = hn::MulHigh(colours[k], seen_share);
             const auto of_haze = hn::MulHigh(hn::Set(Strip(), haze[k]), haze_share);
             const auto sum = hn::Add(own, of_haze);
-            colours[k] = hn::ShiftRight<3>(hn::Add(sum, hn::Set(Strip(), 4)));
-        }
-        return colours;
+            return hn::ShiftRight<3>(hn::Add(sum, hn::Set(Strip(), 4)));
+        };
+        return {of(0), of(1), of(2)};
     }
 };
 
@@ -242,25 +249,6 @@ HWY_INLINE void cover_texture_strip(
     queue.finish(static_cast<std::size_t>(box.last_row - box.first_row + 1));
 }
 
-/// Light or haze along windows, as StripLevel.
-struct ShareSteps {
-    hn::Vec<StripSigned> steps;
-    hn::Vec<StripSigned> least;
-    hn::Vec<StripSigned> most;
-
-    HWY_INLINE ShareSteps(const Levels& levels, std::size_t k)
-        : least(hn::Set(StripSigned(), levels.least[k]))
-        , most(hn::Set(StripSigned(), levels.most[k])) {
-        const StripSigned sign;
-        const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
-        steps = hn::Mul(hn::And(counting_from(sign, 0), px), hn::Set(sign, levels.per_column[k]));
-    }
-
-    HWY_INLINE hn::Vec<Strip> share(hn::Vec<StripSigned> first) const {
-        return share_of(hn::Min(hn::Max(hn::Add(first, steps), least), most));
-    }
-};
-
 /// Colours what waits of a strip that begins at a column of the tile.
 template <bool is_single>
 HWY_INLINE void colour_windows(
@@ -284,7 +272,7 @@ HWY_INLINE void colour_windows(
         const auto halves = hn::BitCast(StripSigned(), first);
         const Places places{x.from(hn::Broadcast<0>(first)), y.from(hn::Broadcast<1>(first))};
         const Colours colours = look.seen(
-            is_single ? colours_at(look.fine, places) : look.around(places),
+            look.template texture<is_single>(places),
             light.share(hn::Broadcast<4>(halves)),
             haze.share(hn::Broadcast<6>(halves)));
         const auto counts = hn::PopulationCount(queue.fresh(windows));

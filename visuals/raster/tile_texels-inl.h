@@ -148,16 +148,19 @@ struct Probes {
     /// The mean of colours_at(how far from the pixel's middle).
     template <class Halves, class ColoursAt>
     HWY_INLINE MixedColours<Halves> mean(const ColoursAt& colours_at) const {
+        MixedColours<Halves> sum = colours_at(-last[0], -last[1]);
         if (count == 1) {
-            return colours_at(0, 0);
+            return sum;
         }
-        const Halves halves;
-        MixedColours<Halves> sum{hn::Zero(halves), hn::Zero(halves), hn::Zero(halves)};
-        for (int k = 0; k < count; ++k) {
+        const auto part = hn::Set(Halves(), share);
+        for (auto& colour : sum) {
+            colour = hn::MulHigh(colour, part);
+        }
+        for (int k = 1; k < count; ++k) {
             const MixedColours<Halves> one =
                 colours_at(k * step[0] - last[0], k * step[1] - last[1]);
             for (std::size_t i = 0; i < sum.size(); ++i) {
-                sum[i] = hn::Add(sum[i], hn::MulHigh(one[i], hn::Set(halves, share)));
+                sum[i] = hn::Add(sum[i], hn::MulHigh(one[i], part));
             }
         }
         return sum;
@@ -172,6 +175,7 @@ HWY_INLINE void sample_line(
     BlockColours& to) {
     const Pixels pixels;
     const hn::RebindToSigned<hn::Repartition<std::uint32_t, Pixels>> sign;
+    const TexelGrid<TexelsOf<Pixels>> grid(level);
     for (std::size_t i = 0; i < block_px; i += hn::MaxLanes(pixels)) {
         const auto even_px = hn::ShiftLeft<1>(counting_from(sign, i / 2));
         const auto even = [&](std::size_t k) HWY_ATTR {
@@ -186,7 +190,7 @@ HWY_INLINE void sample_line(
             const auto off_x = hn::Set(sign, dx);
             const auto off_y = hn::Set(sign, dy);
             return mixed_colours<Pixels>(
-                level,
+                grid,
                 hn::Add(x[0], off_x),
                 hn::Add(y[0], off_y),
                 hn::Add(x[1], off_x),
