@@ -126,7 +126,8 @@ std::uint64_t hash_of(std::span<const std::byte> bytes) {
     return hash.value();
 }
 
-std::uint64_t hash_of(const GroundLayout& layout) {
+std::uint64_t hash_of(const GroundShape& shape) {
+    const GroundLayout layout(shape);
     Hash hash;
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
@@ -148,17 +149,18 @@ std::uint64_t hash_of(const GroundLayout& layout) {
             hash.add_word(at.east_errors[1]);
         }
     }
+    const terrain::ErrorCodes codes = terrain::codes_of(shape);
     for (int code = 0; code < 256; ++code) {
-        hash.add_word(
-            std::bit_cast<std::uint32_t>(GroundTiles::error_m_of(static_cast<std::uint8_t>(code))));
+        hash.add_word(std::bit_cast<std::uint32_t>(codes.metres(static_cast<std::uint8_t>(code))));
     }
     return hash.value();
 }
 
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     GroundHeader header;
-    header.version =
-        shape.has_both_rooms ? GroundHeader::right_version : GroundHeader::third_version;
+    header.version = !shape.has_both_rooms  ? GroundHeader::third_version
+                     : !shape.has_own_codes ? GroundHeader::fourth_version
+                                            : GroundHeader::right_version;
     header.columns = shape.columns;
     header.rows = shape.rows;
     header.spacing_m = shape.spacing_m;
@@ -180,7 +182,7 @@ GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
     header.mean_m = facts.mean_m;
     header.name_length = static_cast<std::uint32_t>(length_cut(facts.name, header.name.size()));
     std::copy_n(facts.name.begin(), header.name_length, header.name.begin());
-    header.layout = hash_of(GroundLayout(shape));
+    header.layout = hash_of(shape);
     return header;
 }
 
@@ -191,7 +193,8 @@ GroundShape shape_of(const GroundHeader& h) {
         h.spacing_m,
         h.height_base_m,
         h.height_unit_m,
-        h.version > GroundHeader::third_version};
+        h.version > GroundHeader::third_version,
+        h.version > GroundHeader::fourth_version};
 }
 
 GroundFacts facts_of(const GroundHeader& h) {
@@ -266,7 +269,7 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         header.deviation_checksum != checksum_of(header.deviation) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
     }
-    if (header.layout != hash_of(GroundLayout(shape_of(header)))) {
+    if (header.layout != hash_of(shape_of(header))) {
         error_in(path, "expected today's layout, got that of another release: import it again");
     }
     return header;

@@ -54,7 +54,9 @@ struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> right_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 4;
+    static constexpr std::uint32_t right_version = 5;
+    /// The same as version 5, but with the codes of all grounds (GroundShape::has_own_codes).
+    static constexpr std::uint32_t fourth_version = 4;
     /// The same as version 4, but without errors without room (GroundShape::has_both_rooms).
     static constexpr std::uint32_t third_version = 3;
     /// The same as version 3, but without a deviation.
@@ -78,7 +80,7 @@ struct GroundHeader {
     float mean_m = 0.0F;
     std::uint32_t name_length = 0;
     std::array<char, 256> name = {};
-    std::uint64_t layout = 0;    ///< A hash of the places of all numbers.
+    std::uint64_t layout = 0;    ///< hash_of(GroundShape).
     std::uint64_t checksums = 0; ///< The checksum of the checksums.
     GroundProgress progress;
     std::uint64_t checksum = 0; ///< The checksum of all members above.
@@ -99,7 +101,9 @@ struct GroundFilePlan {
 };
 
 std::uint64_t hash_of(std::span<const std::byte> bytes);
-std::uint64_t hash_of(const GroundLayout& layout);
+
+/// The hash of the places of all numbers and of what error codes mean.
+std::uint64_t hash_of(const GroundShape& shape);
 
 /// The header of a ground. A name that is too long is cut between two characters.
 GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts);

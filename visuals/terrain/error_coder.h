@@ -1,29 +1,31 @@
 #pragma once
 
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/error_codes.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace octant::visuals::terrain {
 
-/// GroundTiles::error_code_of for errors given in units of the stored numbers, by table: the
+/// ErrorCodes::code_of for errors given in units of the stored numbers, by table: the
 /// leading bits of a float select a code, and one comparison corrects it.
 class ErrorCoder {
 public:
-    explicit ErrorCoder(double unit_m)
-        : unit_m_(static_cast<float>(unit_m)) {
-        for (std::size_t code = 0; code < metres_.size(); ++code) {
-            metres_[code] = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+    ErrorCoder(const ErrorCodes& codes, double unit_m)
+        : unit_m_(static_cast<float>(unit_m))
+        , metres_(codes) {
+        for (std::size_t code = 0; code < steps_.size(); ++code) {
+            steps_[code] = codes.metres(static_cast<std::uint8_t>(code)) / unit_m_;
         }
-        first_ = bin_of(metres_[1]);
-        const std::uint32_t last = bin_of(metres_[255]) + 1;
+        first_ = bin_of(metres_.metres(1));
+        const std::uint32_t last = bin_of(metres_.metres(255)) + 1;
         for (std::uint32_t bin = first_; bin <= last; ++bin) {
             const auto lowest_m = std::bit_cast<float>(bin << dropped_bits);
-            codes_.push_back(GroundTiles::error_code_of(lowest_m));
+            codes_.push_back(metres_.code_of(lowest_m));
         }
     }
 
@@ -34,8 +36,12 @@ public:
             return error_m > 0.0F ? 1 : 0;
         }
         const std::uint8_t code = codes_[std::min<std::size_t>(bin - first_, codes_.size() - 1)];
-        return static_cast<std::uint8_t>(code + (code < 255 && error_m > metres_[code] ? 1 : 0));
+        return static_cast<std::uint8_t>(
+            code + (code < 255 && error_m > metres_.metres(code) ? 1 : 0));
     }
+
+    /// The error of a code in units of the stored numbers.
+    float steps_of(std::uint8_t code) const { return steps_[code]; }
 
 private:
     /// A bin spans 1/64 to 1/32 of an octave, which is narrower than the step between two codes.
@@ -46,7 +52,8 @@ private:
     }
 
     float unit_m_;
-    std::array<float, 256> metres_{};
+    ErrorCodes metres_;
+    std::array<float, 256> steps_{};
     std::uint32_t first_ = 0;
     std::vector<std::uint8_t> codes_;
 };

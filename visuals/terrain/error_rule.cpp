@@ -122,7 +122,7 @@ void ErrorRule::look_from(const MeshView& view, double room_share) {
 void ErrorRule::share_room(float share) {
     has_full_room_ = share == 1.0F;
     for (unsigned code = 0; code < 256; ++code) {
-        const float error_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
+        const float error_m = ground_->codes().metres(static_cast<std::uint8_t>(code));
         full_room_m_[code] = share * error_m;
         no_room_m_[code] = (1.0F - share) * error_m;
     }

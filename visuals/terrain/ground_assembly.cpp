@@ -70,7 +70,7 @@ GroundAssembly::GroundAssembly(
     , heights_(heights)
     , memory_(memory)
     , threads_(threads)
-    , coder_(heights.number_unit_m) {
+    , coder_(codes_of(shape), heights.number_unit_m) {
     assert(threads >= 1);
     for (int thread = 0; thread < threads; ++thread) {
         builders_.emplace_back(layout_, heights_, coder_, memory_);

@@ -23,6 +23,10 @@ int rounded_up_quotient(int dividend, int divisor) {
 
 } // namespace
 
+ErrorCodes codes_of(const GroundShape& shape) {
+    return shape.has_own_codes ? ErrorCodes::of_unit(shape.height_unit_m) : ErrorCodes::fixed();
+}
+
 GroundLayout::GroundLayout(int columns, int rows, bool has_both_rooms)
     : has_both_rooms_(has_both_rooms) {
     assert(columns >= 2 && rows >= 2 && columns <= 65536 && rows <= 65536);

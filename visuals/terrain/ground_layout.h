@@ -1,5 +1,7 @@
 #pragma once
 
+#include "visuals/terrain/error_codes.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +30,8 @@ struct GroundShape {
     double height_unit_m = 0.0; ///< The height of one unit; a power of two.
     /// Whether errors are stored without room, too; else those with full room stand for both.
     bool has_both_rooms = true;
+    /// Whether the steps between error codes suit the unit; else they are those of all grounds.
+    bool has_own_codes = true;
 };
 
 /// The lowest and highest stored height of a node's samples.
@@ -35,6 +39,9 @@ struct HeightRange {
     std::int16_t lowest = 0;
     std::int16_t highest = 0;
 };
+
+/// What the codes of a ground's errors mean.
+ErrorCodes codes_of(const GroundShape& shape);
 
 /// Where each number of a ground lies in one block of memory, in a file as in RAM.
 ///

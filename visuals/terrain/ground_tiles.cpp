@@ -1,10 +1,8 @@
-// Access to a ground's numbers by node and by sample, and the table of error codes: 255 values in a
-// geometric series, so that one byte covers centimetres to kilometres at a constant relative error.
+// Access to a ground's numbers by node and by sample.
 #include "visuals/terrain/ground_tiles.h"
 
 #include "models/heights/bilinear.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <utility>
@@ -20,33 +18,13 @@ GroundTiles::GroundTiles(
     : shape_(shape)
     , facts_(std::move(facts))
     , layout_(shape)
+    , codes_(codes_of(shape))
     , memory_(memory)
     , owner_(std::move(owner))
     , guard_(guard ? std::move(guard) : std::make_shared<const TileGuard>(layout_))
     , base_m_(shape.height_base_m)
     , unit_m_(shape.height_unit_m) {
     assert(memory.size() == layout_.total_bytes());
-}
-
-const std::array<float, 256>& GroundTiles::error_metres() {
-    static const std::array<float, 256> table = [] {
-        constexpr double smallest_m = 0.01;
-        constexpr double ratio = 1.0567; ///< The 254 steps reach 12,100 m.
-        std::array<float, 256> metres{};
-        double error_m = smallest_m;
-        for (std::size_t code = 1; code < metres.size(); ++code) {
-            metres[code] = static_cast<float>(error_m);
-            error_m *= ratio;
-        }
-        return metres;
-    }();
-    return table;
-}
-
-std::uint8_t GroundTiles::error_code_of(float error_m) {
-    const std::array<float, 256>& metres = error_metres();
-    const auto at = std::lower_bound(metres.begin(), metres.end(), error_m);
-    return static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(at - metres.begin(), 255));
 }
 
 float GroundTiles::height_m(int column, int row) const {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "visuals/terrain/error_codes.h"
 #include "visuals/terrain/ground_layout.h"
 #include "visuals/terrain/tile_guard.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -85,19 +85,14 @@ public:
         return height_of(stored_height(level, part, column, row));
     }
 
-    /// The code of a sample's error by its node, as for height_m; error_m_of makes it metres. It is
-    /// 0 only where the error is 0.
+    /// The code of a sample's error by its node, as for height_m; codes() make it metres. It is 0
+    /// only where the error is 0.
     std::uint8_t
     error_code(int level, NodePart part, int column, int row, Room room = Room::Full) const {
         return *stored_error(level, part, column, row, room);
     }
 
-    /// The metres of an error code: at or above every error that has this code, and at most 6 %
-    /// above (up to 12 km). Ascending.
-    static float error_m_of(std::uint8_t code) { return error_metres()[code]; }
-
-    /// The smallest code whose metres are at or above an error; 255 for errors beyond all.
-    static std::uint8_t error_code_of(float error_m);
+    const ErrorCodes& codes() const { return codes_; }
 
     /// A lower bound of all samples of a node, for levels up to layout().range_level(); finer nodes
     /// have no bounds of their own.
@@ -133,8 +128,6 @@ public:
     std::optional<double> height_at(double x_m, double y_m) const;
 
 private:
-    static const std::array<float, 256>& error_metres();
-
     float height_of(std::int16_t stored) const {
         return static_cast<float>(base_m_ + unit_m_ * static_cast<double>(stored));
     }
@@ -186,6 +179,7 @@ private:
     GroundShape shape_;
     GroundFacts facts_;
     GroundLayout layout_;
+    ErrorCodes codes_;
     std::span<const std::byte> memory_;
     std::shared_ptr<const void> owner_;
     std::shared_ptr<const TileGuard> guard_;

@@ -29,9 +29,10 @@ TileBuilder::TileBuilder(
     , memory_(memory)
     , unseen_((most + 2) * (most + 2))
     , own_codes_(most + 1)
+    , below_codes_(most + 1)
     , errors_(most + 1) {
     for (Codes& codes : codes_) {
-        codes.children.resize((2 * most + 2) * (2 * most + 2));
+        codes.children.resize(children_edge * children_edge);
         codes.souths.resize((most + 1) * most);
         codes.wests.resize((most + 1) * most);
         codes.centres.resize(most * most);
@@ -99,7 +100,6 @@ DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
 
 /// Copies the codes of the centres one level finer from finished tiles.
 void TileBuilder::fetch_children(Room room) {
-    const int edge = 2 * most + 2;
     if (level_ + 1 == layout_.levels()) {
         return;
     }
@@ -124,23 +124,14 @@ void TileBuilder::fetch_children(Room room) {
                                            finer.errors[static_cast<std::size_t>(room)][0];
             std::memcpy(
                 &children[index_of(
-                    column - 2 * extent_.first_column + 1, row - 2 * extent_.first_row + 1, edge)],
+                    column - 2 * extent_.first_column + 1,
+                    row - 2 * extent_.first_row + 1,
+                    children_edge)],
                 codes + node,
                 static_cast<std::size_t>(count));
             column += count;
         }
     }
-}
-
-/// The largest code of the four centres one level finer around a sample, whose place is given in
-/// half nodes from the tile's south-west corner.
-std::uint8_t TileBuilder::children(const Codes& codes, int column, int row) const {
-    if (level_ + 1 == layout_.levels()) {
-        return 0;
-    }
-    const int edge = 2 * most + 2;
-    const std::uint8_t* const south_west = &codes.children[index_of(column, row, edge)];
-    return std::max({south_west[0], south_west[1], south_west[edge], south_west[edge + 1]});
 }
 
 /// The stored height of a sample, whose place is given in half edges from the field's south-west

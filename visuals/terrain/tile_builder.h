@@ -49,12 +49,15 @@ private:
     };
 
     static constexpr int most = GroundLayout::tile_edge;
+    static constexpr int children_edge = 2 * most + 2;
 
-    /// The middle of two triangles' longest edge, and the ends of that edge, in samples.
-    struct Halved {
-        std::array<int, 2> middle{};
-        std::array<int, 2> end_a{};
-        std::array<int, 2> end_b{};
+    /// A row of samples, each the middle of two triangles' longest edge, in samples of the field.
+    struct HalvedRow {
+        int column = 0; ///< Of the first.
+        int row = 0;
+        int step = 0;                ///< From one to the next.
+        std::array<int, 2> to_end{}; ///< From the first to the edge's northern or eastern end.
+        bool alternate = false;      ///< Every second edge leans the other way.
     };
 
     /// Codes of errors of one Room, row after row.
@@ -65,6 +68,9 @@ private:
         std::vector<std::uint8_t> centres;
     };
 
+    using RowOfCodes = std::span<const std::uint8_t>;
+    using RoomRows = std::array<std::uint8_t*, 2>; ///< By Room.
+
     Codes& codes_with(Room room) { return codes_[static_cast<std::size_t>(room)]; }
 
     void choose_lattice();
@@ -74,15 +80,16 @@ private:
     std::uint8_t largest_code(int level, int column, int row) const;
     float unseen(int column, int row) const;
     float unseen_by(int index, int row, Diamond diamond) const;
-    std::uint8_t children(const Codes& codes, int column, int row) const;
-    std::uint8_t middles(const Codes& codes, int column, int row) const;
+    void fetch_middles(const Codes& codes, int row, std::span<std::uint8_t> largest) const;
     void measure_relief();
     void measure_souths();
     void measure_wests();
     void measure_centres();
     void measure(int row, Diamond diamond, std::span<std::uint8_t> codes);
-    Halved diagonal_of(int column, int row, bool falling) const;
-    std::uint8_t with_room(std::uint8_t below, const Halved& edge) const;
+    std::uint8_t with_room(std::uint8_t below, int twice) const;
+    void raise_to_room(const HalvedRow& edges, RowOfCodes below, std::uint8_t* codes) const;
+    void saturate_middles(
+        const HalvedRow& edges, std::size_t children, const RowOfCodes& own, const RoomRows& out);
     std::int16_t height(int column, int row) const;
     void put_heights();
     void put_errors(Room room);
@@ -93,10 +100,12 @@ private:
     const ErrorCoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
-    float near_error_ = 0.0F; ///< The largest error that moves beside the eye, in numbers.
     /// S (tile_builder_errors.cpp) beside the eye, and the most it may be far off.
     float near_move_ = 0.0F;
     float far_move_ = 0.0F;
+    float slowest_share_ = 0.0F; ///< 1 / far_move_
+    /// S over the error in numbers, between the two.
+    float move_by_error_ = 0.0F;
     Extent extent_;
     std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;
@@ -106,8 +115,9 @@ private:
     /// For each node, and for one more on each side of the tile, the error that samples beside the
     /// lattice may have in a mesh of the lattice, in units of the numbers.
     std::vector<float> unseen_;
-    std::array<Codes, 2> codes_;          ///< By Room.
-    std::vector<std::uint8_t> own_codes_; ///< Those of a row, not saturated.
+    std::array<Codes, 2> codes_;            ///< By Room.
+    std::vector<std::uint8_t> own_codes_;   ///< Those of a row, not saturated.
+    std::vector<std::uint8_t> below_codes_; ///< The largest of those that need the row's samples.
     std::vector<float> errors_;
     std::vector<std::byte> tile_;
 };

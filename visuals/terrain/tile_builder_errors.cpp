@@ -23,7 +23,6 @@
 //   frame to frame, vertices may move farther in wanted errors the smaller E is, up to S E0 pixels:
 //   d E / (S E0) is enough, and errors between the two stored ones are nested as they are
 //   (full_room_px in error_survey.h).
-#include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
@@ -50,6 +49,13 @@ std::size_t index_of(int column, int row, int columns) {
            static_cast<std::size_t>(column);
 }
 
+/// Raises a row of codes to others.
+void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
+    for (std::size_t i = 0; i < least.size(); ++i) {
+        codes[i] = std::max(codes[i], least[i]);
+    }
+}
+
 } // namespace
 
 /// Finds out what a lattice of more than one sample's step does not see.
@@ -63,8 +69,7 @@ void TileBuilder::fetch_unseen() {
         for (int column = -1; column <= e.columns; ++column) {
             const std::uint8_t code =
                 largest_code(level_ + levels_unseen, e.first_column + column, e.first_row + row);
-            unseen_[index_of(column + 1, row + 1, most + 2)] =
-                GroundTiles::error_m_of(code) / static_cast<float>(heights_.number_unit_m);
+            unseen_[index_of(column + 1, row + 1, most + 2)] = coder_.steps_of(code);
         }
     }
 }
@@ -105,30 +110,61 @@ void TileBuilder::measure_relief() {
     const float relief = static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
     const float relief_m = relief * static_cast<float>(heights_.number_unit_m);
     const float ease = std::clamp(rugged_m / relief_m, 1.0F, most_ease);
-    near_error_ = near_error * relief;
     near_move_ = near_move * ease;
     far_move_ = far_move * ease;
+    slowest_share_ = 1.0F / far_move_;
+    move_by_error_ = near_move_ / (near_error * relief);
 }
 
-/// The least error of a sample with room to move, given the largest code of those that need it.
-std::uint8_t TileBuilder::with_room(std::uint8_t below, const Halved& edge) const {
-    if (below == 0) {
-        return 0;
-    }
-    const auto number = [this](const std::array<int, 2>& at) {
-        return static_cast<int>(heights_.number(
-            std::min(at[0], heights_.columns - 1), std::min(at[1], heights_.rows - 1)));
-    };
-    const int twice = 2 * number(edge.middle) - number(edge.end_a) - number(edge.end_b);
-    if (twice == 0) {
+/// The least error of a sample with room to move, given the largest code of those that need it and
+/// twice what the ground moves by without it.
+inline std::uint8_t TileBuilder::with_room(std::uint8_t below, int twice) const {
+    if (below == 0 || twice == 0) {
         return below;
     }
-    const float error = GroundTiles::error_m_of(below) / static_cast<float>(heights_.number_unit_m);
+    const float error = coder_.steps_of(below);
     const float move = 0.5F * static_cast<float>(std::abs(twice));
-    const float least = error + move / far_move_;
-    const float fastest_move =
-        std::clamp(near_move_ * (least / near_error_), near_move_, far_move_);
+    const float least = error + move * slowest_share_;
+    const float fastest_move = std::clamp(move_by_error_ * least, near_move_, far_move_);
     return std::max(below, coder_.code_of(error + move / fastest_move));
+}
+
+/// Raises the codes of a row of samples to the least errors with room to move, given the largest
+/// codes of those that need them.
+void TileBuilder::raise_to_room(
+    const HalvedRow& edges, std::span<const std::uint8_t> below, std::uint8_t* codes) const {
+    const int across = std::abs(edges.to_end[0]);
+    const int up = edges.to_end[1];
+    const int count = static_cast<int>(below.size());
+    // So many have both ends within the field.
+    const int room = heights_.columns - 1 - across - edges.column;
+    const bool low = edges.row + up < heights_.rows;
+    const int inside = low && room >= 0 ? std::min(count, room / edges.step + 1) : 0;
+    const std::int16_t* middle =
+        inside > 0 ? &heights_.numbers[index_of(edges.column, edges.row, heights_.columns)]
+                   : nullptr;
+    const std::ptrdiff_t climb = std::ptrdiff_t{up} * heights_.columns;
+    for (int i = 0; i < inside; ++i) {
+        const bool turned = edges.alternate && (i & 1) != 0;
+        const std::ptrdiff_t end = climb + (turned ? -edges.to_end[0] : edges.to_end[0]);
+        const auto at = static_cast<std::size_t>(i);
+        const int twice = 2 * middle[0] - middle[end] - middle[-end];
+        codes[at] = std::max(codes[at], with_room(below[at], twice));
+        middle += edges.step;
+    }
+    const auto number = [this](int column, int row) {
+        return static_cast<int>(heights_.number(
+            std::min(column, heights_.columns - 1), std::min(row, heights_.rows - 1)));
+    };
+    for (int i = inside; i < count; ++i) {
+        const bool turned = edges.alternate && (i & 1) != 0;
+        const int aside = turned ? -edges.to_end[0] : edges.to_end[0];
+        const int column = edges.column + i * edges.step;
+        const auto at = static_cast<std::size_t>(i);
+        const int twice = 2 * number(column, edges.row) - number(column + aside, edges.row + up) -
+                          number(column - aside, edges.row - up);
+        codes[at] = std::max(codes[at], with_room(below[at], twice));
+    }
 }
 
 /// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of
@@ -182,91 +218,104 @@ float TileBuilder::unseen_by(int index, int row, Diamond diamond) const {
     }
 }
 
+/// Saturates the own errors of a row of middles of edges, given where the first of the four centres
+/// around each lie among the children.
+void TileBuilder::saturate_middles(
+    const HalvedRow& edges, std::size_t children, const RowOfCodes& own, const RoomRows& out) {
+    for (const Room room : {Room::Full, Room::None}) {
+        std::copy(own.begin(), own.end(), out[static_cast<std::size_t>(room)]);
+    }
+    if (level_ + 1 == layout_.levels()) {
+        return;
+    }
+    const std::span below = std::span(below_codes_).first(own.size());
+    for (const Room room : {Room::Full, Room::None}) {
+        const std::uint8_t* const south = &codes_with(room).children[children];
+        const std::uint8_t* const north = south + children_edge;
+        for (std::size_t i = 0; i < below.size(); ++i) {
+            below[i] = std::max(
+                std::max(south[2 * i], south[2 * i + 1]), std::max(north[2 * i], north[2 * i + 1]));
+        }
+        std::uint8_t* const codes = out[static_cast<std::size_t>(room)];
+        if (room == Room::Full) {
+            raise_to_room(edges, below, codes);
+        } else {
+            raise(below, codes);
+        }
+    }
+}
+
 /// The stored errors of the middles of south edges.
 void TileBuilder::measure_souths() {
     const Extent& e = extent_;
-    Codes& full = codes_with(Room::Full);
-    Codes& none = codes_with(Room::None);
     const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
-    for (int row = 0; row <= e.rows; ++row) {
-        measure((e.first_row + row) * e.at.edge, Diamond::Lying, own);
-        for (int column = 0; column < e.columns; ++column) {
-            const std::uint8_t code = own[static_cast<std::size_t>(column)];
-            const std::size_t to = index_of(column, row, e.columns);
-            const int west = (e.first_column + column) * e.at.edge;
-            const int at = (e.first_row + row) * e.at.edge;
-            const Halved edge{{west + e.half, at}, {west, at}, {west + e.at.edge, at}};
-            const std::uint8_t below = children(full, 2 * column + 1, 2 * row);
-            full.souths[to] = std::max(code, with_room(below, edge));
-            none.souths[to] = std::max(code, children(none, 2 * column + 1, 2 * row));
-        }
+    const int column = e.first_column * e.at.edge + e.half;
+    for (int y = 0; y <= e.rows; ++y) {
+        const int row = (e.first_row + y) * e.at.edge;
+        measure(row, Diamond::Lying, own);
+        const std::size_t to = index_of(0, y, e.columns);
+        saturate_middles(
+            {column, row, e.at.edge, {e.half, 0}, false},
+            index_of(1, 2 * y, children_edge),
+            own,
+            {&codes_with(Room::Full).souths[to], &codes_with(Room::None).souths[to]});
     }
 }
 
 /// The stored errors of the middles of west edges.
 void TileBuilder::measure_wests() {
     const Extent& e = extent_;
-    Codes& full = codes_with(Room::Full);
-    Codes& none = codes_with(Room::None);
     const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns) + 1);
-    for (int row = 0; row < e.rows; ++row) {
-        measure((e.first_row + row) * e.at.edge + e.half, Diamond::Upright, own);
-        for (int column = 0; column <= e.columns; ++column) {
-            const std::uint8_t code = own[static_cast<std::size_t>(column)];
-            const std::size_t to = index_of(column, row, e.columns + 1);
-            const int at = (e.first_column + column) * e.at.edge;
-            const int south = (e.first_row + row) * e.at.edge;
-            const Halved edge{{at, south + e.half}, {at, south}, {at, south + e.at.edge}};
-            const std::uint8_t below = children(full, 2 * column, 2 * row + 1);
-            full.wests[to] = std::max(code, with_room(below, edge));
-            none.wests[to] = std::max(code, children(none, 2 * column, 2 * row + 1));
-        }
+    const int column = e.first_column * e.at.edge;
+    for (int y = 0; y < e.rows; ++y) {
+        const int row = (e.first_row + y) * e.at.edge + e.half;
+        measure(row, Diamond::Upright, own);
+        const std::size_t to = index_of(0, y, e.columns + 1);
+        saturate_middles(
+            {column, row, e.at.edge, {0, e.half}, false},
+            index_of(0, 2 * y + 1, children_edge),
+            own,
+            {&codes_with(Room::Full).wests[to], &codes_with(Room::None).wests[to]});
     }
 }
 
 /// The stored errors of the centres, which come last because they need those of the edges.
 void TileBuilder::measure_centres() {
     const Extent& e = extent_;
-    Codes& full = codes_with(Room::Full);
-    Codes& none = codes_with(Room::None);
     const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
-    for (int row = 0; row < e.rows; ++row) {
-        const bool falling = ((e.first_row + row + e.first_column) & 1) != 0;
-        measure(
-            (e.first_row + row) * e.at.edge + e.half,
-            falling ? Diamond::Falling : Diamond::Rising,
-            own);
-        for (int column = 0; column < e.columns; ++column) {
-            const std::uint8_t code = own[static_cast<std::size_t>(column)];
-            const std::size_t to = index_of(column, row, e.columns);
-            const Halved edge = diagonal_of(column, row, falling != ((column & 1) != 0));
-            full.centres[to] = std::max(code, with_room(middles(full, column, row), edge));
-            none.centres[to] = std::max(code, middles(none, column, row));
+    const std::span below = std::span(below_codes_).first(own.size());
+    for (int y = 0; y < e.rows; ++y) {
+        const bool falling = ((e.first_row + y + e.first_column) & 1) != 0;
+        const HalvedRow edges{
+            e.first_column * e.at.edge + e.half,
+            (e.first_row + y) * e.at.edge + e.half,
+            e.at.edge,
+            {falling ? -e.half : e.half, e.half},
+            true};
+        measure(edges.row, falling ? Diamond::Falling : Diamond::Rising, own);
+        for (const Room room : {Room::Full, Room::None}) {
+            Codes& codes = codes_with(room);
+            fetch_middles(codes, y, below);
+            std::uint8_t* const out = &codes.centres[index_of(0, y, e.columns)];
+            std::copy(own.begin(), own.end(), out);
+            if (room == Room::Full) {
+                raise_to_room(edges, below, out);
+            } else {
+                raise(below, out);
+            }
         }
     }
 }
 
-/// The largest code of the middles of a node's edges.
-std::uint8_t TileBuilder::middles(const Codes& codes, int column, int row) const {
-    const auto columns = static_cast<std::size_t>(extent_.columns);
-    const std::size_t south = index_of(column, row, extent_.columns);
-    const std::size_t west = index_of(column, row, extent_.columns + 1);
-    return std::max(
-        {codes.souths[south],
-         codes.souths[south + columns],
-         codes.wests[west],
-         codes.wests[west + 1]});
-}
-
-/// The edge that a node's centre halves.
-TileBuilder::Halved TileBuilder::diagonal_of(int column, int row, bool falling) const {
-    const Extent& e = extent_;
-    const int west = (e.first_column + column) * e.at.edge;
-    const int south = (e.first_row + row) * e.at.edge;
-    const int north = south + e.at.edge;
-    const int from = falling ? west + e.at.edge : west;
-    const int to = falling ? west : west + e.at.edge;
-    return {{west + e.half, south + e.half}, {from, south}, {to, north}};
+/// The largest codes of the middles of the edges of a row of nodes.
+void TileBuilder::fetch_middles(
+    const Codes& codes, int row, std::span<std::uint8_t> largest) const {
+    const std::uint8_t* const south = &codes.souths[index_of(0, row, extent_.columns)];
+    const std::uint8_t* const north = south + extent_.columns;
+    const std::uint8_t* const west = &codes.wests[index_of(0, row, extent_.columns + 1)];
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+        largest[i] = std::max(std::max(south[i], north[i]), std::max(west[i], west[i + 1]));
+    }
 }
 
 } // namespace octant::visuals::terrain

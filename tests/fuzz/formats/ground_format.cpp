@@ -44,7 +44,7 @@ void seal(std::string& bytes) {
         header.rows <= 65536) {
         const terrain::GroundLayout layout(shape_of(header));
         const groundfile::GroundFilePlan plan(layout);
-        header.layout = groundfile::hash_of(layout);
+        header.layout = groundfile::hash_of(shape_of(header));
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
             const std::uint64_t before_tiles =

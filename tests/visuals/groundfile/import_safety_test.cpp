@@ -4,12 +4,14 @@
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/ground_import.h"
+#include "visuals/terrain/error_mesher.h"
 #include "visuals/terrain/ground_assembly.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -73,11 +75,12 @@ std::string name_read(const std::string& name) {
     return facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).name;
 }
 
-/// The file that version 3 made of a field.
-void write_third_version(
-    const path& file, const models::heights::HeightField& field, const GroundTiles& today) {
-    GroundShape shape = today.shape();
-    shape.has_both_rooms = false;
+/// The file of an earlier version, as a shape tells, that is made of a field.
+void write_earlier_version(
+    const path& file,
+    const models::heights::HeightField& field,
+    const GroundShape& shape,
+    const GroundFacts& facts) {
     std::vector<std::int16_t> numbers;
     for (int row = 0; row < shape.rows; ++row) {
         for (int column = 0; column < shape.columns; ++column) {
@@ -104,7 +107,7 @@ void write_third_version(
         });
     }
     put_checksum(0, hash_of(memory.first(layout.first_tile())));
-    GroundHeader header = header_of(shape, today.facts());
+    GroundHeader header = header_of(shape, facts);
     header.progress.stage = GroundProgress::Stage::Complete;
     header.checksums = hash_of(checksums);
     const auto page = page_of(header);
@@ -210,13 +213,13 @@ TEST_CASE("a header keeps the coordinate system, and one of the first version ha
     spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
     CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
 
-    GroundHeader first = header_of({40, 30, 30.0, 7.0, 1.0, false}, facts);
+    GroundHeader first = header_of({40, 30, 30.0, 7.0, 1.0, false, false}, facts);
     first.version = 1;
     auto page = page_of(first);
     std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
     CHECK_FALSE(facts_of(read_header("header", page)).system);
-    first.version = 5;
-    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 5"));
+    first.version = 6;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 6"));
 
     facts.system->wkt.assign(4000, 'x');
     CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
@@ -226,7 +229,12 @@ TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
     const models::heights::HeightField field(33, 33, 30.0, tests::rough_heights(33, 33));
     const GroundTiles today = terrain::ground_of(field);
     const path file = scratch("third.ground");
-    write_third_version(file, field, today);
+    GroundShape shape = today.shape();
+    shape.has_own_codes = false;
+    write_earlier_version(scratch("fourth.ground"), field, shape, today.facts());
+    const GroundTiles fourth = open_ground(scratch("fourth.ground"));
+    shape.has_both_rooms = false;
+    write_earlier_version(file, field, shape, today.facts());
     const GroundTiles third = open_ground(file);
     CHECK_NOTHROW(verify_ground(file));
     CHECK_FALSE(third.layout().has_both_rooms());
@@ -238,13 +246,41 @@ TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
                 const auto code = [&](const GroundTiles& ground, Room room) {
                     return ground.error_code(level, NodePart::Centre, column, row, room);
                 };
-                CHECK(code(third, Room::Full) == code(today, Room::Full));
-                CHECK(code(third, Room::None) == code(today, Room::Full));
-                beyond += code(today, Room::Full) > code(today, Room::None) ? 1 : 0;
+                CHECK(code(third, Room::Full) == code(fourth, Room::Full));
+                CHECK(code(third, Room::None) == code(fourth, Room::Full));
+                beyond += code(fourth, Room::Full) > code(fourth, Room::None) ? 1 : 0;
             }
         }
     }
     CHECK(beyond > 20);
+}
+
+TEST_CASE("a ground of version 4 is read, and its wider steps between errors cost triangles") {
+    std::vector<float> heights_m;
+    for (int i = 0; i < 257 * 257; ++i) {
+        const double x = i % 257;
+        const double y = i / 257;
+        heights_m.push_back(static_cast<float>(
+            400.0 * std::sin(0.02 * x) * std::cos(0.03 * y) + 60.0 * std::sin(0.11 * x + 0.07 * y) +
+            9.0 * std::sin(0.43 * x - 0.31 * y) + 1.5 * std::sin(1.3 * x + 1.7 * y)));
+    }
+    const models::heights::HeightField field(257, 257, 30.0, heights_m);
+    const GroundTiles today = terrain::ground_of(field);
+    GroundShape shape = today.shape();
+    shape.has_own_codes = false;
+    const path file = scratch("fourth.ground");
+    write_earlier_version(file, field, shape, today.facts());
+    const GroundTiles fourth = open_ground(file);
+    CHECK_NOTHROW(verify_ground(file));
+    CHECK(fourth.codes().metres(1) == 0.01F);
+    terrain::MeshView view;
+    view.eye_m = {200.0, -300.0, 2000.0};
+    const auto triangles = [&view](const GroundTiles& ground) {
+        terrain::ErrorMesher mesher(ground);
+        return mesher.mesh(view, {4.0, terrain::any_triangles, true}).counters.triangles;
+    };
+    CHECK(triangles(today) > 2000);
+    CHECK(triangles(today) < 0.995 * triangles(fourth));
 }
 
 TEST_CASE("a name is cut between characters and read as UTF-8 without control characters") {

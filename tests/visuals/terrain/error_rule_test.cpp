@@ -125,8 +125,9 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     // 3 m to each side of the middle of the south side, 2 m east and 1 m south of the eye. Beside
     // the bump the ground lies 4 m below the slope from there up to it.
     const float middle_m =
-        GroundTiles::error_m_of(ground.tiles.error_code(0, NodePart::South, 0, 0));
-    CHECK((middle_m >= 4.0F && middle_m < 5.2F));
+        ground.tiles.codes().metres(ground.tiles.error_code(0, NodePart::South, 0, 0));
+    const ErrorCodes& codes = ground.tiles.codes();
+    CHECK((middle_m >= 4.0F && middle_m <= codes.metres(codes.code_of(4.9F))));
     CHECK(criticals.middle[0] == Approx(14.0F / (middle_m * middle_m)));
     // 2 m to each side of the centre of the south-west quarter, as far from the eye.
     const float error_m = criticals.quadrant_error_m[0];
@@ -139,5 +140,5 @@ TEST_CASE("a critical value is the squared distance to the region of influence o
     CHECK(criticals.middle[0] == std::numeric_limits<float>::infinity());
     CHECK(rule.error_px_of(rule.limit_of(1.5)) == Approx(1.5));
     CHECK(rule.limit_of(1.0) == Approx(869.1 * 869.1));
-    CHECK(rule.root_error_m() == Approx(8.0).epsilon(0.05));
+    CHECK(rule.root_error_m() == codes.metres(codes.code_of(8.0F)));
 }

@@ -26,7 +26,7 @@ Moves moves_of(ErrorGround& ground, const ErrorTarget& wanted) {
     Moves moves;
     std::vector<double> before_m;
     std::size_t vertices = 0;
-    for (int frame = 0; frame < 150; ++frame) {
+    for (int frame = 0; frame < 200; ++frame) {
         view.eye_m = {
             -20.0 + move_m * frame, 13.0 - 0.5 * move_m * frame, 8.0 + 0.3 * move_m * frame};
         const GroundMesh mesh = ground.mesher.mesh(view, wanted);

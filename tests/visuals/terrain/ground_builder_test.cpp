@@ -1,4 +1,3 @@
-#include "visuals/terrain/error_coder.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +18,7 @@ TEST_CASE("a single peak is an error of its own height for whatever leaves it ou
     std::vector<float> heights_m(25, 0.0F);
     heights_m[2 * 5 + 1] = 64.0F;
     const GroundTiles ground = ground_of({5, 5, 30.0, heights_m});
-    const std::uint8_t peak = GroundTiles::error_code_of(64.0F);
+    const std::uint8_t peak = ground.codes().code_of(64.0F);
     CHECK(ground.error_code(1, NodePart::South, 0, 1) == peak);
     CHECK(ground.error_code(0, NodePart::West, 0, 0) >= peak);
     CHECK(ground.error_code(0, NodePart::Centre, 0, 0) >= peak);
@@ -95,18 +94,6 @@ TEST_CASE("fractions of a metre are kept to half a unit") {
 TEST_CASE("a ground takes at most 3.52 bytes a sample") {
     const GroundLayout layout(1025, 1025);
     CHECK(static_cast<double>(layout.total_bytes()) <= 3.52 * 1025 * 1025);
-}
-
-TEST_CASE("the table of codes agrees with the search") {
-    const ErrorCoder coder(0.25);
-    CHECK(coder.code_of(0.0F) == 0);
-    for (float steps = 1e-3F; steps < 1e6F; steps *= 1.003F) {
-        CHECK(coder.code_of(steps) == GroundTiles::error_code_of(0.25F * steps));
-    }
-    for (int code = 1; code < 256; ++code) {
-        const float error_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
-        CHECK(coder.code_of(4.0F * error_m) == code);
-    }
 }
 
 } // namespace octant::visuals::terrain

@@ -27,8 +27,9 @@ enum class Look { AsBuilt, AtAll };
 /// are multiplied by a factor beside 1 before they are coded.
 class PlainErrors {
 public:
-    PlainErrors(const models::heights::HeightField& field, double factor)
+    PlainErrors(const models::heights::HeightField& field, const ErrorCodes& meaning, double factor)
         : field_(field)
+        , meaning_(meaning)
         , factor_(factor)
         , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge)
         , codes_{std::vector<std::uint8_t>(index(root_edge_, root_edge_) + 1), codes_[0]} {
@@ -99,7 +100,7 @@ private:
     }
 
     std::uint8_t coded(double error_m) const {
-        return GroundTiles::error_code_of(static_cast<float>(error_m * factor_));
+        return meaning_.code_of(static_cast<float>(error_m * factor_));
     }
 
     /// All middles of edges that are two halves long, or all centres of such nodes.
@@ -139,7 +140,7 @@ private:
         const double ends_m = height(moved({at.x + end.x, at.y + end.y})) +
                               height(moved({at.x - end.x, at.y - end.y}));
         const double move_m = std::abs(height(moved(at)) - 0.5 * ends_m);
-        const double below_m = static_cast<double>(GroundTiles::error_m_of(below));
+        const double below_m = static_cast<double>(meaning_.metres(below));
         const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
         const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
         const double least_m = below_m + move_m / (4.7 * ease);
@@ -169,7 +170,7 @@ private:
                 }
             }
         }
-        return static_cast<double>(GroundTiles::error_m_of(largest));
+        return static_cast<double>(meaning_.metres(largest));
     }
 
     bool has_area(int x, int y, int half) const {
@@ -215,6 +216,7 @@ private:
     double height(Point at) const { return static_cast<double>(field_.height_m(at.x, at.y)); }
 
     const models::heights::HeightField& field_;
+    const ErrorCodes& meaning_;
     double factor_;
     int root_edge_;
     std::array<std::vector<std::uint8_t>, 2> codes_; ///< By Room.
@@ -251,10 +253,11 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
 /// Number of samples whose stored error is not that of the definition. Rounding may make a
 /// difference where triangles are shrunk at a padded rim.
 int wrong_errors(const models::heights::HeightField& field) {
-    const PlainErrors least(field, 1.0 - 1e-6);
-    const PlainErrors most(field, 1.0 + 1e-6);
+    const GroundTiles ground = ground_of(field);
+    const PlainErrors least(field, ground.codes(), 1.0 - 1e-6);
+    const PlainErrors most(field, ground.codes(), 1.0 + 1e-6);
     int wrong = 0;
-    for_each_error(ground_of(field), [&](std::uint8_t code, Room room, Point sample, int /*half*/) {
+    for_each_error(ground, [&](std::uint8_t code, Room room, Point sample, int /*half*/) {
         wrong += code < least.code(sample.x, sample.y, room) ||
                  code > most.code(sample.x, sample.y, room);
     });
@@ -263,11 +266,12 @@ int wrong_errors(const models::heights::HeightField& field) {
 
 /// Number of samples with an error below the distance of some sample, whichever.
 int errors_too_small(const models::heights::HeightField& field) {
-    const PlainErrors plain(field, 1.0);
+    const GroundTiles ground = ground_of(field);
+    const PlainErrors plain(field, ground.codes(), 1.0);
     int wrong = 0;
-    for_each_error(ground_of(field), [&](std::uint8_t code, Room /*room*/, Point sample, int half) {
+    for_each_error(ground, [&](std::uint8_t code, Room /*room*/, Point sample, int half) {
         const double own_m = plain.own(sample, half, Look::AtAll);
-        wrong += static_cast<double>(GroundTiles::error_m_of(code)) < own_m * (1.0 - 1e-6);
+        wrong += static_cast<double>(ground.codes().metres(code)) < own_m * (1.0 - 1e-6);
     });
     return wrong;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "ground_fields.h"
@@ -86,23 +85,6 @@ TEST_CASE("between samples a ground is as high as its field, and nothing lies be
         }
     }
     CHECK(ground.height_at(285.0, 180.0) == field.height_at(285.0, 180.0));
-}
-
-TEST_CASE("an error's code is the smallest that is not below it") {
-    CHECK(GroundTiles::error_m_of(0) == 0.0F);
-    CHECK(GroundTiles::error_code_of(0.0F) == 0);
-    CHECK(GroundTiles::error_code_of(std::numeric_limits<float>::min()) == 1);
-    CHECK(GroundTiles::error_code_of(1e9F) == 255);
-    CHECK(GroundTiles::error_m_of(1) <= 0.0101F);
-    CHECK(GroundTiles::error_m_of(255) >= 12000.0F);
-    for (int code = 1; code < 256; ++code) {
-        const float error_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code));
-        const float below_m = GroundTiles::error_m_of(static_cast<std::uint8_t>(code - 1));
-        CHECK(below_m < error_m);
-        CHECK((code == 1 || error_m <= 1.06F * below_m));
-        CHECK(GroundTiles::error_code_of(error_m) == code);
-        CHECK(GroundTiles::error_code_of(0.5F * (error_m + below_m)) == code);
-    }
 }
 
 } // namespace octant::visuals::terrain
