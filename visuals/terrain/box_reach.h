@@ -82,13 +82,20 @@ inline BoxReach::Range BoxReach::range_along(const FourBoxes& b, const Along& al
         least_along(b.east, b.west, along.east_m) + least_along(b.north, b.south, along.north_m)};
 }
 
-/// Lower bounds of the depth over the level distance ahead or behind, at or above zero.
+/// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a
+/// picture may show.
 inline FourFloats BoxReach::least_share(const FourBoxes& b, const Range& level) const {
     constexpr float no_way_m = 1e-6F; // in place of a division by zero
+    // Only a picture that shows what lies straight below or above the eye shows what lies behind
+    // it; sums up to this count, because of rounding.
+    constexpr float sees_under = 1.0001F;
     const FourFloats worst_m = b.ahead_m < four(0.0F) ? level.least_m : level.most_m;
     const FourFloats before = four(1.0F) + b.ahead_m / larger(worst_m, four(no_way_m));
-    const FourFloats behind = b.ahead_m / larger(-level.least_m, four(no_way_m)) - four(1.0F);
-    const FourFloats share = level.least_m < four(0.0F) ? smaller(before, behind) : before;
+    FourFloats share = before;
+    if (level_ * level_ + corner_cos_squared_ < sees_under) {
+        const FourFloats behind = b.ahead_m / larger(-level.least_m, four(no_way_m)) - four(1.0F);
+        share = level.least_m < four(0.0F) ? smaller(before, behind) : before;
+    }
     return four(level_) * larger(share, four(0.0F));
 }
 

@@ -20,8 +20,9 @@
 //   With a = p_z f_z, z = P |f_h| + a (h: horizontal part), so that z / P is at least |f_h| + a / P
 //   for the least a of the box and its largest P, or its least P where a is below zero. R / z is at
 //   most the largest R of the box over its least z, and at most the tangent at the picture's
-//   corners. All are nested as D is. The term e f_z is at most the wanted error: it adds one to F /
-//   wanted error.
+//   corners. What lies behind the eye (P below zero) counts only where the picture's corners reach
+//   the vertical: z is at most |a| there, which is at most |f_z| D. All are nested as D is. The
+//   term e f_z is at most the wanted error: it adds one to F / wanted error.
 // - On a curved earth, e(v) is the stored error plus what the edge that v halves rises above the
 //   curve, L^2 / (8 R); the heights in D2 are not lowered.
 //

@@ -23,7 +23,9 @@ constexpr double first_look_px = 4.0;
 
 double room_share(const ErrorTarget& target) {
     const bool has_budget = target.most_triangles < any_triangles;
-    return has_budget ? 1.0 : std::min(target.error_px / full_room_px, 1.0);
+    const double share =
+        target.error_px / full_room_px * std::max(target.error_px / near_room_px, 1.0);
+    return has_budget ? 1.0 : std::min(share, 1.0);
 }
 
 float ErrorSurvey::limit_for(const ErrorTarget& target) {

@@ -39,6 +39,11 @@ inline constexpr int any_triangles = 1 << 30;
 /// at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
 inline constexpr double full_room_px = 14.0;
 
+/// Above this wanted error the share grows with its square. S grows with a sample's error, because
+/// a larger one moves farther off; but with a larger wanted error it moves as near as a smaller one
+/// did.
+inline constexpr double near_room_px = 2.0;
+
 /// The share of their full room that vertices get: all of it with a budget, which changes the
 /// wanted error from frame to frame, else in proportion to the wanted error.
 double room_share(const ErrorTarget& target);
