@@ -26,20 +26,33 @@ Fault fault_of(
 class Yardstick {
 public:
     void add(const TriangleMesh& plain, const TriangleMesh& original, int threads);
-    void add(double off_m, double rms_m);
+    void add(const Fault& plain);
 
     double rms_m() const { return rms_m_; }
 
-    /// Whether a fault is clearly below the yardstick in both values.
+    /// A result may turn over this share of its area: as much as the best plain way, or noise.
+    double allowed_turned() const;
+
+    /// A result should be no farther off.
+    double wanted_off_m() const;
+
+    /// Whether a fault is clearly below the yardstick in both distances, and turns over no more
+    /// than is allowed.
     bool is_beaten_by(const Fault& fault) const;
 
-    /// How bad a fault is: its product, and much more where one value is not clearly below the
-    /// yardstick.
+    /// Whether plain ways are better in one of the distances.
+    bool is_better_than(const Fault& fault) const {
+        return fault.off_m > off_m_ || fault.rms_m > rms_m_;
+    }
+
+    /// How bad a fault is: its product, and much more where one distance is not clearly below the
+    /// yardstick or more is turned over than is allowed.
     double badness(const Fault& fault) const;
 
 private:
     double off_m_ = std::numeric_limits<double>::infinity();
     double rms_m_ = std::numeric_limits<double>::infinity();
+    double turned_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace octant::models::simplify

@@ -2,6 +2,7 @@
 // then, by distances as by quadrics. So several ways are tried where that is cheap, and measured.
 #include "models/simplify/passes.h"
 
+#include "models/simplify/candidate.h"
 #include "models/simplify/fault.h"
 #include "models/simplify/shells.h"
 #include "sim/base/worker_team.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -27,40 +29,6 @@ constexpr std::size_t small = 30'000;
 /// Quality::Fast tries a second plain pass on meshes of no more triangles, and then takes still
 /// less time than Quality::Surface by far.
 constexpr std::size_t small_for_fast = 100'000;
-
-bool is_reached(const Simplified& result, const Goal& goal) {
-    return (!goal.faces || result.mesh.triangles.size() <= *goal.faces) &&
-           (!goal.vertices || result.mesh.vertices_m.size() <= *goal.vertices);
-}
-
-/// A result and how far it is off.
-struct Candidate {
-    Simplified result;
-    bool misses = false;
-    Fault fault;
-    bool fits_slivers = false; ///< By SimplifyOptions::fits_slivers.
-
-    /// One that misses the goal comes after all that reach it.
-    bool is_better_than(const Candidate& other, const Yardstick& yardstick) const {
-        constexpr double clearly = 0.99;
-        return misses != other.misses
-                   ? other.misses
-                   : yardstick.badness(fault) < clearly * yardstick.badness(other.fault);
-    }
-};
-
-Candidate judged(Simplified result, const SimplifyOptions& options) {
-    constexpr double tightness = 1.02;
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    const bool misses = !is_reached(result, options.goal);
-    Fault fault;
-    if (result.mesh.triangles.empty()) {
-        fault = {infinite, infinite, 1.0};
-    } else if (!result.sequence.collapses.empty()) {
-        fault = fault_of(result.mesh, result.sequence.original, tightness, options.threads);
-    }
-    return {std::move(result), misses, fault, options.fits_slivers};
-}
 
 /// What chooses the collapses of each pass that is tried; the usual one first.
 std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOptions& options) {
@@ -82,30 +50,14 @@ std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOp
     return choosers;
 }
 
-/// What the plain ones of the passes reached before their polish. Nothing is known where none was
-/// tried.
-Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& options) {
-    Yardstick yardstick;
-    for (const Candidate& one : tried) {
-        const CollapseSequence& sequence = one.result.sequence;
-        if (measures_distances(one.result.chosen_by) || one.misses || sequence.collapses.empty()) {
-            continue;
-        }
-        const TriangleMesh mesh = mesh_after(sequence, sequence.collapses.size());
-        if (!mesh.triangles.empty()) {
-            yardstick.add(mesh, sequence.original, options.threads);
-        }
-    }
-    return yardstick;
-}
-
 /// Tries to lower the largest distance of the best result so far: passes that avoid all beyond a
-/// part of it, side by side, as long as one of them is better, turns no more over and is hardly
-/// farther off in the mean, or clearly less than plain passes are. Where most triangles stay there
-/// is room for that.
+/// part of it, side by side, up to `most_times` as long as one of them is better, turns no more
+/// over and is hardly farther off in the mean, or clearly less than plain passes are. Where most
+/// triangles stay there is room for that.
 Candidate lowered(
     Candidate best,
     const Yardstick& yardstick,
+    int most_times,
     const SimplifyOptions& options,
     const OnePass& one_pass) {
     struct Try {
@@ -119,7 +71,6 @@ Candidate lowered(
         {Chooser::Distances, 0.65, true},
         {Chooser::Distances, 0.75, false},
         {Chooser::Peaks, 0.75, false}};
-    constexpr int most_times = 3;
     constexpr double hardly = 1.02;
     constexpr double clearly_less = 0.88;
     const double most_turned = best.fault.turned;
@@ -148,40 +99,78 @@ Candidate lowered(
     return best;
 }
 
-/// The best result so far, or a better balanced one where plain passes beat it in one value, or
-/// nearly so: of the passes that were tried, and of the same ones with a polish that makes slivers.
-/// It turns no more over.
-Candidate beside_plain(
-    std::vector<Candidate> tried,
+/// Where plain passes beat the best result in one value, or nearly so, the same passes are tried
+/// with a polish that makes slivers. Returns the number of the best of all, which turns no more
+/// over than most_turned.
+std::size_t beside_plain(
+    std::vector<Candidate>& tried,
     std::size_t best,
     const Yardstick& yardstick,
     const SimplifyOptions& options,
     const OnePass& one_pass) {
     const Fault fault = tried[best].fault;
     if (tried[best].misses || !(fault.off_m > 0.0) || yardstick.is_beaten_by(fault)) {
-        return std::move(tried[best]);
+        return best;
     }
+    const double most = most_turned(tried[best], yardstick);
     const std::size_t passes = tried.size();
     tried.resize(2 * passes);
     SimplifyOptions how = options;
     how.fits_slivers = true;
+    if (fault.off_m > yardstick.wanted_off_m()) {
+        how.avoided_m = yardstick.wanted_off_m();
+    }
     share_out(passes, options.threads, [&](std::size_t i, std::size_t) {
         const Simplified& other = tried[i].result;
         tried[passes + i] = judged(one_pass(other.sequence.original, how, other.chosen_by), how);
     });
     for (std::size_t i = 0; i < tried.size(); ++i) {
-        if (tried[i].fault.turned <= fault.turned &&
-            tried[i].is_better_than(tried[best], yardstick)) {
+        if (tried[i].fault.turned <= most && tried[i].is_better_than(tried[best], yardstick)) {
             best = i;
         }
     }
-    return std::move(tried[best]);
+    return best;
+}
+
+/// Whether a mesh shows nothing but its shape. Distances do not tell where borders of colours and
+/// materials should be, and revisions know them only as the result has them.
+bool is_plain(const TriangleMesh& mesh) {
+    return mesh.colours.empty() &&
+           std::ranges::adjacent_find(mesh.triangle_materials, std::ranges::not_equal_to()) ==
+               mesh.triangle_materials.end();
+}
+
+/// Improves the best of the passes that were tried. Where that does not beat the yardstick, the one
+/// that is least off in the mean is revised instead, if that leads farther.
+Simplified improved(
+    std::vector<Candidate> tried,
+    std::size_t best,
+    const SimplifyOptions& options,
+    const Ways& ways) {
+    const Yardstick yardstick = yardstick_of(tried, options);
+    const bool plain = is_plain(tried[best].result.sequence.original);
+    if (plain || yardstick.is_better_than(tried[best].fault)) {
+        best = beside_plain(tried, best, yardstick, options, ways.one_pass);
+    }
+    const std::size_t other = least_in_the_mean(tried, best, yardstick);
+    if (!plain) {
+        return lowered(std::move(tried[best]), Yardstick(), 3, options, ways.one_pass).result;
+    }
+    Candidate found = lowered(tried[best], yardstick, 1, options, ways.one_pass);
+    found = revised(std::move(found), yardstick, options, ways.revise);
+    if (other != best && !found.misses && !yardstick.is_beaten_by(found.fault)) {
+        Candidate second = revised(std::move(tried[other]), yardstick, options, ways.revise);
+        if (second.is_better_than(found, yardstick)) {
+            return std::move(second.result);
+        }
+    }
+    return std::move(found.result);
 }
 
 /// Tries the passes side by side and returns the best result, the first one where none is clearly
 /// better.
-Simplified
-best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass) {
+Simplified best_pass(TriangleMesh original, const SimplifyOptions& options, const Ways& ways) {
+    const OnePass& one_pass = ways.one_pass;
     const std::vector<Chooser> choosers = choosers_for(original, options);
     if (choosers.size() == 1) {
         return one_pass(std::move(original), options, choosers.front());
@@ -201,16 +190,13 @@ best_pass(TriangleMesh original, const SimplifyOptions& options, const OnePass& 
     if (options.quality == Quality::Fast || !is_small) {
         return std::move(tried[best].result);
     }
-    const Yardstick yardstick = yardstick_of(tried, options);
-    Candidate found = beside_plain(std::move(tried), best, yardstick, quiet, one_pass);
-    return lowered(std::move(found), yardstick, quiet, one_pass).result;
+    return improved(std::move(tried), best, quiet, ways);
 }
 
 } // namespace
 
-Simplified
-best_of_passes(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass) {
-    Simplified best = best_pass(std::move(original), options, one_pass);
+Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options, const Ways& ways) {
+    Simplified best = best_pass(std::move(original), options, ways);
     if (options.keep_shells || is_reached(best, options.goal)) {
         return best;
     }
@@ -221,8 +207,7 @@ best_of_passes(TriangleMesh original, const SimplifyOptions& options, const OneP
     if (gone == 0) {
         return best;
     }
-    Simplified fewer =
-        best_pass(only_shells(best.sequence.original, shells, stays), options, one_pass);
+    Simplified fewer = best_pass(only_shells(best.sequence.original, shells, stays), options, ways);
     fewer.shells_gone = gone;
     return fewer;
 }

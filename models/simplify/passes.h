@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/simplify/revisions.h"
 #include "models/simplify/simplified.h"
 
 #include <functional>
@@ -11,13 +12,18 @@ namespace octant::models::simplify {
 using OnePass = std::function<Simplified(
     TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by)>;
 
+/// What best_of_passes tries.
+struct Ways {
+    OnePass one_pass;
+    Revise revise;
+};
+
 /// The best of several passes: with Quality::Surface plain ones by quadrics and volumes are tried
 /// too, where few faces are to be left and they cost little, and with Quality::Fast the one by
 /// volumes, where the mesh is small. On small meshes Quality::Surface then tries passes that fit
-/// slivers, where a plain one is better than the best in one value, and passes that avoid the
-/// largest distance of the best. Where a goal is out of reach the smallest shells go first, unless
-/// the options keep them.
-Simplified
-best_of_passes(TriangleMesh original, const SimplifyOptions& options, const OnePass& one_pass);
+/// slivers, where a plain one is better than the best in one value, passes that avoid the largest
+/// distance of the best, and revisions, where the mesh has no borders of colours or materials.
+/// Where a goal is out of reach the smallest shells go first, unless the options keep them.
+Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options, const Ways& ways);
 
 } // namespace octant::models::simplify

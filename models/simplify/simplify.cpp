@@ -14,6 +14,7 @@
 #include "models/simplify/collapse_rounds.h"
 #include "models/simplify/collapse_run.h"
 #include "models/simplify/collapsing_surface.h"
+#include "models/simplify/edge_splits.h"
 #include "models/simplify/error_search.h"
 #include "models/simplify/passes.h"
 #include "models/simplify/point_lists.h"
@@ -33,6 +34,9 @@ constexpr std::size_t least_points = 24'000;
 /// How many times the wanted error collapses go by their own estimate: the polish may bring the
 /// error back.
 constexpr double beyond_goal = 2.0;
+/// The rounds of the polish before and after the collapses of a revision, whose surface is polished
+/// already.
+constexpr int revision_rounds = 4;
 
 /// Whether each triangle that is left of a large mesh stands for many.
 bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
@@ -215,13 +219,52 @@ simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Choos
     return result;
 }
 
+/// One revision (Revise): edges are split where the result is farthest off, and the cheapest ones
+/// collapse instead.
+TriangleMesh resplit(
+    const TriangleMesh& mesh,
+    const TriangleMesh& original,
+    const SimplifyOptions& options,
+    const Revision& revision) {
+    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
+    const TargetMesh target(original, units);
+    const measure::TriangleBvh bvh(target.places, target.triangles);
+    const std::size_t wanted = wanted_points(target, mesh.triangles.size(), options);
+    TriangleMesh split;
+    {
+        const WorkingSurface surface(mesh, units);
+        TrackedPoints points = points_on(surface, target, wanted);
+        split = with_split_edges(
+            mesh, split_needs(surface, points, {target, bvh}, revision.split_by), revision.splits);
+    }
+    WorkingSurface surface(split, units);
+    TrackedPoints points = points_on(surface, target, wanted);
+    PolishOptions how = polish_options(surface, target, units.diagonal_m, options);
+    how.rounds = revision_rounds;
+    how.extremes = false;
+    polish(surface, points, {target, bvh}, how);
+    list_nearer(surface, points, options.threads);
+    measure_lists(surface, points);
+    const bool measures = measures_distances(revision.chooser);
+    CollapsingSurface collapsing(surface, units, measures ? EdgeWeights{} : cost_weights);
+    CollapseRun(collapsing, revision.chooser, measures ? &points : nullptr, &bvh, options)
+        .run(options.goal, {});
+    if (!measures) {
+        surface.compact();
+        points = points_on(surface, target, wanted);
+    }
+    how.extremes = true;
+    polish(surface, points, {target, bvh}, how);
+    return with_normals(surface.to_mesh(original, units), original);
+}
+
 } // namespace
 
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     if (options.goal.error_m) {
         return simplified_to_error(std::move(original), options);
     }
-    return best_of_passes(std::move(original), options, simplified_to_count);
+    return best_of_passes(std::move(original), options, {simplified_to_count, resplit});
 }
 
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {

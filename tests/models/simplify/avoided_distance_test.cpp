@@ -48,6 +48,14 @@ TriangleMesh collapsed(const TriangleMesh& fine, double avoided_m) {
     return surface.to_mesh(fine, units);
 }
 
+TriangleMesh no_revision(
+    const TriangleMesh& mesh,
+    const TriangleMesh& /*original*/,
+    const SimplifyOptions& /*options*/,
+    const Revision& /*revision*/) {
+    return mesh;
+}
+
 /// The original with one vertex moved outwards.
 Simplified with_peak(TriangleMesh original, double height_m) {
     Simplified result;
@@ -85,11 +93,47 @@ TEST_CASE("of small meshes the best pass is followed by ones that avoid its larg
         careful += std::isinf(how.avoided_m) ? 0U : 1U;
         return with_peak(std::move(original), std::min(usual_m, how.avoided_m));
     };
-    const Simplified best = best_of_passes(ball(12), options, one_pass);
+    const Simplified best = best_of_passes(ball(12), options, {one_pass, no_revision});
     CHECK(careful > 0);
     CHECK(hausdorff_m(ball(12), best.mesh) < 0.7 * usual_m);
     careful = 0;
     options.quality = Quality::Fast;
-    best_of_passes(ball(12), options, one_pass);
+    best_of_passes(ball(12), options, {one_pass, no_revision});
     CHECK(careful == 0);
+}
+
+TEST_CASE("of small meshes the best result is revised as long as that makes it better") {
+    constexpr double usual_m = 0.1;
+    SimplifyOptions options;
+    options.goal.faces = ball(12).triangles.size();
+    const OnePass one_pass = [&](TriangleMesh original, const SimplifyOptions&, Chooser) {
+        return with_peak(std::move(original), usual_m);
+    };
+    std::size_t revisions = 0;
+    double height_m = usual_m;
+    const Revise lower =
+        [&](const TriangleMesh&, const TriangleMesh& original, const auto&, const auto&) {
+            ++revisions;
+            height_m *= 0.9;
+            return with_peak(original, height_m).mesh;
+        };
+    const Simplified best = best_of_passes(ball(12), options, {one_pass, lower});
+    CHECK(revisions > 5);
+    CHECK(hausdorff_m(ball(12), best.mesh) == Approx(height_m).epsilon(0.05));
+    const Revise higher =
+        [&](const TriangleMesh&, const TriangleMesh& original, const auto&, const auto&) {
+            return with_peak(original, 2.0 * usual_m).mesh;
+        };
+    const Simplified kept = best_of_passes(ball(12), options, {one_pass, higher});
+    CHECK(hausdorff_m(ball(12), kept.mesh) == Approx(usual_m).epsilon(0.05));
+    INFO("a mesh of too many triangles is no result");
+    const Revise larger = [&](const TriangleMesh&, const TriangleMesh&, const auto&, const auto&) {
+        return ball(24);
+    };
+    const Simplified small = best_of_passes(ball(12), options, {one_pass, larger});
+    CHECK(small.mesh.triangles.size() == ball(12).triangles.size());
+    options.quality = Quality::Fast;
+    revisions = 0;
+    best_of_passes(ball(12), options, {one_pass, lower});
+    CHECK(revisions == 0);
 }

@@ -43,14 +43,31 @@ TEST_CASE("without a yardstick the product of distance and root mean square coun
 
 TEST_CASE("what plain ways beat in one value is worse than what they beat in none") {
     Yardstick yardstick;
-    yardstick.add(1.0, 0.5);
-    yardstick.add(2.0, 0.1);
+    yardstick.add({1.0, 0.5, 0.001});
+    yardstick.add({2.0, 0.1, 0.003});
     const Fault balanced{0.9, 0.08, 0.0};
     const Fault far_off{1.5, 0.03, 0.0};
     const Fault far_in_the_mean{0.4, 0.15, 0.0};
     CHECK(yardstick.is_beaten_by(balanced));
+    CHECK_FALSE(yardstick.is_better_than(balanced));
+    CHECK(yardstick.is_better_than(far_off));
+    CHECK(yardstick.is_better_than(far_in_the_mean));
     CHECK_FALSE(yardstick.is_beaten_by(far_off));
     CHECK_FALSE(yardstick.is_beaten_by(far_in_the_mean));
     CHECK(yardstick.badness(balanced) < yardstick.badness(far_off));
     CHECK(yardstick.badness(balanced) < yardstick.badness(far_in_the_mean));
+}
+
+TEST_CASE("what turns more over than plain ways is no better for being nearer") {
+    Yardstick yardstick;
+    yardstick.add({1.0, 0.1, 0.001});
+    yardstick.add({2.0, 0.2, 0.004});
+    CHECK(yardstick.allowed_turned() == 0.001);
+    CHECK(yardstick.is_beaten_by({0.5, 0.05, 0.0009}));
+    CHECK_FALSE(yardstick.is_beaten_by({0.5, 0.05, 0.002}));
+    CHECK(yardstick.badness({0.5, 0.05, 0.001}) < yardstick.badness({0.4, 0.04, 0.003}));
+    Yardstick clean;
+    clean.add({1.0, 0.1, 0.0});
+    INFO("a share that a few samples make is allowed");
+    CHECK(clean.is_beaten_by({0.5, 0.05, 0.0001}));
 }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "models/simplify/fault.h"
+#include "models/simplify/simplified.h"
+#include "models/simplify/simplify_options.h"
+
+#include <cstddef>
+#include <span>
+
+namespace octant::models::simplify {
+
+bool is_reached(const Simplified& result, const Goal& goal);
+
+/// A result and how far it is off.
+struct Candidate {
+    Simplified result;
+    bool misses = false; ///< The goal.
+    Fault fault;
+    bool fits_slivers = false; ///< By SimplifyOptions::fits_slivers.
+
+    /// One that misses the goal comes after all that reach it.
+    bool is_better_than(const Candidate& other, const Yardstick& yardstick) const;
+};
+
+Candidate judged(Simplified result, const SimplifyOptions& options);
+
+/// What the plain ones of the passes reached before their polish. Nothing is known where none was
+/// tried.
+Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& options);
+
+/// The share of its area that what takes the place of a candidate may turn over: no more than that
+/// one, or than plain ways do.
+double most_turned(const Candidate& candidate, const Yardstick& yardstick);
+
+/// The number of the candidate with the least root mean square of those that turn no more over.
+std::size_t
+least_in_the_mean(std::span<const Candidate> tried, std::size_t best, const Yardstick& yardstick);
+
+} // namespace octant::models::simplify

@@ -1,0 +1,74 @@
+// Greedy collapses leave a surface where no single collapse was a mistake and yet some vertices
+// would be needed elsewhere more. H. Hoppe et al., "Mesh Optimization", 1993, section 4.2, try
+// splits, collapses and flips at random; here a few edges are split where the distance is largest
+// and the cheapest others collapse, several numbers of them side by side.
+#include "models/simplify/revisions.h"
+
+#include "sim/base/worker_team.h"
+
+#include <array>
+#include <utility>
+
+namespace octant::models::simplify {
+
+namespace {
+
+struct Try {
+    SplitBy split_by;
+    double splits; ///< The share of the triangles that are split.
+    double part;   ///< Distances beyond this part of the largest are avoided.
+    Chooser chooser;
+};
+
+constexpr std::array<Try, 5> tries = {
+    Try{SplitBy::Peaks, 0.002, 0.9, Chooser::Distances},
+    {SplitBy::Peaks, 0.01, 0.8, Chooser::Distances},
+    {SplitBy::Squares, 0.03, 0.9, Chooser::Distances},
+    {SplitBy::Squares, 0.004, 1.0, Chooser::Volumes},
+    {SplitBy::Squares, 0.03, 1.0, Chooser::Volumes}};
+constexpr int most_times = 6;
+/// A time that leaves more than this share of the badness is the last one.
+constexpr double most_badness_left = 0.98;
+
+Candidate tried_out(
+    const Candidate& before, const Try& one, const SimplifyOptions& options, const Revise& revise) {
+    SimplifyOptions how = options;
+    how.fits_slivers = before.fits_slivers;
+    how.slivers_too = true;
+    how.avoided_m = one.part * before.fault.off_m;
+    Simplified other = before.result;
+    const double splits = one.splits * static_cast<double>(other.mesh.triangles.size());
+    other.mesh = revise(
+        before.result.mesh,
+        other.sequence.original,
+        how,
+        {one.split_by, 1 + static_cast<std::size_t>(splits), one.chooser});
+    return judged(std::move(other), how);
+}
+
+} // namespace
+
+Candidate revised(
+    Candidate best,
+    const Yardstick& yardstick,
+    const SimplifyOptions& options,
+    const Revise& revise) {
+    const double most = most_turned(best, yardstick);
+    bool is_better = !best.misses && best.fault.off_m > 0.0;
+    for (int time = 0; time < most_times && is_better; ++time) {
+        std::array<Candidate, tries.size()> tried;
+        share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
+            tried[i] = tried_out(best, tries[i], options, revise);
+        });
+        const double before = yardstick.badness(best.fault);
+        for (Candidate& other : tried) {
+            if (other.fault.turned <= most && other.is_better_than(best, yardstick)) {
+                best = std::move(other);
+            }
+        }
+        is_better = yardstick.badness(best.fault) < most_badness_left * before;
+    }
+    return best;
+}
+
+} // namespace octant::models::simplify
