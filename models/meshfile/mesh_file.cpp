@@ -1,6 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 
 #include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/written_places.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -41,6 +42,7 @@ struct Format {
     TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
     MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
     void (*write)(const std::filesystem::path&, const TriangleMesh&);
+    bool places_in_float = false; ///< As written.
 };
 
 void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*mesh*/) {
@@ -50,9 +52,9 @@ void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*me
 constexpr std::array formats{
     Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
     Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>},
-    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>},
-    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_one_file<gltf_text>},
-    Format{".glb", read_gltf_mesh, read_gltf_parts, write_one_file<glb_bytes>},
+    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>, true},
+    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_one_file<gltf_text>, true},
+    Format{".glb", read_gltf_mesh, read_gltf_parts, write_one_file<glb_bytes>, true},
     Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_one_file<ac3d_text>},
     Format{".wrl", read_plainly<read_vrml_mesh>, nullptr, write_one_file<vrml_text>},
     Format{".xml", read_flightgear_model, nullptr, refuse_to_write}};
@@ -97,6 +99,10 @@ MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& optio
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     format_of(path).write(path, mesh);
+}
+
+bool writes_places_in_float(const std::filesystem::path& path) {
+    return format_of(path).places_in_float;
 }
 
 bool is_mesh_file(const std::filesystem::path& path) {

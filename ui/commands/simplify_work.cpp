@@ -3,6 +3,7 @@
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/written_places.h"
 #include "models/polygons/obj_reader.h"
 #include "models/repair/repair.h"
 #include "models/simplify/colour_seams.h"
@@ -89,17 +90,37 @@ simplify::ColourSeams read_repaired(const SimplifyCommand& command, Figures& fig
     return {std::move(repaired.mesh), std::move(repaired.corner_colours)};
 }
 
+/// Bounds of distances below this share of the diagonal need not be tight. On large meshes the
+/// millionth part, as surfaces that all but coincide take long to tell apart.
+double negligible_share(const models::TriangleMesh& original) {
+    constexpr std::size_t large = 100'000;
+    return original.triangles.size() > large ? 1e-6 : 1e-9;
+}
+
+/// Rounds the places of a mesh as its file does.
+void round_as_written(models::TriangleMesh& mesh, const std::string& file) {
+    if (!meshfile::writes_places_in_float(file)) {
+        return;
+    }
+    for (glm::dvec3& place_m : mesh.vertices_m) {
+        place_m = glm::dvec3(glm::vec3(place_m));
+    }
+}
+
+/// Adds the distance of the mesh as it was written to `file`.
 void add_distance(
     Figures& figures,
     const models::TriangleMesh& original,
-    const models::TriangleMesh& mesh,
+    models::TriangleMesh& mesh,
+    const std::string& file,
     int threads) {
     constexpr std::size_t samples = 100'000; // The root mean square is right to some 0.2 %.
+    round_as_written(mesh, file);
     const double diagonal_m = models::diagonal_m(original);
     const models::measure::MeshDistance distance = models::measure::distance(
         original,
         mesh,
-        {.negligible_m = 1e-6 * diagonal_m,
+        {.negligible_m = negligible_share(original) * diagonal_m,
          .samples = samples,
          .threads = threads,
          .larger_alone = true});
@@ -174,7 +195,7 @@ void simplify_as_printed(
     figures["faces_before"] = original.triangles.size();
     figures["vertices_before"] = original.vertices_m.size();
     const base::Stopwatch watch;
-    const simplify::PaperResult result = simplify::paper_simplified(original, options);
+    simplify::PaperResult result = simplify::paper_simplified(original, options);
     const double time_s = watch.s();
     progress.finish();
     meshfile::write_mesh(command.out, result.mesh);
@@ -183,7 +204,7 @@ void simplify_as_printed(
     figures["method"] = command.method;
     add_paper_figures(figures, options, result);
     if (!result.mesh.triangles.empty()) {
-        add_distance(figures, original, result.mesh, command.threads);
+        add_distance(figures, original, result.mesh, command.out, command.threads);
     }
     figures["time_s"] = time_s;
 }
@@ -208,7 +229,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["chosen_by"] = name_of(result.chosen_by);
     figures["shells_gone"] = result.shells_gone;
     if (!result.mesh.triangles.empty()) {
-        add_distance(figures, original, result.mesh, command.threads);
+        add_distance(figures, original, result.mesh, command.out, command.threads);
     }
     figures["time_s"] = time_s;
     const bool short_of_faces =

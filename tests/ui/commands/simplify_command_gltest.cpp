@@ -138,6 +138,34 @@ TEST_CASE("a mesh is simplified to the faces asked for, and its error is that of
     }
 }
 
+TEST_CASE("a distance far below a millionth of the diagonal is certified as closely as any") {
+    constexpr std::size_t side = 8;
+    models::TriangleMesh plate = models::meshfile::read_mesh(waves(static_cast<int>(side)));
+    for (std::size_t v = 0; v < plate.vertices_m.size(); ++v) {
+        const std::size_t column = v % (side + 1);
+        const std::size_t row = v / (side + 1);
+        glm::dvec3& place_m = plate.vertices_m[v];
+        if (column % side != 0 && row % side != 0) {
+            const auto turn = static_cast<double>(v);
+            place_m += 0.4 * glm::dvec3(std::sin(12.9 * turn), std::cos(7.7 * turn), 0.0);
+        }
+        place_m.z = v % 3 == 0 ? 1e-7 : 0.0;
+    }
+    const std::string rough = file_named("rough.obj");
+    models::meshfile::write_mesh(rough, plate);
+    for (const std::string ending : {".obj", ".ply", ".stl", ".glb"}) {
+        INFO(ending);
+        const std::string flat = file_named("flat" + ending);
+        const auto made = simplify_figures({rough, flat, "--faces", "20", "--method", "fast"});
+        const auto measured = tests::figures_of("mesh-error", {rough, flat});
+        const double certified = made["error_of_diagonal"].number();
+        const double least = measured["both"]["hausdorff_least"].number();
+        CHECK(least > 0.0);
+        CHECK(certified >= least);
+        CHECK(certified <= 1.3 * measured["both"]["hausdorff_most"].number());
+    }
+}
+
 TEST_CASE("a goal below what all shells need drops the smallest; kept, it is missed with exit 1") {
     const std::string in = cubes(5);
     const std::string out = file_named("fewer.obj");
