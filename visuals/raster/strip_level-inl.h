@@ -20,6 +20,10 @@ namespace HWY_NAMESPACE {
 using StripSigned = hn::RebindToSigned<Strip>;
 constexpr std::size_t part_px = hn::MaxLanes(Strip());
 
+/// A bit for each pixel of so many parts of a strip.
+template <std::size_t parts>
+constexpr std::uint32_t bits_of_parts = ~0U >> (strip_px - parts * part_px);
+
 /// The part of a tile in which a triangle may cover something.
 struct TileBox {
     int left;
@@ -119,31 +123,36 @@ strip_levels(const Levels& levels, const glm::ivec2& from_px, int columns_right)
     }
 }
 
-/// A bit for each pixel of a strip that has a value.
-HWY_INLINE std::uint32_t bits_equal_to(const StripValues& values, std::uint16_t value) {
+/// A bit for each pixel of so many parts of a strip that has a value.
+template <std::size_t parts>
+HWY_INLINE std::uint32_t
+bits_equal_to(const std::array<hn::Vec<Strip>, parts>& values, std::uint16_t value) {
     const auto is_equal = [&](std::size_t part)
                               HWY_ATTR { return hn::Eq(values[part], hn::Set(Strip(), value)); };
 #if HWY_TARGET == HWY_AVX2
     // Written to memory part by part and read as one, they would come late.
     const __m256i bytes = _mm256_packs_epi16(
-        hn::VecFromMask(Strip(), is_equal(0)).raw, hn::VecFromMask(Strip(), is_equal(1)).raw);
+        hn::VecFromMask(Strip(), is_equal(0)).raw,
+        hn::VecFromMask(Strip(), is_equal(parts - 1)).raw);
     constexpr int in_order = 0xd8; // of four times eight
-    return static_cast<std::uint32_t>(
-        _mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
+    const auto bits =
+        static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, in_order)));
+    return bits & bits_of_parts<parts>;
 #else
     alignas(8) std::array<std::uint8_t, 16> bytes;
     constexpr std::size_t bytes_a_part = part_px / 8;
-    for (std::size_t i = 0; i < strip_parts; ++i) {
+    for (std::size_t i = 0; i < parts; ++i) {
         hn::StoreMaskBits(Strip(), is_equal(i), bytes.data() + i * bytes_a_part);
     }
     std::uint32_t bits = 0;
-    std::memcpy(&bits, bytes.data(), sizeof bits);
+    std::memcpy(&bits, bytes.data(), parts * bytes_a_part);
     return bits;
 #endif
 }
 
-/// A bit for each pixel of a strip whose value has all bits set.
-HWY_INLINE std::uint32_t full_bits(const StripValues& values) {
+/// A bit for each pixel of so many parts of a strip whose value has all bits set.
+template <std::size_t parts>
+HWY_INLINE std::uint32_t full_bits(const std::array<hn::Vec<Strip>, parts>& values) {
     return bits_equal_to(values, 0xffff);
 }
 

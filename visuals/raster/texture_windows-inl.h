@@ -71,15 +71,17 @@ private:
 /// The windows of a strip of a triangle that have new samples.
 class TextureQueue {
 public:
-    /// A row's new samples; a window may reach beyond the strip. `row`: from the triangle's first.
-    HWY_INLINE void add_row(std::size_t row, const StripValues& fresh) {
+    /// A row's new samples in parts of the strip; a window may reach beyond them. `row`: from the
+    /// triangle's first.
+    template <std::size_t parts>
+    HWY_INLINE void add_row(std::size_t row, const std::array<hn::Vec<Strip>, parts>& fresh) {
         const std::size_t row_begin = row * tile_width;
-        for (std::size_t i = 0; i < strip_parts; ++i) {
+        for (std::size_t i = 0; i < parts; ++i) {
             hn::StoreU(fresh[i], Strip(), fresh_.data() + row_begin + i * part_px);
         }
-        put_none(row_begin + strip_px);
-        std::uint32_t pixels = ~bits_equal_to(fresh, 0);
-        for (std::size_t i = 0; i < most_of_row; ++i) {
+        put_none(row_begin + parts * part_px);
+        std::uint32_t pixels = ~bits_equal_to(fresh, 0) & bits_of_parts<parts>;
+        for (std::size_t i = 0; i < parts * part_px / texture_window_px; ++i) {
             const auto column = static_cast<std::uint32_t>(std::countr_zero(pixels)) % strip_px;
             windows_[count_] = static_cast<std::uint16_t>(row_begin + column);
             count_ += pixels != 0 ? 1 : 0;

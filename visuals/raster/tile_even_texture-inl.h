@@ -8,6 +8,7 @@
 #endif
 
 #include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/strip_walk-inl.h"
 #include "visuals/raster/texture_windows-inl.h"
 #include "visuals/raster/tile_rows-inl.h"
 #include "visuals/raster/tile_texels-inl.h"
@@ -214,6 +215,7 @@ HWY_INLINE void paint_texture_in_pairs(
 }
 
 /// Covers what is free of a triangle in a strip; what is new waits for its colours.
+template <std::size_t parts>
 HWY_INLINE void cover_texture_strip(
     const Triangle& triangle,
     const TileJob& job,
@@ -222,30 +224,11 @@ HWY_INLINE void cover_texture_strip(
     int left,
     TileBuffer& buffer,
     TextureQueue& queue) {
-    const std::uint32_t columns = box.columns_of_strip(left);
-    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
-    const std::uint64_t full_row = job.full_row();
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
-    StripCoverage coverage(triangle, first_px, columns, lanes);
-    for (int row = box.first_row; row <= box.last_row; ++row) {
-        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
-        if ((wide_columns & ~full) != 0) {
-            std::uint16_t* const covered = buffer.covered.data() + row * tile_width + left;
-            const StripValues masks = coverage.samples();
-            StripValues fresh;
-            StripValues after;
-            for (std::size_t i = 0; i < strip_parts; ++i) {
-                const auto before = hn::LoadU(Strip(), covered + i * part_px);
-                fresh[i] = hn::AndNot(before, masks[i]);
-                after[i] = hn::Or(before, masks[i]);
-                hn::StoreU(after[i], Strip(), covered + i * part_px);
-            }
-            queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh);
-            full |= std::uint64_t{full_bits(after)} << left;
-            buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
-        }
-        coverage.next_row();
-    }
+    using Values = PartValues<parts>;
+    const auto wait = [&](int row, const Values& /*masks*/, const Values& fresh) HWY_ATTR {
+        queue.add_row(static_cast<std::size_t>(row - box.first_row), fresh);
+    };
+    walk_strip<parts>(triangle, job, lanes, box, left, buffer, wait, []() HWY_ATTR {});
     queue.finish(static_cast<std::size_t>(box.last_row - box.first_row + 1));
 }
 
@@ -292,7 +275,9 @@ HWY_INLINE void paint_texture_strip(
     int left,
     TileBuffer& buffer) {
     TextureQueue queue;
-    cover_texture_strip(triangle, job, lanes, box, left, buffer, queue);
+    with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
+        cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue);
+    });
     if (queue.count() == 0) {
         return;
     }

@@ -9,20 +9,37 @@
 #endif
 
 #include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/strip_walk-inl.h"
 #include "visuals/raster/tile_nearness-inl.h"
 #include "visuals/raster/tile_rows-inl.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// Paints the strip of a triangle that begins at a column of the tile.
-template <bool has_grain>
+/// How near the ground is in the parts of a strip that begins at a column of the tile.
+template <bool has_grain, std::size_t parts>
+HWY_INLINE auto nearness_of_parts(const Triangle& triangle, const TileJob& job, int left) {
+    if constexpr (has_grain) {
+        return [&]<std::size_t... part>(std::index_sequence<part...>) HWY_ATTR {
+            return std::array{NearnessOfColumns<Strip>(
+                triangle, job, left + static_cast<int>(part * part_px))...};
+        }
+        (std::make_index_sequence<parts>());
+    } else {
+        return 0;
+    }
+}
+
+/// Paints the strip of a triangle that begins at a column of the tile, or as many parts of it as
+/// have columns.
+template <bool has_grain, std::size_t parts>
 HWY_INLINE void paint_strip(
     const Triangle& triangle,
     const TileJob& job,
@@ -30,49 +47,32 @@ HWY_INLINE void paint_strip(
     const TileBox& box,
     int left,
     TileBuffer& buffer) {
-    const std::uint32_t columns = box.columns_of_strip(left);
-    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
-    const std::uint64_t full_row = job.full_row();
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
     const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
-    StripCoverage coverage(triangle, first_px, columns, lanes);
     auto levels = strip_levels<has_grain>(triangle.levels, box_px, left - box.left);
-    auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
-    for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
-        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
-        if ((wide_columns & ~full) != 0) {
-            const StripValues masks = coverage.samples();
-            StripValues after;
-            for (std::size_t i = 0; i < strip_parts; ++i) {
-                const std::size_t at = pixel + i * part_px;
-                const auto before = hn::LoadU(Strip(), buffer.covered.data() + at);
-                const auto fresh = hn::AndNot(before, masks[i]);
-                after[i] = hn::Or(before, masks[i]);
-                hn::StoreU(after[i], Strip(), buffer.covered.data() + at);
-                const auto counts = hn::PopulationCount(fresh);
-                for (std::size_t k = 0; k < levels.size(); ++k) {
-                    std::uint16_t* const sums = buffer.sums[k].data() + at;
-                    hn::StoreU(
-                        hn::Add(
-                            hn::LoadU(Strip(), sums),
-                            hn::Mul(of_sample(k, levels[k].colour(i)), counts)),
-                        Strip(),
-                        sums);
-                }
-                if constexpr (has_grain) {
-                    const auto columns_right = static_cast<int>(i * part_px);
-                    put_nearness(
-                        Strip(), triangle, job, {left + columns_right, row}, fresh, buffer);
+    [[maybe_unused]] const auto nearness = nearness_of_parts<has_grain, parts>(triangle, job, left);
+    using Values = PartValues<parts>;
+    const auto paint = [&](int row, const Values& /*masks*/, const Values& fresh) HWY_ATTR {
+        for (std::size_t i = 0; i < parts; ++i) {
+            const auto at = static_cast<std::size_t>(row * tile_width + left) + i * part_px;
+            const auto counts = hn::PopulationCount(fresh[i]);
+            for (std::size_t k = 0; k < levels.size(); ++k) {
+                std::uint16_t* const sums = buffer.sums[k].data() + at;
+                const auto colour = of_sample(k, levels[k].colour(i));
+                const auto sum = hn::Add(hn::LoadU(Strip(), sums), hn::Mul(colour, counts));
+                hn::StoreU(sum, Strip(), sums);
+            }
+            if constexpr (has_grain) {
+                if (row % 2 == 0) {
+                    nearness[i].put(row, fresh[i], buffer);
                 }
             }
-            full |= std::uint64_t{full_bits(after)} << left;
-            buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
         }
-        coverage.next_row();
+    };
+    walk_strip<parts>(triangle, job, lanes, box, left, buffer, paint, [&]() HWY_ATTR {
         for (StripLevel& level : levels) {
             level.at += level.per_row;
         }
-    }
+    });
 }
 
 /// An edge in a strip where a pixel's only sample is its middle.
@@ -174,9 +174,11 @@ HWY_NOINLINE void paint_levels(
     for (int left = box.left; left <= box.right; left += strip_px) {
         if (lanes.are_one) {
             paint_strip_of_middles<has_grain>(triangle, job, box, left, buffer);
-        } else {
-            paint_strip<has_grain>(triangle, job, lanes, box, left, buffer);
+            continue;
         }
+        with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
+            paint_strip<has_grain, parts>(triangle, job, lanes, box, left, buffer);
+        });
     }
 }
 

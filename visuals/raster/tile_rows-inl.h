@@ -246,7 +246,7 @@ HWY_INLINE void paint_in_pairs(
             const auto after = hn::Or(before, masks);
             window.store(after, buffer.covered.data());
             paint(window, hn::AndNot(before, masks));
-            const std::uint32_t bits = full_bits({after});
+            const std::uint32_t bits = full_bits(StripValues{after});
             full[0] |= std::uint64_t{bits & 0xffffU} << window.first[0];
             full[1] |= std::uint64_t{bits >> 16U} << window.first[1];
         }

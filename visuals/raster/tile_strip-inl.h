@@ -202,6 +202,27 @@ samples_of_pixels(const std::array<hn::Vec<LaneBits>, parts>& lanes) {
 
 #endif
 
+#if HWY_TARGET == HWY_AVX2
+
+/// From a bit for each pixel of a strip's first half in sixteen lanes to a bit for each lane in 16
+/// pixels. No lane has pixels beyond.
+HWY_INLINE hn::Vec<Strip> samples_of_half(const LaneMasks& lanes) {
+    const hn::Repartition<std::uint8_t, LaneBits> bytes;
+    const hn::Repartition<std::uint64_t, LaneBits> words;
+    alignas(16) static constexpr std::array<std::uint8_t, 16> by_eight_pixels{
+        0, 2, 4, 6, 1, 3, 5, 7, 8, 10, 12, 14, 9, 11, 13, 15};
+    alignas(32) static constexpr std::array<std::int32_t, 8> across{0, 4, 2, 6, 1, 5, 3, 7};
+    // Lanes 0 to 3, 8 to 11, 4 to 7, 12 to 15.
+    const hn::Vec<decltype(bytes)> packed{_mm256_packus_epi32(lanes[0].raw, lanes[1].raw)};
+    const auto fours = hn::BitCast(
+        LaneBits(), hn::TableLookupBytes(packed, hn::LoadDup128(bytes, by_eight_pixels.data())));
+    const auto rows = hn::BitCast(
+        words, hn::TableLookupLanes(fours, hn::SetTableIndices(LaneBits(), across.data())));
+    return paired<decltype(words)>(turned<decltype(words)>(rows));
+}
+
+#endif
+
 /// The samples of the strips of a triangle's rows, one row after the other.
 class StripCoverage {
 public:
@@ -227,8 +248,31 @@ public:
         }
     }
 
-    /// Of the row at hand.
-    HWY_INLINE StripValues samples() const {
+    /// Of the row at hand, in as many parts as the columns that count lie in.
+    template <std::size_t parts>
+    HWY_INLINE std::array<hn::Vec<Strip>, parts> samples() const {
+#if HWY_TARGET == HWY_AVX2
+        if constexpr (parts == 1) {
+            return {samples_of_half(lanes())};
+        }
+#endif
+        if constexpr (parts == strip_parts) {
+            return samples_of_pixels(lanes());
+        }
+    }
+
+    HWY_INLINE void next_row() {
+        whole_.x += whole_.slope;
+        upper_.x += upper_.slope;
+        lower_.x += lower_.slope;
+        for (std::size_t i = 0; i < lane_parts; ++i) {
+            y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256));
+        }
+    }
+
+private:
+    /// The pixels of the row at hand that each sample covers.
+    HWY_INLINE LaneMasks lanes() const {
         const LaneBits bits;
         const auto bends_left = hn::Set(bits, bends_left_);
         const auto columns = hn::Set(bits, columns_);
@@ -245,19 +289,9 @@ public:
                 hn::RebindMask(bits, hn::AndNot(is_before(top_), is_before(bottom_)));
             masks[i] = hn::IfThenElseZero(in_height, hn::And(between, columns));
         }
-        return samples_of_pixels(masks);
+        return masks;
     }
 
-    HWY_INLINE void next_row() {
-        whole_.x += whole_.slope;
-        upper_.x += upper_.slope;
-        lower_.x += lower_.slope;
-        for (std::size_t i = 0; i < lane_parts; ++i) {
-            y_[i] = hn::Add(y_[i], hn::Set(Lanes(), 256));
-        }
-    }
-
-private:
     LaneValues down_;
     LaneValues round_up_;
     LaneValues y_; ///< of the samples, from the first row's middle, 1/256 pixel

@@ -8,6 +8,7 @@
 #define OCTANT_RASTER_TEXTURE_INL
 #endif
 
+#include "visuals/raster/strip_walk-inl.h"
 #include "visuals/raster/tile_affine-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 #include "visuals/raster/tile_levels-inl.h"
@@ -196,44 +197,6 @@ HWY_INLINE void add_textured_row(
     }
 }
 
-/// Paints the strip of a triangle that begins at a column of the tile, the new samples of each row
-/// by add_row(its first pixel in the picture, masks, new samples, its first pixel in the tile).
-template <class AddRow>
-HWY_INLINE void paint_strip_by_rows(
-    const Triangle& triangle,
-    const AddRow& add_row,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    const TileBox& box,
-    int left,
-    TileBuffer& buffer) {
-    const std::uint32_t columns = box.columns_of_strip(left);
-    const std::uint64_t wide_columns = std::uint64_t{columns} << left;
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(left, box.first_row);
-    StripCoverage coverage(triangle, first_px, columns, lanes);
-    for (int row = box.first_row; row <= box.last_row; ++row) {
-        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
-        if ((wide_columns & ~full) != 0) {
-            const auto pixel = static_cast<std::size_t>(row * tile_width + left);
-            const StripValues masks = coverage.samples();
-            StripValues fresh;
-            StripValues after;
-            for (std::size_t i = 0; i < strip_parts; ++i) {
-                std::uint16_t* const covered = buffer.covered.data() + pixel + i * part_px;
-                const auto before = hn::LoadU(Strip(), covered);
-                fresh[i] = hn::AndNot(before, masks[i]);
-                after[i] = hn::Or(before, masks[i]);
-                hn::StoreU(after[i], Strip(), covered);
-            }
-            full |= std::uint64_t{full_bits(after)} << left;
-            buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << row;
-            const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
-            add_row(at, masks, fresh, pixel);
-        }
-        coverage.next_row();
-    }
-}
-
 /// Paints a triangle of Fill::TextureInPerspective that no plane cuts.
 HWY_NOINLINE void paint_texture(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
@@ -251,13 +214,15 @@ HWY_NOINLINE void paint_texture(
             add_texture(planes, job, block, buffer);
         }
     };
-    const auto add_row = [&](const glm::ivec2& at,
-                             const StripValues& masks,
-                             const StripValues& fresh,
-                             std::size_t pixel)
-                             HWY_ATTR { add_textured_row(add, at, masks, fresh, pixel); };
     for (int left = box.left; left <= box.right; left += strip_px) {
-        paint_strip_by_rows(*one.triangle, add_row, job, lanes, box, left, buffer);
+        const auto paint =
+            [&](int row, const StripValues& masks, const StripValues& fresh) HWY_ATTR {
+                const glm::ivec2 at = job.first_px + glm::ivec2(left, row);
+                const auto pixel = static_cast<std::size_t>(row * tile_width + left);
+                add_textured_row(add, at, masks, fresh, pixel);
+            };
+        walk_strip<strip_parts>(
+            *one.triangle, job, lanes, box, left, buffer, paint, []() HWY_ATTR {});
     }
 }
 
