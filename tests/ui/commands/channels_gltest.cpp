@@ -54,7 +54,16 @@ TEST_CASE("three octants show one world in step from one host") {
     const std::array<std::string, 3> names{"left", "front", "right"};
     const std::uint16_t own = free_port();
     const std::vector<std::string> world{
-        "--size", "96x54", "--pictures", "0", "--aircraft", "f15", "--aircraft", "500md"};
+        "--size",
+        "96x54",
+        "--pictures",
+        "0",
+        "--aircraft",
+        "f15",
+        "--aircraft",
+        "500md",
+        "--terrain",
+        tests::small_ground()};
     std::vector<std::string> host{
         "fly", "turn", "--frames", std::to_string(frames), "--record", (folder / "host").string()};
     std::vector<std::thread> channels;

@@ -1,10 +1,13 @@
 #include "tests/ui/commands/command_line.h"
 
+#include "models/heights/height_field_export.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
+#include "visuals/groundfile/ground_import.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,24 +23,13 @@ namespace octant::tests {
 namespace {
 
 pid_t start(
-    const std::vector<std::string>& arguments,
-    const std::vector<std::string>& environment,
-    const std::string& out,
-    const std::string& err) {
+    const std::vector<std::string>& arguments, const std::string& out, const std::string& err) {
     std::vector<std::string> words = {OCTANT_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<std::string> variables = environment;
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-        variables.emplace_back(*variable);
-    }
-    const auto pointers = [](std::vector<std::string>& texts) {
-        std::vector<char*> list;
-        std::transform(texts.begin(), texts.end(), std::back_inserter(list), [](std::string& text) {
-            return text.data();
-        });
-        list.push_back(nullptr);
-        return list;
-    };
+    std::vector<char*> pointers;
+    std::ranges::transform(
+        words, std::back_inserter(pointers), [](std::string& word) { return word.data(); });
+    pointers.push_back(nullptr);
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -46,13 +38,8 @@ pid_t start(
     posix_spawn_file_actions_addopen(
         &files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     pid_t child = 0;
-    const int fault = posix_spawn(
-        &child,
-        OCTANT_PROGRAM,
-        &files,
-        nullptr,
-        pointers(words).data(),
-        pointers(variables).data());
+    const int fault =
+        posix_spawn(&child, OCTANT_PROGRAM, &files, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     if (fault != 0) {
         throw std::runtime_error("the program cannot be started");
@@ -68,12 +55,11 @@ int wait_for(pid_t child) {
 
 } // namespace
 
-ProgramRun
-run_octant(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+ProgramRun run_octant(const std::vector<std::string>& arguments) {
     const std::string out = (scratch_folder() / "stdout").string();
     const std::string err = (scratch_folder() / "stderr").string();
     ProgramRun run;
-    run.exit_code = wait_for(start(arguments, environment, out, err));
+    run.exit_code = wait_for(start(arguments, out, err));
     run.out = read_file(out);
     run.err = read_file(err);
     return run;
@@ -81,7 +67,7 @@ run_octant(const std::vector<std::string>& arguments, const std::vector<std::str
 
 int run_octant_and_signal(
     const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal) {
-    const pid_t child = start(arguments, {}, "/dev/null", "/dev/null");
+    const pid_t child = start(arguments, "/dev/null", "/dev/null");
     for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
@@ -94,6 +80,36 @@ std::filesystem::path empty_folder(const std::string& name) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;
+}
+
+std::string small_map() {
+    static const std::string file = [] {
+        constexpr int side = 257;
+        std::vector<float> heights_m;
+        for (int row = 0; row < side; ++row) {
+            for (int column = 0; column < side; ++column) {
+                const double east = 60.0 * std::sin(column / 9.0);
+                const double south = 40.0 * std::cos(row / 13.0);
+                heights_m.push_back(static_cast<float>(std::lround(200.0 + east + south)));
+            }
+        }
+        const std::filesystem::path map = scratch_folder() / "small.tif";
+        models::heights::write_height_field(map, {side, side, 101.5625, heights_m});
+        return map.string();
+    }();
+    return file;
+}
+
+std::string small_ground() {
+    static const std::string file = [] {
+        const std::filesystem::path ground = scratch_folder() / "small.ground";
+        visuals::groundfile::import_ground(
+            {small_map()}, ground, {}, [](visuals::groundfile::ImportStage, double) {
+                return false;
+            });
+        return ground.string();
+    }();
+    return file;
 }
 
 int lines_in(const std::string& text) {

@@ -13,10 +13,8 @@ struct ProgramRun {
     std::string err;
 };
 
-/// Runs the octant program with these arguments (no shell) and waits. `environment`: "NAME=value"
-/// added to ours.
-ProgramRun run_octant(
-    const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+/// Runs the octant program with these arguments (no shell) and waits.
+ProgramRun run_octant(const std::vector<std::string>& arguments);
 
 /// Starts it and sends it a signal once `file` is there, at the latest after two minutes; its exit
 /// code as ProgramRun has it.
@@ -25,6 +23,12 @@ int run_octant_and_signal(
 
 /// An empty folder for one test, removed and made anew.
 std::filesystem::path empty_folder(const std::string& name);
+
+/// A map of gentle ground, 26 by 26 km, made once, and the ground imported from it. They are loaded
+/// in a tenth of the time that made hills take, for flights of which it does not matter what they
+/// are over.
+std::string small_map();
+std::string small_ground();
 
 /// Number of lines in a text.
 int lines_in(const std::string& text);

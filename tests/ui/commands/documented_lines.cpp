@@ -168,6 +168,10 @@ CommandLine shortened(CommandLine line) {
             set_option(line, name, word);
         }
     }
+    if (command == "fly" && !has(line, "--terrain") && !has(line, "--settings") &&
+        !has(line, "--replay")) {
+        line.insert(line.end(), {"--terrain", small_ground()});
+    }
     if (has(line, "--check")) {
         set_option(line, "--rays", "1000");
     }

@@ -1,6 +1,7 @@
 #include "models/made/made_up.h"
 #include "models/polygons/obj_writer.h"
 #include "tests/scratch.h"
+#include "tests/ui/kept_world.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/studies/draw_order/ray_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"
@@ -38,15 +39,20 @@ canyon_flight(const char* path, const char* aircraft, visuals::scene::View view)
     return settings;
 }
 
+ui::flight::ComparedWorlds worlds_of(const ui::settings::RunSettings& settings) {
+    const auto [painted, by_depth] = ui::flight::compared_settings(settings);
+    return {tests::kept_world(painted), tests::kept_world(by_depth)};
+}
+
 ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int every) {
     return ui::flight::compare_with_depth_buffer(
-        settings, ui::flight::compared_worlds(settings), every, [](int, int) {});
+        settings, worlds_of(settings), every, [](int, int) {});
 }
 
 ui::studies::draw_order::RayComparison
 with_rays(const ui::settings::RunSettings& settings, int every) {
     return ui::studies::draw_order::compare_with_rays(
-        settings, ui::flight::compared_worlds(settings), every, [](int, int) {});
+        settings, worlds_of(settings), every, [](int, int) {});
 }
 
 /// Compares more frames than `fewest`, each of which must show what the depth buffer shows.
@@ -167,8 +173,7 @@ TEST_CASE("models of hundreds of polygons are painted as rays see them") {
         settings.ground.near_detail = true;
         settings.ground.scenery = true;
         if (view == visuals::scene::View::Tower) {
-            settings.view.eye_m =
-                ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
+            settings.view.eye_m = ui::studies::draw_order::ridge_tower(tests::kept_world(settings));
         }
         settings.surface.order_seconds = 0.2;
         constexpr int every = 200;
@@ -183,7 +188,7 @@ TEST_CASE("models of hundreds of polygons are painted as rays see them") {
 TEST_CASE("an aircraft that goes behind ridges is painted as the depth buffer shows it") {
     ui::settings::RunSettings settings =
         canyon_flight("jinking", "500md", visuals::scene::View::Tower);
-    settings.view.eye_m = ui::studies::draw_order::ridge_tower(ui::world::load_world(settings));
+    settings.view.eye_m = ui::studies::draw_order::ridge_tower(tests::kept_world(settings));
     constexpr int every = 30;
     const ui::flight::IdComparison result = compare(settings, every);
     CHECK(result.frames_with_cuts > 0);

@@ -66,7 +66,17 @@ TEST_CASE("what recordings and their commands print is as their schemas say") {
     const auto made = tests::empty_folder("schemas-recording");
     const std::string rec = (made / "rec").string();
     const std::vector<std::string> flight = {
-        "fly", "straight", "--size", "32x24", "--frames", "12", "--record", rec, "--quiet"};
+        "fly",
+        "straight",
+        "--terrain",
+        tests::small_ground(),
+        "--size",
+        "32x24",
+        "--frames",
+        "12",
+        "--record",
+        rec,
+        "--quiet"};
     check("fly", flight);
     CHECK(tests::schema_faults(read_file(made / "rec/run.json"), schema("run")).empty());
     check("fly", {"fly", "--replay", rec, "--quiet"});
@@ -83,7 +93,8 @@ TEST_CASE("what recordings and their commands print is as their schemas say") {
          "--quiet"});
     check("pack", {"pack", rec, "--quiet"});
     write_file(
-        made / "s.toml", "[settings]\nsize = \"16x16\"\nframes = 2\n[vary]\nfov = [40, 50]\n");
+        made / "s.toml",
+        "[settings]\nterrain = \"none\"\nsize = \"16x16\"\nframes = 2\n[vary]\nfov = [40, 50]\n");
     const std::string sweep = (made / "s.toml").string();
     const std::string out = (made / "out").string();
     check("sweep-list", {"sweep", sweep, "--list"});
@@ -99,13 +110,31 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
     check("draw-order", {"draw-order", "concave", "--export", file("x.order")});
     check("draw-order-check", {"draw-order", "concave", "--check", file("x.order")});
     check("model-info", {"model", "info", "f15", "--picture", file("p.png")});
-    check("simplify", {"simplify", "torus", file("s.ply"), "--faces", "300", "--quiet"});
-    check(
-        "simplify", {"simplify", "torus", file("s.chain"), "--faces", "300", "--chain", "--quiet"});
     check(
         "simplify",
-        {"simplify", "torus", file("t.ply"), "--faces", "300", "--method", "triangle", "--quiet"});
-    check("mesh-error", {"mesh-error", "torus", file("s.ply"), "--quiet"});
+        {"simplify", "torus", file("s.ply"), "--faces", "300", "--method", "fast", "--quiet"});
+    check(
+        "simplify",
+        {"simplify",
+         "torus",
+         file("s.chain"),
+         "--faces",
+         "300",
+         "--method",
+         "fast",
+         "--chain",
+         "--quiet"});
+    check(
+        "simplify",
+        {"simplify",
+         file("s.ply"),
+         file("t.ply"),
+         "--faces",
+         "200",
+         "--method",
+         "triangle",
+         "--quiet"});
+    check("mesh-error", {"mesh-error", file("s.ply"), file("t.ply"), "--quiet"});
     check("refine", {"refine", "torus", "--region", "sphere", "0", "0", "0", "1"});
     check("terrain-make", {"terrain", "make", "--size", "65", "--out", file("m.tif"), "--quiet"});
     check("terrain-info", {"terrain", "info", file("m.tif")});
@@ -115,7 +144,7 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
         "terrain-mesh",
         {"terrain",
          "mesh",
-         "hills",
+         file("m.ground"),
          "--eye",
          "0,0,900",
          "--look",
@@ -124,25 +153,35 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
          "500",
          "--out",
          file("g.ply")});
-    check("terrain-query", {"terrain", "query", "hills", "--at", "0,0", "9e6,0,1"});
+    check("terrain-query", {"terrain", "query", file("m.ground"), "--at", "0,0", "9e6,0,1"});
     check(
         "terrain-query",
-        {"terrain", "query", "hills", "--from", "0,0,900", "--to", "5000,3000,250"});
+        {"terrain", "query", file("m.ground"), "--from", "0,0,900", "--to", "500,300,250"});
     check(
         "terrain-check",
-        {"terrain", "check", "hills", "--views", "4", "--draw-every", "0", "--quiet"});
+        {"terrain", "check", file("m.ground"), "--views", "4", "--draw-every", "0", "--quiet"});
     check(
         "tables",
         {"terrain",
          "error",
-         "hills",
+         file("m.ground"),
          "--eye",
          "0,0,900",
          "--look",
          "1000,1000,0",
          "--triangles",
          "2000"});
-    check("tables", {"study", "refinement", "--out", file("st"), "--frames", "20", "--quiet"});
+    check(
+        "tables",
+        {"study",
+         "refinement",
+         "--out",
+         file("st"),
+         "--mesh",
+         file("s.ply"),
+         "--frames",
+         "20",
+         "--quiet"});
     check("bench", {"bench", "--terrain", "none", "--size", "32x32", "--frames", "3", "--quiet"});
     check(
         "bench",

@@ -2,6 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "tests/ui/kept_world.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/session.h"
 
@@ -57,7 +58,7 @@ ui::settings::RunSettings key_colour_settings(
 }
 
 long cracks_in_flight(const ui::settings::RunSettings& settings) {
-    ui::flight::Session session(settings);
+    ui::flight::Session session(settings, ui::flight::Shows::World, nullptr, kept_world(settings));
     long cracks = 0;
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);

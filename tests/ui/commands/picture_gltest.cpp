@@ -1,6 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "tests/ui/kept_world.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
@@ -82,13 +83,7 @@ void check_against_golden(
     for (const RendererKind kind : {RendererKind::Gl, RendererKind::Raster}) {
         settings.drawing.renderer = kind;
         sessions.push_back(std::make_unique<ui::flight::Session>(
-            settings,
-            ui::flight::Shows::World,
-            nullptr,
-            ui::world::load_world(
-                settings,
-                ui::world::DrawnBy::Processor,
-                sessions.empty() ? nullptr : &sessions.front()->world())));
+            settings, ui::flight::Shows::World, nullptr, tests::kept_world(settings)));
         const ui::report::Picture actual = last_picture(*sessions.back());
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;

@@ -257,6 +257,7 @@ TEST_CASE("refine refuses wrong input in one line with exit code 2") {
 }
 
 TEST_CASE("the study of refinement writes its tables") {
+    write_sheet(refine_file("sheet.obj"));
     const auto run = run_octant(
         {"study",
          "refinement",
@@ -264,8 +265,10 @@ TEST_CASE("the study of refinement writes its tables") {
          refine_file("study"),
          "--frames",
          "40",
+         "--mesh",
+         refine_file("sheet.obj"),
          "--base",
-         "2000",
+         "200",
          "--json",
          "--quiet"});
     INFO(run.err);

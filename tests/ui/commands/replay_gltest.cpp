@@ -115,10 +115,11 @@ TEST_CASE(
     "a flight whose shading followed the clock is replayed bit for bit, whatever cells it saw") {
     const fs::path folder = tests::empty_folder("replayed-shading");
     const tests::ProgramRun flown =
-        run_octant({"fly",        "jinking", "--aircraft", "f15",           "--aircraft", "500md",
-                    "--view",     "tower",   "--terrain",  "hills",         "--adapt",    "shading",
-                    "--rate",     "20",      "--size",     "160x90",        "--frames",   "150",
-                    "--pictures", "0",       "--record",   folder.string(), "--quiet"});
+        run_octant({"fly",      "jinking",       "--aircraft", "f15",        "--aircraft",
+                    "500md",    "--view",        "tower",      "--terrain",  tests::small_ground(),
+                    "--adapt",  "shading",       "--rate",     "20",         "--size",
+                    "160x90",   "--frames",      "150",        "--pictures", "0",
+                    "--record", folder.string(), "--quiet"});
     INFO(flown.err);
     REQUIRE(flown.exit_code == 0);
     const Records rows = rows_of(folder);

@@ -18,6 +18,8 @@
 using namespace octant;
 using Catch::Contains;
 using octant::tests::run_octant;
+using octant::tests::small_ground;
+using octant::tests::small_map;
 
 namespace {
 
@@ -37,6 +39,10 @@ void fly(const std::string& sweep, const fs::path& out, const std::vector<std::s
     const tests::ProgramRun run = run_octant(line);
     INFO(run.out << run.err << read_file(out / "sweep.csv"));
     REQUIRE(run.exit_code == 0);
+}
+
+std::string over(const std::string& ground) {
+    return fmt::format("terrain = \"{}\"\n", ground);
 }
 
 /// Rows without what the clock says.
@@ -116,7 +122,7 @@ std::set<int> levels_of_checked_parts(
 TEST_CASE("a flight in four parts is the whole flight, picture by picture, and so is its video") {
     const auto made = tests::empty_folder("split");
     const std::string sweep =
-        sweep_in(made, "path = \"turn\"\nterrain = \"canyon\"\nframes = 240\npictures = 1");
+        sweep_in(made, over(small_ground()) + "path = \"turn\"\nframes = 240\npictures = 1");
     fly(sweep, made / "whole", {"--video"});
     fly(sweep, made / "parts", {"--video", "--split", "4"});
     const fs::path merged = made / "parts/runs/one";
@@ -133,15 +139,13 @@ TEST_CASE("a flight in four parts is the whole flight, picture by picture, and s
 TEST_CASE("parts of flights whose pictures depend on earlier frames are those of the whole") {
     const auto made = tests::empty_folder("split-memory");
     for (const char* settings :
-         {"path = \"jinking\"\nterrain = \"hills\"\nmesh = \"printed\"\ndetail = \"damped\"\n"
-          "frames = 30\npictures = 4",
-          "path = \"straight\"\nterrain = \"canyon\"\nmesh = \"midpoint\"\ndetail = "
-          "\"previous\"\nframes = 20\npictures = 4",
-          "path = \"turn\"\nterrain = \"hills\"\nmesh = \"midpoint\"\ndetail = \"fixed\"\ninset = "
-          "\"tower\"\nframes = 12",
-          "path = \"pop-up\"\nterrain = \"background60\"\nframe-per-sample = true\nseconds = 1\n"
-          "inset = \"tower\""}) {
-        levels_of_checked_parts(made, settings, "3");
+         {"path = \"jinking\"\nmesh = \"printed\"\ndetail = \"damped\"\nframes = 30\npictures = 4",
+          "path = \"straight\"\nmesh = \"midpoint\"\ndetail = \"previous\"\nframes = 20\n"
+          "pictures = 4",
+          "path = \"turn\"\nmesh = \"midpoint\"\ndetail = \"fixed\"\ninset = \"tower\"\n"
+          "frames = 12",
+          "path = \"pop-up\"\nframe-per-sample = true\nseconds = 1\ninset = \"tower\""}) {
+        levels_of_checked_parts(made, over(small_map()) + settings, "3");
     }
 }
 
@@ -153,6 +157,8 @@ TEST_CASE("levels of detail and smooth polygons are kept over the seams between 
          (made / "torus.chain").string(),
          "--faces",
          "100",
+         "--method",
+         "fast",
          "--chain",
          "--quiet"});
     REQUIRE(chain.exit_code == 0);

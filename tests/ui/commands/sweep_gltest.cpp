@@ -26,7 +26,7 @@ pictures = 2
 terrain = "background60"
 [vary]
 path = ["straight", "turn"]
-aircraft = ["f15", "500md"]
+aircraft = ["f15", "concave"]
 )";
 
 } // namespace
@@ -46,22 +46,22 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     CHECK_THAT(read_file(out / "report.html"), Contains("8 flown by a sweep one at a time."));
 
     const auto when = fs::last_write_time(out / "runs/turn-f15-r1/run.json");
-    const std::string before = read_file(out / "runs/turn-500md-r2/run.json");
-    fs::remove_all(out / "runs/turn-500md-r2");
+    const std::string before = read_file(out / "runs/turn-concave-r2/run.json");
+    fs::remove_all(out / "runs/turn-concave-r2");
     CHECK(run_octant(line).exit_code == 0);
     CHECK(fs::last_write_time(out / "runs/turn-f15-r1/run.json") == when);
-    const std::string after = read_file(out / "runs/turn-500md-r2/run.json");
+    const std::string after = read_file(out / "runs/turn-concave-r2/run.json");
     CHECK(
         after.substr(after.find("state_hash"), 80) == before.substr(before.find("state_hash"), 80));
 
     // Another machine's pictures differ from ours.
     std::string other = after;
     other.replace(other.find("picture_hash") + 16, 4, "dead");
-    write_file(out / "runs/turn-500md-r2/run.json", other);
+    write_file(out / "runs/turn-concave-r2/run.json", other);
     const tests::ProgramRun differs = run_octant(line);
     CHECK(differs.exit_code == 1);
-    CHECK_THAT(differs.out, Contains("pictures of turn-500md-r1 on "));
-    CHECK_THAT(read_file(out / "report.html"), Contains("<td>pictures of turn-500md-r1 on "));
+    CHECK_THAT(differs.out, Contains("pictures of turn-concave-r1 on "));
+    CHECK_THAT(read_file(out / "report.html"), Contains("<td>pictures of turn-concave-r1 on "));
 }
 
 TEST_CASE("a sweep goes on past flights that fail, and tries them again") {

@@ -1,3 +1,4 @@
+#include "tests/ui/kept_world.h"
 #include "ui/flight/session.h"
 #include "visuals/scene/picture.h"
 
@@ -57,7 +58,9 @@ TEST_CASE("every path, aircraft, view and built-in ground flies") {
         for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
             const std::string aircraft = (ground.size() + path.size()) % 2 == 1 ? "f15" : "500md";
             INFO(ground << " " << path << " " << aircraft);
-            Session session(small_flight(path, aircraft, ground));
+            const auto settings = small_flight(path, aircraft, ground);
+            Session session(
+                settings, ui::flight::Shows::World, nullptr, tests::kept_world(settings));
             REQUIRE(session.frames() > 5);
             std::set<visuals::scene::PictureBytes> pictures;
             for (const View view : views) {

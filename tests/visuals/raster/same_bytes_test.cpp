@@ -10,7 +10,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr glm::ivec2 size_px{200, 150};
+constexpr glm::ivec2 size_px{128, 96};
 
 /// Triangles of all sizes and colours, with and without depth, cut by planes, near and far.
 void paint_much(FlatPlan& plan) {
@@ -19,10 +19,10 @@ void paint_much(FlatPlan& plan) {
         std::vector<FlatTriangle> triangles;
         for (int i = 0; i < 200; ++i) {
             FlatTriangle triangle;
-            const float across_px = static_cast<float>(below(dice, 20000)) / 100.0F;
-            const float down_px = static_cast<float>(below(dice, 15000)) / 100.0F;
+            const float across_px = static_cast<float>(below(dice, 12800)) / 100.0F;
+            const float down_px = static_cast<float>(below(dice, 9600)) / 100.0F;
             const glm::vec2 middle(across_px, down_px);
-            const auto reach = static_cast<float>(1 + below(dice, i % 20 == 0 ? 200 : 12));
+            const auto reach = static_cast<float>(1 + below(dice, i % 20 == 0 ? 128 : 12));
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto part = [&] {
                     return static_cast<float>(below(dice, 2001)) / 1000.0F - 1.0F;
