@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace octant::flightpaths {
 
@@ -15,6 +17,8 @@ struct RecordedTrack {
     /// x = y = 0 of a TransverseMercator frame there; heights stay those of the recording, above
     /// datum.
     std::optional<GeoPlace> origin;
+    /// What a person should be told of it.
+    std::vector<std::string> notes;
 };
 
 /// Reads a recorded flight as text: a line of column names, then a line a sample, separated by
@@ -25,6 +29,9 @@ struct RecordedTrack {
 ///   JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft);
 ///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
 ///           V_{Down} (ft/s)
+///   others: what log_columns.h knows of other programs' names, such as Timestamp, Latitude,
+///           Longitude, Altitude (ft) (logged_track.h)
+/// Names are found in capitals, too; empty lines and lines that begin with # may stand before them.
 /// What is optional and missing is made from the motion (motion_fill.h). Throws Error with file and
 /// line for a missing or doubled column, too few or too many fields, what is no finite number,
 /// times that do not increase, span more than a day or lie more than 1e7 s from zero, fewer than 2

@@ -15,13 +15,24 @@ char separator_of(std::string_view column_names) {
 }
 
 std::vector<std::string_view> unquoted_fields(std::string_view line, char separator) {
-    std::vector<std::string_view> fields = split_fields(line, separator);
-    for (std::string_view& field : fields) {
+    std::vector<std::string_view> fields;
+    while (true) {
+        const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+        std::size_t end = line.find(separator);
+        if (begin < line.size() && line[begin] == '"') {
+            const std::size_t quote = line.find('"', begin + 1);
+            end = quote == std::string_view::npos ? end : line.find(separator, quote + 1);
+        }
+        std::string_view field = split_fields(line.substr(0, end), '\0').front();
         if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
             field = field.substr(1, field.size() - 2);
         }
+        fields.push_back(field);
+        if (end == std::string_view::npos) {
+            return fields;
+        }
+        line.remove_prefix(end + 1);
     }
-    return fields;
 }
 
 bool are_empty(std::span<const std::string_view> fields) {

@@ -10,8 +10,8 @@ namespace octant::flightpaths {
 /// semicolons where it has no comma but one of them, else commas.
 char separator_of(std::string_view column_names);
 
-/// The fields of a line without blanks and one pair of quotes around them. They are views of the
-/// line. A separator within quotes separates all the same.
+/// The fields of a line without blanks and one pair of quotes around them, within which a separator
+/// separates nothing. They are views of the line.
 std::vector<std::string_view> unquoted_fields(std::string_view line, char separator);
 
 /// True when no field holds anything, as behind a separator that ends a line.

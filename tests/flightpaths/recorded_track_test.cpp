@@ -163,7 +163,8 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
     CHECK(track_fault("") == "1: expected a line of column names, got an empty one");
     CHECK(
         track_fault("a,b\n1,2\n") ==
-        "1: expected column names with t_s or Time among them, got a,b");
+        "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
+        "east_m, alt_m or Time, Latitude, Longitude, Altitude), got a,b");
     CHECK(track_fault("t_s,north_m,alt_m\n") == "1: expected a column east_m, got none");
     CHECK(
         track_fault("Time,Longitude (deg),Altitude ASL (ft)\n") ==

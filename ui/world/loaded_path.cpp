@@ -63,7 +63,7 @@ LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape
         kind == nullptr ? std::nullopt : std::optional(kind->limits),
         track.origin,
         {},
-        {},
+        std::move(track.notes),
         {},
         {},
         false};
@@ -114,7 +114,7 @@ std::string note_of(const flightpaths::TapedAircraft& first, const std::string& 
 LoadedPath from_tape(const fs::path& file, const std::string& shape) {
     flightpaths::AcmiTape tape = flightpaths::acmi_tape(tape_text(file), file);
     LoadedPath loaded =
-        from_track({std::move(tape.aircraft.front().trajectory), tape.origin}, shape);
+        from_track({std::move(tape.aircraft.front().trajectory), tape.origin, {}}, shape);
     loaded.is_tape = true;
     loaded.notes = std::move(tape.notes);
     loaded.notes.push_back(note_of(tape.aircraft.front(), shape));

@@ -37,6 +37,15 @@ std::vector<std::string> seeds() {
         "2\n",
         "t_s,north_m,east_m,alt_m,v_north_mps,v_east_mps,v_up_mps,n_g,q_w,q_x,q_y,q_z\n"
         "0,0,0,300,100,0,0,1,1,0,0,0\n0.1,10,0,300,100,0,0,1,0.6,0.8,0,0\n",
+        "Timestamp,UTC,Callsign,Position,Altitude\n1704180175,2024-01-02T07:22:55Z,A1,\"47.0,8.0\","
+        "1000\n1704180177,2024-01-02T07:22:57Z,A1,\"47.001,8.0\",1000\n",
+        "#airframe_info\n#yyy-mm-dd, hh:mm:ss, degrees, degrees, ft msl, deg, deg\n  Lcl Date, Lcl "
+        "Time, "
+        "Latitude, Longitude, AltMSL, Pitch, Roll\n2021-06-13, 23:59:59, 47.0, 8.0, 1000, 4, -20\n"
+        "2021-06-14, 00:00:00, 47.001, 8.0, 1000, 4, -20\n",
+        "time,lat,lon,hMSL,velN,velE,velD\n,(deg),(deg),(m),(m/s),(m/s),(m/s)\n"
+        "2018-08-12T14:25:43.07Z,47.1,15.4,3474.0,24.1,-45.3,-0.8\n"
+        "2018-08-12T14:25:43.27Z,47.10001,15.4,3474.0,24.1,-45.3,-0.8\n",
         "Time\tLatitude Geodetic (deg)\tLongitude (deg)\tAltitude ASL (ft)\tPhi (deg)\tTheta "
         "(deg)\t"
         "Psi (deg)\tV_{North} (ft/s)\tV_{East} (ft/s)\tV_{Down} (ft/s)\n"

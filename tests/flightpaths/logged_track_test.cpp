@@ -1,0 +1,181 @@
+#include "flightpaths/recorded_track.h"
+#include "flightpaths/track_time.h"
+#include "sim/base/axes.h"
+#include "sim/base/units.h"
+#include "tests/flightpaths/track_fault.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace octant;
+using namespace octant::flightpaths;
+using Catch::Contains;
+using octant::tests::track_fault;
+using octant::tests::written;
+
+namespace {
+
+RecordedTrack log_of(const std::string& text) {
+    return read_recorded_track(written("log.csv", text));
+}
+
+/// A thousandth of a degree on WGS 84 along the meridian at 47 degrees north.
+constexpr double thousandth_north_m = 111.17;
+
+void check_northward(const RecordedTrack& track, double first_m, double step_s) {
+    REQUIRE(track.origin);
+    CHECK(track.origin->latitude_deg == Approx(47.0));
+    CHECK(track.origin->longitude_deg == Approx(8.0));
+    const auto samples = track.trajectory.samples();
+    REQUIRE(samples.size() == 3);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double number = static_cast<double>(i);
+        INFO(i);
+        CHECK(samples[i].time_s == Approx(step_s * number));
+        CHECK(samples[i].position_m.y == Approx(thousandth_north_m * number).margin(0.05));
+        CHECK(samples[i].position_m.z == Approx(first_m));
+    }
+}
+
+} // namespace
+
+TEST_CASE("moments are read as numbers, clocks and dates, and nothing else is") {
+    CHECK(log_time("12.5")->seconds == 12.5);
+    CHECK(log_time("07:41:03.5")->seconds == 7 * 3600 + 41 * 60 + 3.5);
+    CHECK(log_time("07:41:03")->of_day);
+    CHECK(log_time("1970-01-02T00:00:01Z")->seconds == 86401.0);
+    CHECK_FALSE(log_time("1970-01-02T00:00:01Z")->of_day);
+    CHECK(log_time("2024-01-02 07:41:03Z.515")->seconds == 1704181263.515);
+    CHECK(log_time("2024/01/02 07:41:03+01:00")->seconds == 1704181263.0);
+    for (const char* wrong :
+         {"",
+          "noon",
+          "7:41",
+          "25:00:00",
+          "07:61:00",
+          "2024-13-02T07:41:03",
+          "2024-02-30 07:41:03",
+          "2024-01-02",
+          "07:41:03 PM",
+          "1:2:3:4",
+          "99999-01-01T00:00:00",
+          "2024-01-02T",
+          "::"}) {
+        INFO(wrong);
+        CHECK_FALSE(log_time(wrong));
+    }
+}
+
+TEST_CASE("a log of Flightradar24 has its place in one field and its heights in feet") {
+    const RecordedTrack track =
+        log_of("Timestamp,UTC,Callsign,Position,Altitude,Speed,Direction\n"
+               "1704180175,2024-01-02T07:22:55Z,ABC1,\"47.0,8.0\",1000,0,73\n"
+               "1704180177,2024-01-02T07:22:57Z,ABC1,\"47.001,8.0\",1000,144,172\n"
+               "1704180179,2024-01-02T07:22:59Z,ABC1,\"47.002,8.0\",1000,140,171\n");
+    check_northward(track, 304.8, 2.0);
+    CHECK(track.notes.empty());
+    CHECK(
+        track.trajectory.samples()[1].velocity_mps.y == Approx(thousandth_north_m / 2).margin(0.1));
+}
+
+TEST_CASE("a log of Garmin's has comments and units above its names, and clocks past midnight") {
+    const RecordedTrack track = log_of(
+        "#airframe_info, log_version=\"1.00\"\n"
+        "#yyy-mm-dd, hh:mm:ss,   hh:mm,  ident,  degrees, degrees, ft Baro, ft msl, deg, deg, deg\n"
+        "  Lcl Date, Lcl Time, UTCOfst, AtvWpt, Latitude, Longitude, AltB, AltMSL, Pitch, Roll, "
+        "HDG\n"
+        "2021-06-13, 23:59:58,  03:00,       ,         ,          ,     ,       ,      ,     , \n"
+        "2021-06-13, 23:59:59,  03:00,       ,  47.0000,  8.0000,   900,   1000,   4.0, -20.0, 77\n"
+        "2021-06-14, 00:00:00,  03:00,       ,  47.0010,  8.0000,   900,   1000,   4.0, -20.0, 77\n"
+        "2021-06-14, 00:00:00,  03:00,       ,  47.0010,  8.0000,   900,   1000,   4.0, -20.0, 77\n"
+        "2021-06-14, 00:00:01,  03:00,       ,  47.0020,  8.0000,   900,   1000,   4.0, -20.0, "
+        "77\n");
+    const auto samples = track.trajectory.samples();
+    REQUIRE(samples.size() == 3);
+    CHECK(samples[2].time_s - samples[0].time_s == Approx(2.0));
+    CHECK(samples[0].position_m.z == Approx(304.8));
+    const EulerAngles angles = euler_from_body_to_world(samples[1].body_to_world);
+    CHECK(angles.roll_rad == Approx(rad_from_deg(-20.0)));
+    CHECK(angles.pitch_rad == Approx(rad_from_deg(4.0)));
+    CHECK(angles.heading_rad == Approx(0.0).margin(1e-6)); // of the motion, not of the compass
+    REQUIRE(track.notes.size() == 1);
+    CHECK_THAT(
+        track.notes[0], Contains("1 lines without place or time, 1 of a moment that had been"));
+}
+
+TEST_CASE("a log of FlySight has its units below its names, and velocities") {
+    const RecordedTrack track = log_of("time,lat,lon,hMSL,velN,velE,velD,hAcc,numSV\n"
+                                       ",(deg),(deg),(m),(m/s),(m/s),(m/s),(m),\n"
+                                       "2018-08-12T14:25:43.00Z,47,8,500,11,22,-3,24.7,6\n"
+                                       "2018-08-12T14:25:43.20Z,47.001,8,500,11,22,-3,24.7,6\n"
+                                       "2018-08-12T14:25:43.40Z,47.002,8,500,11,22,-3,24.7,6\n");
+    check_northward(track, 500.0, 0.2);
+    CHECK(glm::length(track.trajectory.samples()[1].velocity_mps - glm::dvec3(22, 11, 3)) < 1e-3);
+}
+
+TEST_CASE("units stand in names, and times since 1970 may be in thousandths") {
+    check_northward(
+        log_of("time(millisecond),latitude,longitude,altitude_above_seaLevel(feet)\n"
+               "0,47,8,1000\n500,47.001,8,1000\n1000,47.002,8,1000\n"),
+        304.8,
+        0.5);
+    check_northward(
+        log_of("TIMESTAMP;LAT;LON;ALT_FT\n1704180175000;47;8;1000\n1704180175500;47.001;8;1000\n"
+               "1704180176000;47.002;8;1000\n"),
+        304.8,
+        0.5);
+    const RecordedTrack unnamed =
+        log_of("t_s,lat,lng,alt\n5,47,8,700\n6,47.001,8,700\n7,47.002,8,700\n");
+    check_northward(unnamed, 700.0, 1.0);
+    REQUIRE(unnamed.notes.size() == 1);
+    CHECK_THAT(unnamed.notes[0], Contains("alt names no unit: its heights are taken as metres"));
+}
+
+TEST_CASE("true headings, pitch and roll of a log are taken as they are") {
+    const RecordedTrack track = log_of(
+        "time,lat,lon,alt_m,heading,pitch,roll\n0,47,8,500,90,2,10\n1,47.001,8,500,91,2,10\n");
+    const EulerAngles angles =
+        euler_from_body_to_world(track.trajectory.samples()[0].body_to_world);
+    CHECK(angles.heading_rad == Approx(rad_from_deg(90.0)));
+    CHECK(angles.roll_rad == Approx(rad_from_deg(10.0)));
+}
+
+TEST_CASE("columns of ours and of JSBSim are found in capitals, below comments and empty lines") {
+    const RecordedTrack own = log_of("\n# flown in May\nT_S,NORTH_M,EAST_M,ALT_M\n0,0,0,100\n"
+                                     "# half way\n1,50,0,100\n");
+    CHECK(own.trajectory.samples().size() == 2);
+    CHECK_FALSE(own.origin);
+}
+
+TEST_CASE("what no log of a flight may hold is refused with its line") {
+    const std::string head = "time,lat,lon,alt_m\n";
+    CHECK(
+        track_fault(head + "0,47,8,500\n1,x,8,500\n") ==
+        "3: expected a finite number in column lat, got \"x\"");
+    CHECK(
+        track_fault(head + "0,47,8,500\nnoon,47,8,500\n") ==
+        "3: expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column time, got "
+        "\"noon\"");
+    CHECK(
+        track_fault(head + "0,97,8,500\n") ==
+        "2: expected a latitude within 90 deg and a longitude within 360 deg, got 97 and 8");
+    CHECK(
+        track_fault(head + "0,47,8,500\n90000,47,8,500\n") ==
+        "3: expected a time within 86400 s of the first, got 90000.000 s");
+    CHECK(track_fault(head + "0,,,\n") == " expected at least 2 samples with a place, got 0");
+    CHECK(
+        track_fault(head + "0,47,8,1e9\n1,47,8,0\n") ==
+        "2: expected a place within 10000 km of the first");
+    CHECK(track_fault(head + "0,47,8,500\n1,57,8,500\n2,47.001,8,500\n") == "no error"); // a jump
+}
+
+TEST_CASE("every cut of a good log is read or refused, never worse") {
+    const std::string good = "Timestamp,UTC,Callsign,Position,Altitude\n"
+                             "1704180175,2024-01-02T07:22:55Z,ABC1,\"47.0,8.0\",1000\n"
+                             "1704180177,2024-01-02T07:22:57Z,ABC1,\"47.001,8.0\",1000";
+    for (std::size_t length = 0; length < good.size(); ++length) {
+        const std::string fault = track_fault(good.substr(0, length));
+        CHECK(fault.find('\n') == std::string::npos);
+    }
+}
