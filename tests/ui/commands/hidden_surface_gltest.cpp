@@ -1,7 +1,7 @@
 #include "models/made/made_up.h"
 #include "models/polygons/obj_writer.h"
 #include "tests/scratch.h"
-#include "tests/ui/kept_world.h"
+#include "tests/ui/flight/kept_world.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/studies/draw_order/ray_comparison.h"
 #include "ui/studies/draw_order/ridge_tower.h"

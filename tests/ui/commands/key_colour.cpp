@@ -2,7 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "tests/ui/kept_world.h"
+#include "tests/ui/flight/kept_world.h"
 #include "ui/base/data_files.h"
 #include "ui/flight/session.h"
 

@@ -1,7 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "tests/ui/kept_world.h"
+#include "tests/ui/flight/kept_world.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
 #include "ui/studies/hybrid_shading/shading_models.h"

@@ -1,4 +1,4 @@
-#include "tests/ui/kept_world.h"
+#include "tests/ui/flight/kept_world.h"
 #include "ui/flight/session.h"
 #include "visuals/scene/picture.h"
 
