@@ -2,6 +2,7 @@
 #include "ui/flight/session.h"
 #include "ui/settings/settings_change.h"
 #include "ui/settings/settings_check.h"
+#include "ui/world/airfield.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
 #include "visuals/landscape/ground.h"
@@ -90,7 +91,9 @@ world::SceneGround Session::ground_for(const settings::RunSettings& settings) co
     }
     std::optional<world::SceneGround> remade =
         world::remade_scene_ground(world_.scene, own, drawn_by());
-    return remade ? std::move(*remade) : world::load_scene_ground(settings, drawn_by());
+    return remade ? std::move(*remade)
+                  : world::load_scene_ground(
+                        settings, drawn_by(), world::known_runway(world_.scene.ground->runway()));
 }
 
 void Session::change_picture(const settings::RunSettings& settings) {

@@ -2,6 +2,8 @@
 
 #include "flightpaths/carried_path.h"
 #include "flightpaths/placement.h"
+#include "sim/aircraft_state.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
@@ -21,14 +23,14 @@ namespace {
 
 /// Whether a track lies over this ground where it was flown.
 bool lies_at_its_place(
-    const settings::RunSettings& settings, const LoadedPath& loaded, const SceneGround& ground) {
+    const settings::RunSettings& settings, const LoadedPath& loaded, const GroundBelow& ground) {
     return loaded.origin && ground.frame && !settings.path.place;
 }
 
 /// A track that lies over this ground where it was flown, in the ground's axes; another one as it
 /// is.
 LoadedPath
-in_axes_of(const SceneGround& ground, const settings::RunSettings& settings, LoadedPath loaded) {
+in_axes_of(const GroundBelow& ground, const settings::RunSettings& settings, LoadedPath loaded) {
     if (lies_at_its_place(settings, loaded, ground)) {
         const TransverseMercator own(*loaded.origin);
         loaded.trajectory = flightpaths::carried(loaded.trajectory, own, *ground.frame);
@@ -40,12 +42,12 @@ in_axes_of(const SceneGround& ground, const settings::RunSettings& settings, Loa
 }
 
 flightpaths::Placement placement_of(
-    const settings::RunSettings& settings, const LoadedPath& loaded, const SceneGround& ground) {
+    const settings::RunSettings& settings, const LoadedPath& loaded, const GroundBelow& ground) {
     flightpaths::Placement placement;
     const bool at_its_own_place = lies_at_its_place(settings, loaded, ground);
     if (settings.path.place) {
-        placement.place_m = place_from_text(
-            *settings.path.place, ground.frame.get(), ground.ground->half_extent_m());
+        placement.place_m =
+            place_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = ground.frame->local_from_geo(*loaded.origin);
         placement.heading_rad = 0.0;
@@ -68,23 +70,18 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-GroundHeight heights_of(const SceneGround& ground) {
-    return [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); };
-}
-
 /// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights
 /// meet ours, all of the tape is lifted clear, and a note says so.
 flightpaths::PlacedPath
-placed(const LoadedPath& loaded, flightpaths::Placement placement, const SceneGround& ground) {
-    const auto heights = heights_of(ground);
+placed(const LoadedPath& loaded, flightpaths::Placement placement, const GroundBelow& ground) {
     if (!loaded.is_tape || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
-            loaded.trajectory, placement, heights, loaded.min_clearance_m, loaded.limits);
+            loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
     }
     constexpr double least_m = 2.0;
     placement.mode = sim::HeightMode::Clear;
     flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
-        loaded.trajectory, placement, heights, least_m, loaded.limits);
+        loaded.trajectory, placement, ground.height_at, least_m, loaded.limits);
     if (lifted.offset_m > 0.0) {
         lifted.notes.push_back(fmt::format(
             "the tape's first aircraft meets this ground: all are lifted by {:.1f} m",
@@ -93,7 +90,7 @@ placed(const LoadedPath& loaded, flightpaths::Placement placement, const SceneGr
     }
     placement.mode = sim::HeightMode::Datum;
     return flightpaths::place_over_ground(
-        loaded.trajectory, placement, heights, loaded.min_clearance_m, loaded.limits);
+        loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
 }
 
 /// Lays a path over the ground; what is wrong with it is said with the name of the path.
@@ -101,7 +98,7 @@ flightpaths::PlacedPath placed_by_name(
     const std::string& name,
     const LoadedPath& loaded,
     const flightpaths::Placement& placement,
-    const SceneGround& ground) {
+    const GroundBelow& ground) {
     try {
         return placed(loaded, placement, ground);
     } catch (const Error& fault) {
@@ -125,14 +122,48 @@ std::string path_of(const settings::RunSettings& settings) {
         .path.value_or(settings.path.name);
 }
 
+GroundBelow below(const SceneGround& ground) {
+    return {
+        [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
+        ground.ground->half_extent_m(),
+        ground.frame};
+}
+
+Flight live_flight(const settings::RunSettings& settings, const GroundBelow& ground) {
+    constexpr double above_ground_m = 300.0;
+    constexpr double usual_rate_hz = 60.0;
+    glm::dvec2 place_m(0.0);
+    if (settings.path.place) {
+        place_m = place_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
+    }
+    sim::AircraftState state;
+    const double ground_m = ground.height_at(place_m.x, place_m.y).value_or(0.0);
+    state.position_m = glm::dvec3(place_m, ground_m + above_ground_m);
+    state.body_to_world = body_to_world_from_euler({});
+    return {
+        .trajectory = sim::Trajectory({state}),
+        .title = fmt::format(
+            "live over {}", std::filesystem::path(settings.path.terrain).stem().string()),
+        .rate_hz = usual_rate_hz,
+        .place_m = place_m,
+        .lowest_clearance_m = above_ground_m,
+        .legs = {},
+        .others = {}};
+}
+
 Flight place_flight(
     const settings::RunSettings& settings,
     LoadedPath loaded,
-    const SceneGround& ground,
-    std::vector<std::string>& notes) {
+    const GroundBelow& ground,
+    std::vector<std::string>& notes,
+    const std::optional<KnownPlace>& known) {
     loaded = in_axes_of(ground, settings, std::move(loaded));
-    flightpaths::PlacedPath path =
-        placed_by_name(path_of(settings), loaded, placement_of(settings, loaded, ground), ground);
+    flightpaths::Placement placement = placement_of(settings, loaded, ground);
+    if (known) {
+        placement.place_m = known->place_m;
+        placement.heading_rad = known->heading_rad;
+    }
+    flightpaths::PlacedPath path = placed_by_name(path_of(settings), loaded, placement, ground);
     add(notes, path.notes);
     std::map<std::size_t, sim::Trajectory> others;
     for (std::size_t i = 0; i < loaded.others.size(); ++i) {
@@ -162,7 +193,7 @@ sim::Trajectory own_path(
     const settings::RunSettings& settings,
     const settings::FlownAircraft& flown,
     const glm::dvec2& begin_m,
-    const SceneGround& ground,
+    const GroundBelow& ground,
     const Flight& first,
     std::vector<std::string>& notes) {
     const LoadedPath loaded =

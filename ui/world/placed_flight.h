@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/base/earth_frame.h"
+#include "sim/base/ground_height.h"
 #include "sim/trajectory.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings.h"
@@ -9,6 +11,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +21,35 @@ namespace octant::ui::world {
 /// The first aircraft's path: its own, or that of the settings.
 std::string path_of(const settings::RunSettings& settings);
 
+/// Where a path has been laid before.
+struct KnownPlace {
+    glm::dvec2 place_m{0.0};
+    double heading_rad = 0.0;
+};
+
+/// What laying a path over a ground asks of it.
+struct GroundBelow {
+    GroundHeight height_at;
+    glm::dvec2 half_extent_m{0.0};
+    /// How it lies on the earth; null for made ground.
+    std::shared_ptr<const EarthFrame> frame;
+};
+
+/// It refers to the ground.
+GroundBelow below(const SceneGround& ground);
+
+/// Where the first aircraft stands that others fly, until somebody moves it. Throws Error.
+Flight live_flight(const settings::RunSettings& settings, const GroundBelow& ground);
+
 /// Lays the first aircraft's path over the ground, and with it all that a tape has beside it. Adds
-/// what a person should be told to the notes. Throws Error.
+/// what a person should be told to the notes. `known`: there, and not where settings and ground
+/// say. Throws Error.
 Flight place_flight(
     const settings::RunSettings& settings,
     LoadedPath loaded,
-    const SceneGround& ground,
-    std::vector<std::string>& notes);
+    const GroundBelow& ground,
+    std::vector<std::string>& notes,
+    const std::optional<KnownPlace>& known = std::nullopt);
 
 /// An aircraft's own path over the ground: it begins at this place, turned as the first one's,
 /// unless it knows where it was flown. Throws Error.
@@ -31,7 +57,7 @@ sim::Trajectory own_path(
     const settings::RunSettings& settings,
     const settings::FlownAircraft& flown,
     const glm::dvec2& begin_m,
-    const SceneGround& ground,
+    const GroundBelow& ground,
     const Flight& first,
     std::vector<std::string>& notes);
 

@@ -2,7 +2,9 @@
 
 #include "models/heights/height_field_import.h"
 #include "models/heights/map_frame.h"
+#include "models/heights/runway_strip.h"
 #include "models/made/made_up.h"
+#include "sim/base/error.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/input_files.h"
 #include "ui/world/sun_of_time.h"
@@ -25,6 +27,9 @@ namespace landscape = visuals::landscape;
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 namespace terrain = visuals::terrain;
+
+using models::heights::HeightField;
+using models::heights::RunwayStrip;
 
 namespace {
 
@@ -66,26 +71,80 @@ SceneGround described(
     return loaded;
 }
 
-SceneGround load_imported(const settings::RunSettings& settings, DrawnBy drawn_by) {
+/// All heights of a ground, in memory.
+HeightField field_of(const terrain::GroundTiles& tiles) {
+    const terrain::GroundFacts& facts = tiles.facts();
+    std::vector<float> heights_m;
+    heights_m.reserve(
+        static_cast<std::size_t>(tiles.columns()) * static_cast<std::size_t>(tiles.rows()));
+    for (int row = 0; row < tiles.rows(); ++row) {
+        for (int column = 0; column < tiles.columns(); ++column) {
+            heights_m.push_back(tiles.height_m(column, row));
+        }
+    }
+    HeightField field(tiles.columns(), tiles.rows(), tiles.spacing_m(), std::move(heights_m));
+    field.name = facts.name;
+    field.place = facts.place;
+    field.system = facts.system;
+    field.filled_voids = facts.filled_voids;
+    return field;
+}
+
+/// Throws Error for more samples than are levelled in memory.
+void check_samples(std::int64_t columns, std::int64_t rows) {
+    constexpr std::int64_t most = 70'000'000;
+    if (columns * rows > most) {
+        throw Error(fmt::format(
+            "--airfield: expected at most {} samples of ground, got {} x {}", most, columns, rows));
+    }
+}
+
+/// The ground of these heights, levelled where a runway is to be found.
+SceneGround ground_of_field(
+    HeightField field,
+    const settings::RunSettings& settings,
+    DrawnBy drawn_by,
+    const RunwayFinder& find_runway) {
+    std::vector<std::string> notes;
+    std::shared_ptr<const RunwayStrip> runway;
+    if (find_runway) {
+        check_samples(field.columns(), field.rows());
+        runway = std::make_shared<const RunwayStrip>(find_runway(field, notes));
+        field = models::heights::levelled(field, *runway);
+    }
+    const std::int64_t filled_voids = field.filled_voids;
+    const settings::RunSettings own = ground_settings(settings, field.place);
+    SceneGround loaded = described(
+        scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
+            ? landscape::ground_from_tiles(terrain::ground_of(field), own.air, runway)
+            : landscape::ground_from_field(std::move(field), own.ground, own.air, runway),
+        filled_voids,
+        own,
+        drawn_by);
+    loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
+    return loaded;
+}
+
+SceneGround load_imported(
+    const settings::RunSettings& settings, DrawnBy drawn_by, const RunwayFinder& find_runway) {
     terrain::GroundTiles ground = visuals::groundfile::open_ground(settings.path.terrain);
+    if (find_runway) {
+        check_samples(ground.columns(), ground.rows());
+        return ground_of_field(field_of(ground), settings, drawn_by, find_runway);
+    }
     const std::int64_t filled_voids = ground.facts().filled_voids;
     const settings::RunSettings own = ground_settings(settings, ground.facts().place);
     return described(
         landscape::ground_from_tiles(std::move(ground), own.air), filled_voids, own, drawn_by);
 }
 
-SceneGround load_field(const settings::RunSettings& settings, DrawnBy drawn_by) {
-    models::heights::HeightField field =
-        load_height_field(settings.path.terrain, import_options(settings.path));
-    const std::int64_t filled_voids = field.filled_voids;
-    const settings::RunSettings own = ground_settings(settings, field.place);
-    return described(
-        scene::ground_metric(settings.ground) == scene::GroundMetric::ScreenError
-            ? landscape::ground_from_tiles(terrain::ground_of(field), own.air)
-            : landscape::ground_from_field(std::move(field), own.ground, own.air),
-        filled_voids,
-        own,
-        drawn_by);
+SceneGround load_field(
+    const settings::RunSettings& settings, DrawnBy drawn_by, const RunwayFinder& find_runway) {
+    return ground_of_field(
+        load_height_field(settings.path.terrain, import_options(settings.path)),
+        settings,
+        drawn_by,
+        find_runway);
 }
 
 SceneGround load_polygons(const settings::RunSettings& settings) {
@@ -156,16 +215,22 @@ std::optional<SceneGround> remade_scene_ground(
     return remade;
 }
 
-SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by) {
+SceneGround load_scene_ground(
+    const settings::RunSettings& settings, DrawnBy drawn_by, const RunwayFinder& find_runway) {
     models::heights::check_system(import_options(settings.path));
     if (settings::is_drawn_whole(settings.path.terrain)) {
+        if (find_runway) {
+            throw Error(fmt::format(
+                "--airfield: expected ground that can be levelled, got '{}'",
+                settings.path.terrain));
+        }
         return load_polygons(settings);
     }
     // What is written while heights are read makes them old.
     TerrainInputs inputs = terrain_inputs(settings.path);
     SceneGround ground = settings::is_imported_ground(settings.path.terrain)
-                             ? load_imported(settings, drawn_by)
-                             : load_field(settings, drawn_by);
+                             ? load_imported(settings, drawn_by, find_runway)
+                             : load_field(settings, drawn_by, find_runway);
     ground.inputs = std::move(inputs);
     return ground;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/heights/height_field.h"
+#include "models/heights/runway_strip.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/geo_place.h"
 #include "ui/settings/settings.h"
@@ -10,6 +12,7 @@
 #include "visuals/scene/ground_texture.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,9 +59,17 @@ struct SceneGround {
     std::vector<std::string> notes;
 };
 
+/// Says where a runway lies on these heights, with notes for people. Throws Error where none can.
+using RunwayFinder = std::function<models::heights::RunwayStrip(
+    const models::heights::HeightField& field, std::vector<std::string>& notes)>;
+
 /// Loads the ground of a run, whose settings have passed settings::check_settings. Throws Error for
-/// what cannot be read.
-SceneGround load_scene_ground(const settings::RunSettings& settings, DrawnBy drawn_by);
+/// what cannot be read. `find_runway`: the heights are levelled for the runway that it finds; Error
+/// for ground that has no heights to be levelled, or more than are levelled.
+SceneGround load_scene_ground(
+    const settings::RunSettings& settings,
+    DrawnBy drawn_by,
+    const RunwayFinder& find_runway = nullptr);
 
 /// The ground of a run whose heights another run has in memory: as it is there where these settings
 /// mesh and colour it alike. Nothing where it must be loaded. Throws Error for an image to be laid

@@ -2,15 +2,13 @@
 
 #include "flightpaths/placement.h"
 #include "sim/aircraft_kind.h"
-#include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/base/units.h"
 #include "sim/hidden_height.h"
 #include "ui/settings/flown_aircraft.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
+#include "ui/world/airfield.h"
 #include "ui/world/loaded_path.h"
-#include "ui/world/place_text.h"
 #include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
@@ -18,7 +16,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <future>
 #include <utility>
@@ -55,35 +52,11 @@ void add_own_paths(const settings::RunSettings& settings, const SceneGround& gro
         const glm::dvec2 begin_m(abreast.wingman_of(start, static_cast<int>(i)).position_m);
         try {
             world.flight.others.insert_or_assign(
-                i, own_path(settings, flown, begin_m, ground, world.flight, world.notes));
+                i, own_path(settings, flown, begin_m, below(ground), world.flight, world.notes));
         } catch (const Error& fault) {
             throw Error(fmt::format("{}: {}", printable(aircraft[i]), fault.what()));
         }
     }
-}
-
-/// The first aircraft stands where its path would begin until somebody moves it.
-Flight live_flight(const settings::RunSettings& settings, const SceneGround& ground) {
-    constexpr double above_ground_m = 300.0;
-    constexpr double usual_rate_hz = 60.0;
-    glm::dvec2 place_m(0.0);
-    if (settings.path.place) {
-        place_m = place_from_text(
-            *settings.path.place, ground.frame.get(), ground.ground->half_extent_m());
-    }
-    sim::AircraftState state;
-    const double ground_m = ground.ground->height_at(place_m.x, place_m.y).value_or(0.0);
-    state.position_m = glm::dvec3(place_m, ground_m + above_ground_m);
-    state.body_to_world = body_to_world_from_euler({});
-    return {
-        .trajectory = sim::Trajectory({state}),
-        .title = fmt::format(
-            "live over {}", std::filesystem::path(settings.path.terrain).stem().string()),
-        .rate_hz = usual_rate_hz,
-        .place_m = place_m,
-        .lowest_clearance_m = above_ground_m,
-        .legs = {},
-        .others = {}};
 }
 
 /// The leader's path has been laid over the ground; those beside him must clear it too.
@@ -164,9 +137,13 @@ scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>&
 }
 
 /// The ground of another world where it has the heights of these settings, else one that is loaded.
-SceneGround
-ground_beside(const World* beside, const settings::RunSettings& settings, DrawnBy drawn_by) {
-    if (beside != nullptr) {
+SceneGround ground_beside(
+    const World* beside,
+    const settings::RunSettings& settings,
+    DrawnBy drawn_by,
+    const RunwayFinder& find_runway) {
+    // Levelled heights are those of one flight.
+    if (beside != nullptr && !settings.ground.airfield && !beside->scene.ground->runway()) {
         SceneGround other;
         other.inputs = beside->terrain;
         other.filled_voids = beside->filled_voids;
@@ -176,7 +153,7 @@ ground_beside(const World* beside, const settings::RunSettings& settings, DrawnB
             return std::move(*shared);
         }
     }
-    return load_scene_ground(settings, drawn_by);
+    return load_scene_ground(settings, drawn_by, find_runway);
 }
 
 } // namespace
@@ -260,8 +237,10 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
         settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
     // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
     // first.
-    std::future<SceneGround> coming_ground =
-        std::async(std::launch::async, [&] { return ground_beside(beside, settings, drawn_by); });
+    std::optional<KnownPlace> known;
+    std::future<SceneGround> coming_ground = std::async(std::launch::async, [&] {
+        return ground_beside(beside, settings, drawn_by, runway_finder(settings, script, known));
+    });
     LoadedAircraft aircraft = beside != nullptr && beside->aircraft.inputs == inputs
                                   ? beside->aircraft
                                   : load_aircraft(inputs);
@@ -273,17 +252,16 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
         add_notes(world.notes, script->notes);
     }
     add_notes(world.notes, ground.notes);
-    world.flight = script ? place_flight(settings, std::move(*script), ground, world.notes)
-                          : live_flight(settings, ground);
-    world.scene = {
-        ground.ground,
-        ground.texture,
-        aircraft.models,
-        aircraft.aircraft,
-        aircraft.far_models,
-        aircraft.cockpit,
-        aircraft.dials,
-        nullptr};
+    world.flight =
+        script ? place_flight(settings, std::move(*script), below(ground), world.notes, known)
+               : live_flight(settings, below(ground));
+    world.scene.ground = ground.ground;
+    world.scene.ground_texture = ground.texture;
+    world.scene.models = aircraft.models;
+    world.scene.aircraft = aircraft.aircraft;
+    world.scene.far_models = aircraft.far_models;
+    world.scene.cockpit = aircraft.cockpit;
+    world.scene.dials = aircraft.dials;
     world.aircraft = std::move(aircraft);
     if (!is_live) {
         world.scene.path = drawn_path(world.flight);

@@ -74,8 +74,10 @@ public:
     FieldGround(
         std::shared_ptr<const models::heights::HeightField> field,
         std::shared_ptr<const terrain::Quadtree> tree,
-        const scene::AirSettings& air)
-        : field_(std::move(field))
+        const scene::AirSettings& air,
+        std::shared_ptr<const models::heights::RunwayStrip> runway)
+        : Ground(std::move(runway))
+        , field_(std::move(field))
         , tree_(std::move(tree))
         , air_(air)
         , colours_(ground_colours(*field_, air))
@@ -129,14 +131,15 @@ public:
     std::shared_ptr<const Ground>
     remade(const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
         if (ground_metric(ground) == scene::GroundMetric::ScreenError) {
-            return ground_from_tiles(terrain::ground_of(*field_), air);
+            return ground_from_tiles(terrain::ground_of(*field_), air, runway());
         }
         return std::make_shared<FieldGround>(
             field_,
             is_meshed_as(ground)
                 ? tree_
                 : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground)),
-            air);
+            air,
+            runway());
     }
 
 private:
@@ -265,10 +268,12 @@ std::unique_ptr<GroundMesher> FieldGround::make_mesher(const MeshSettings& setti
 std::shared_ptr<const Ground> ground_from_field(
     models::heights::HeightField field,
     const scene::GroundSettings& ground,
-    const scene::AirSettings& air) {
+    const scene::AirSettings& air,
+    std::shared_ptr<const models::heights::RunwayStrip> runway) {
     auto shared = std::make_shared<const models::heights::HeightField>(std::move(field));
     auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground));
-    return std::make_shared<FieldGround>(std::move(shared), std::move(tree), air);
+    return std::make_shared<FieldGround>(
+        std::move(shared), std::move(tree), air, std::move(runway));
 }
 
 } // namespace octant::visuals::landscape

@@ -2,6 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/image_on_ground.h"
+#include "models/heights/runway_strip.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/nature/backdrop.h"
@@ -16,6 +17,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace octant::visuals::landscape {
 
@@ -96,12 +98,17 @@ public:
     /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted).
     std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
 
+    /// The runway for which it is levelled, where nothing else stands; null = none.
+    const std::shared_ptr<const models::heights::RunwayStrip>& runway() const { return runway_; }
+
 protected:
-    Ground() = default;
+    explicit Ground(std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr)
+        : runway_(std::move(runway)) {}
 
 private:
     virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
 
+    std::shared_ptr<const models::heights::RunwayStrip> runway_;
     mutable std::once_flag surroundings_once_;
     mutable nature::Backdrop surroundings_;
 };
@@ -116,14 +123,18 @@ std::unique_ptr<GroundMesher> mesher_after(
     std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
+/// `runway`: for which it has been levelled.
 std::shared_ptr<const Ground> ground_from_field(
     models::heights::HeightField field,
     const scene::GroundSettings& ground,
-    const scene::AirSettings& air);
+    const scene::AirSettings& air,
+    std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
-/// Ground under a mesh by screen-space error.
-std::shared_ptr<const Ground>
-ground_from_tiles(terrain::GroundTiles ground, const scene::AirSettings& air);
+/// Ground under a mesh by screen-space error. `runway`: for which it has been levelled.
+std::shared_ptr<const Ground> ground_from_tiles(
+    terrain::GroundTiles ground,
+    const scene::AirSettings& air,
+    std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
 /// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
 /// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.

@@ -30,8 +30,12 @@ constexpr double usual_triangles = 20000.0;
 /// Tiles, in memory or mapped from a file, and the palette of their colours.
 class TileGround final : public Ground {
 public:
-    TileGround(std::shared_ptr<const terrain::GroundTiles> tiles, const scene::AirSettings& air)
-        : tiles_(std::move(tiles))
+    TileGround(
+        std::shared_ptr<const terrain::GroundTiles> tiles,
+        const scene::AirSettings& air,
+        std::shared_ptr<const models::heights::RunwayStrip> runway)
+        : Ground(std::move(runway))
+        , tiles_(std::move(tiles))
         , air_(air)
         , relief_(relief_light(terrain::GroundSamples(*tiles_), air))
         , contrast_(std::make_shared<const scene::CoverContrast>(
@@ -43,6 +47,14 @@ public:
     const scene::AirSettings& air() const { return air_; }
 
     const std::shared_ptr<const nature::ReliefLight>& relief() const { return relief_; }
+
+    /// Whether things may stand in the cell beyond a sample.
+    bool may_bear(int column, int row) const {
+        constexpr double clear_m = models::heights::levelled_beside_m;
+        const glm::dvec2 at_m =
+            (glm::dvec2(column, row) + 0.5) * spacing_m() - tiles_->half_extent_m();
+        return !runway() || runway()->distance_m(at_m) > clear_m + spacing_m();
+    }
 
     std::optional<double> height_at(double x_m, double y_m) const override {
         return tiles_->height_at(x_m, y_m);
@@ -91,7 +103,7 @@ public:
 
     std::shared_ptr<const Ground>
     remade(const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
-        return is_meshed_as(ground) ? std::make_shared<TileGround>(tiles_, air) : nullptr;
+        return is_meshed_as(ground) ? std::make_shared<TileGround>(tiles_, air, runway()) : nullptr;
     }
 
 private:
@@ -115,7 +127,10 @@ public:
               -ground_->tiles().half_extent_m(),
               {ground_->tiles().columns(), ground_->tiles().rows()},
               ground_->tiles().spacing_m(),
-              [this](int column, int row) { return colours_.growth_of(column, row); }))
+              [this](int column, int row) {
+                  return ground_->may_bear(column, row) ? colours_.growth_of(column, row)
+                                                        : nature::Growth();
+              }))
         , prefetcher_(ground_->tiles()) {
         near_.scenery().light_by(daylight_of(ground_->air()));
         follow(settings);
@@ -299,10 +314,12 @@ std::unique_ptr<GroundMesher> TileGround::make_mesher(const MeshSettings& settin
 
 } // namespace
 
-std::shared_ptr<const Ground>
-ground_from_tiles(terrain::GroundTiles ground, const scene::AirSettings& air) {
+std::shared_ptr<const Ground> ground_from_tiles(
+    terrain::GroundTiles ground,
+    const scene::AirSettings& air,
+    std::shared_ptr<const models::heights::RunwayStrip> runway) {
     return std::make_shared<TileGround>(
-        std::make_shared<const terrain::GroundTiles>(std::move(ground)), air);
+        std::make_shared<const terrain::GroundTiles>(std::move(ground)), air, std::move(runway));
 }
 
 } // namespace octant::visuals::landscape

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "visuals/planning/ground_paint.h"
 #include "visuals/planning/sight.h"
 #include "visuals/scene/frame_plan.h"
 
@@ -8,25 +9,27 @@
 
 namespace octant::visuals::planning {
 
-/// Indices of one triangle's shadow pieces, numbered as FramePlan::repaint_indices are.
+/// Indices of pieces that lie on one triangle, of shadows or painted, numbered as
+/// FramePlan::repaint_indices are.
 struct ShadowPieces {
     /// The number of the triangle in GroundMesher::triangles().
     std::uint32_t triangle = 0;
     /// The place of the first index among the pieces' indices.
     std::uint32_t first = 0;
     std::uint32_t count = 0;
+    GroundLayer layer = GroundLayer::Shadow;
 };
 
 /// The ground of one frame before facing, with the shadows on it.
 struct GroundFrame {
     /// What GroundMesher::triangles() gave, in painting order.
     scene::TriangleDraw all;
-    /// Shadow pieces, by ascending triangle.
+    /// What lies on triangles, by ascending triangle and then from layer to layer.
     std::span<const ShadowPieces> shadows;
     std::span<const std::uint32_t> shadow_indices;
 };
 
-/// The shadow pieces on a triangle.
+/// What lies on a triangle, in painting order.
 std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle);
 
 /// Three corners of a triangle of the ground.

@@ -33,6 +33,13 @@ std::uint32_t ground_id(const std::array<glm::vec3, 3>& corners) {
     return std::max(number & number_mask, 1U);
 }
 
+/// What is painted on the ground has a number for each colour: its pieces overlap.
+std::uint32_t paint_id(std::uint32_t colour) {
+    Hash hash;
+    hash.add(std::as_bytes(std::span(&colour, 1)));
+    return std::max(static_cast<std::uint32_t>(hash.value()) & number_mask, 1U);
+}
+
 /// Numbers of a model's polygons. Not how many they are: a model may be split in one way of
 /// drawing, whole in another.
 std::uint32_t number_count(const AircraftModel& model) {
@@ -116,11 +123,16 @@ IdPlan::IdPlan(const Scene& scene) {
 
 void IdPlan::add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::size_t own = plan.ground.vertices.size();
         std::array<glm::vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = plan.ground.vertices[indices[i + k]].position_m;
+            const std::size_t at = indices[i + k];
+            corners[k] = at < own ? plan.ground.vertices[at].position_m
+                                  : plan.shadow_vertices[at - own].position_m;
         }
-        const std::uint32_t colour = opaque | ground_id(corners);
+        const std::uint32_t colour =
+            opaque | (indices[i] < own ? ground_id(corners)
+                                       : paint_id(plan.shadow_vertices[indices[i] - own].colour));
         for (const glm::vec3& corner : corners) {
             indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
             vertices_.push_back({corner, colour});
@@ -129,7 +141,6 @@ void IdPlan::add_ground(const scene::FramePlan& plan, std::span<const std::uint3
 }
 
 const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
-    assert(plan.shadow_vertices.empty());
     vertices_.clear();
     indices_.clear();
     plan_ = plan;

@@ -29,10 +29,12 @@ Planner::Planner(
     , air_(scene, settings.air)
     , fleet_(scene, settings)
     , smooth_(settings.shading, settings.adapt.shading, fleet_.placed())
+    , runway_(scene.ground->runway())
     , shadows_(air_.to_sun())
     , veils_(scene, settings, air_.daylight())
     , overlay_(scene, settings)
     , painter_(plan_) {
+    runway_.light_by(air_.daylight());
     plan_.background = settings.air.background;
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
@@ -45,10 +47,16 @@ FrameView Planner::view_of(const scene::Camera& camera) const {
 
 landscape::GroundRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
+    const int asked = asked_triangles(triangle_target);
+    const int kept = runway_.most_triangles(camera.eye_m, asked);
     return {
         camera,
         view_of(camera).aspect,
-        triangle_target.value_or(scene::triangle_target(settings_))};
+        asked >= scene::unlimited_triangles ? asked : std::max(asked - kept, 1)};
+}
+
+int Planner::asked_triangles(std::optional<int> triangle_target) const {
+    return triangle_target.value_or(scene::triangle_target(settings_));
 }
 
 void Planner::settle(const scene::Camera& camera) {
@@ -70,6 +78,7 @@ bool Planner::relight() {
         landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
     air_.relight();
     shadows_ = ShadowCaster(air_.to_sun());
+    runway_.light_by(air_.daylight());
     veils_.light_by(air_.daylight());
     return mesher_.get() == before;
 }
@@ -83,13 +92,16 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
         mesher_->triangles(ground_request(request.camera, request.triangle_target), counts.ground),
         {},
         {}};
+    shadows_.begin(ground.all, plan_.ground_texture.has_value(), plan_.shadow_vertices);
+    paint_runway(request, view, ground, counts);
     cast_shadows(view, ground);
     air_.write(view, plan_);
     veils_.make(view, {request.states, request.turned}, fleet_, plan_);
     plan_.overlay = overlay_.draw(
         veils_.draw(), request.camera, request.states, veils_.has_ribbon(), request.words);
     count(choose_smooth(request.smooth), counts);
-    counts.shadow_triangles = static_cast<int>(ground.shadow_indices.size() / 3);
+    counts.shadow_triangles =
+        static_cast<int>(ground.shadow_indices.size() / 3) - counts.runway_triangles;
     painter_.paint(
         {view, fleet_, smooth_, veils_, ground, *mesher_},
         settings_.surface.hidden_surface,
@@ -144,15 +156,34 @@ void Planner::begin_plan(const FrameView& view) {
     }
 }
 
+/// Within the triangles that are kept for it, which are those of what stands on the ground.
+void Planner::paint_runway(
+    const PlanRequest& request,
+    const FrameView& view,
+    const GroundFrame& ground,
+    PlanCounts& counts) {
+    const int most =
+        runway_.most_triangles(view.camera.eye_m, asked_triangles(request.triangle_target));
+    runway_.paint(
+        ground.all,
+        *mesher_,
+        view,
+        settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
+        most);
+    shadows_.lay(runway_.paints());
+    counts.runway_triangles = runway_.triangles();
+    counts.ground.triangles += counts.runway_triangles;
+    counts.ground.scenery_triangles += counts.runway_triangles;
+}
+
 void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {
-    shadows_.begin(ground.all, plan_.ground_texture.has_value(), plan_.shadow_vertices);
     if (settings_.surface.shadows) {
         const auto hulls = fleet_.hulls();
         for (std::size_t i = 0; i < hulls.size(); ++i) {
             shadows_.cast(fleet_.placed()[i], hulls[i], *mesher_, view);
         }
-        shadows_.sort_pieces();
     }
+    shadows_.sort_pieces();
     ground.shadows = shadows_.pieces();
     ground.shadow_indices = shadows_.indices();
 }

@@ -9,6 +9,7 @@
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/plan_counts.h"
+#include "visuals/planning/runway_painter.h"
 #include "visuals/planning/scene.h"
 #include "visuals/planning/scene_painter.h"
 #include "visuals/planning/shadow.h"
@@ -108,6 +109,12 @@ private:
     void place_aircraft(const PlanRequest& request, const FrameView& view);
     SmoothChoice::Count choose_smooth(const SmoothWish& wish);
     void begin_plan(const FrameView& view);
+    void paint_runway(
+        const PlanRequest& request,
+        const FrameView& view,
+        const GroundFrame& ground,
+        PlanCounts& counts);
+    int asked_triangles(std::optional<int> triangle_target) const;
     void cast_shadows(const FrameView& view, GroundFrame& ground);
     void count(const SmoothChoice::Count& shaded, PlanCounts& counts) const;
 
@@ -118,6 +125,7 @@ private:
     Air air_;
     Fleet fleet_;
     SmoothChoice smooth_;
+    RunwayPainter runway_;
     ShadowCaster shadows_;
     FrameVeils veils_;
     FrameOverlay overlay_;

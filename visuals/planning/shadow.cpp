@@ -10,8 +10,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <optional>
-#include <utility>
+#include <tuple>
 
 namespace octant::visuals::planning {
 
@@ -55,6 +56,14 @@ double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+/// The upright plane through an edge of a polygon that lies counter-clockwise seen from above, with
+/// the polygon in front of it.
+Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
+    const glm::dvec3 edge_m = to_m - from_m;
+    const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
+    return {inward, -glm::dot(inward, from_m)};
+}
+
 } // namespace
 
 ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
@@ -69,8 +78,28 @@ void ShadowCaster::begin(
     alpha_is_light_ = alpha_is_light;
     vertices_ = &vertices;
     vertices.clear();
+    paints_ = {};
+    paints_by_triangle_.clear();
     pieces_.clear();
     indices_.clear();
+}
+
+void ShadowCaster::lay(const GroundPaints& paints) {
+    paints_ = paints;
+    paints_by_triangle_.resize(paints.paints.size());
+    std::iota(paints_by_triangle_.begin(), paints_by_triangle_.end(), 0U);
+    std::ranges::stable_sort(paints_by_triangle_, {}, [&](std::uint32_t paint) {
+        return paints_.paints[paint].triangle;
+    });
+    for (const GroundPaint& paint : paints.paints) {
+        const std::size_t first = indices_.size();
+        for (std::uint32_t i = 0; i < paint.count; ++i) {
+            const glm::vec3 at_m(paints.corners[paint.first + i]);
+            vertices_->push_back({at_m * towards_eye(paint.layer), paint.colour});
+        }
+        add_fan(paint.count);
+        add_pieces(paint.triangle, paint.layer, first);
+    }
 }
 
 void ShadowCaster::cast(
@@ -173,11 +202,10 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
     }
     std::array<Plane, 3> sides;
     for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3& from_m = triangle_[i].at_m;
-        const glm::dvec3 edge_m = triangle_[(i + 1) % 3].at_m - from_m;
-        const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
-        sides[i] = {inward, -glm::dot(inward, from_m)};
+        sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m);
     }
+    shadow_parts_.clear();
+    shadow_ends_.clear();
     const std::size_t first = indices_.size();
     for (const Face& face : faces_) {
         const auto corners = std::span(face_corners_).subspan(face.first, face.count);
@@ -186,24 +214,46 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
         for (SightCorner& corner : part_) {
             corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope);
         }
+        const std::size_t before = shadow_parts_.size();
+        shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
         for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) {
             cut_to_front(part_, sides[i], 0.0, scratch_);
         }
         if (part_.size() >= 3) {
             add_piece(triangle);
+            shadow_ends_.push_back(shadow_parts_.size());
+        } else {
+            shadow_parts_.resize(before);
         }
     }
+    add_pieces(triangle, GroundLayer::Shadow, first);
+    if (!paints_.paints.empty() && !shadow_ends_.empty()) {
+        add_on_paint(triangle);
+    }
+}
+
+/// What indices_ holds from one on, unless that is nothing.
+void ShadowCaster::add_pieces(std::uint32_t triangle, GroundLayer layer, std::size_t first) {
     if (indices_.size() > first) {
         pieces_.push_back(
             {triangle,
              static_cast<std::uint32_t>(first),
-             static_cast<std::uint32_t>(indices_.size() - first)});
+             static_cast<std::uint32_t>(indices_.size() - first),
+             layer});
+    }
+}
+
+/// The last vertices as a fan.
+void ShadowCaster::add_fan(std::size_t corners) {
+    const auto all = static_cast<std::uint32_t>(ground_.vertices.size() + vertices_->size());
+    const std::uint32_t base = all - static_cast<std::uint32_t>(corners);
+    for (std::uint32_t i = 2; i < corners; ++i) {
+        indices_.insert(indices_.end(), {base, base + i - 1, base + i});
     }
 }
 
 /// part_ as a fan with the triangle's colours, darkened.
 void ShadowCaster::add_piece(std::uint32_t triangle) {
-    const auto base = static_cast<std::uint32_t>(ground_.vertices.size() + vertices_->size());
     const std::uint32_t* corner = &ground_.indices[std::size_t{3} * triangle];
     const glm::dvec3& a = triangle_[0].at_m;
     const glm::dvec3& b = triangle_[1].at_m;
@@ -219,14 +269,43 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
                 static_cast<float>(1.0 - share_a - share_b);
         vertices_->push_back({glm::vec3(at.at_m), shaded(colour, alpha_is_light_)});
     }
-    for (std::uint32_t i = 2; i < part_.size(); ++i) {
-        indices_.insert(indices_.end(), {base, base + i - 1, base + i});
+    add_fan(part_.size());
+}
+
+/// The shadows on a triangle once more, cut to what is painted on it and darker than that.
+void ShadowCaster::add_on_paint(std::uint32_t triangle) {
+    const auto own =
+        std::ranges::equal_range(paints_by_triangle_, triangle, {}, [&](std::uint32_t paint) {
+            return paints_.paints[paint].triangle;
+        });
+    const std::size_t first = indices_.size();
+    for (const std::uint32_t number : own) {
+        const GroundPaint& paint = paints_.paints[number];
+        const auto corners = paints_.corners.subspan(paint.first, paint.count);
+        std::size_t begin = 0;
+        for (const std::size_t end : shadow_ends_) {
+            part_.assign(
+                shadow_parts_.begin() + static_cast<std::ptrdiff_t>(begin),
+                shadow_parts_.begin() + static_cast<std::ptrdiff_t>(end));
+            begin = end;
+            for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
+                const glm::dvec3& next_m = corners[i + 1 < corners.size() ? i + 1 : 0];
+                cut_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
+            }
+            for (const SightCorner& at : part_) {
+                vertices_->push_back(
+                    {glm::vec3(at.at_m) * towards_eye(GroundLayer::ShadowOnPaint),
+                     shaded(unpacked(paint.colour), false)});
+            }
+            add_fan(part_.size());
+        }
     }
+    add_pieces(triangle, GroundLayer::ShadowOnPaint, first);
 }
 
 void ShadowCaster::sort_pieces() {
     std::ranges::sort(pieces_, {}, [](const ShadowPieces& piece) {
-        return std::pair(piece.triangle, piece.first);
+        return std::tuple(piece.triangle, piece.layer, piece.first);
     });
 }
 

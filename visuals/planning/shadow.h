@@ -5,6 +5,7 @@
 #include "visuals/planning/aircraft_hull.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
+#include "visuals/planning/ground_paint.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/sight.h"
 
@@ -24,8 +25,9 @@ inline constexpr double least_sun_elevation_deg = 3.0;
 
 /// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each
 /// triangle of the ground below and cut off at the triangle's sides. The pieces are opaque and have
-/// the triangle's own colours, darkened, so that pieces on pieces change nothing. Light ends at the
-/// ground it meets first; ground shadows no ground. Keeps its memory.
+/// the triangle's own colours, darkened, so that pieces on pieces change nothing; what is painted
+/// on a triangle has shadows of its own. Light ends at the ground it meets first; ground shadows no
+/// ground. Keeps its memory.
 class ShadowCaster {
 public:
     /// `to_sun`: unit vector, world axes.
@@ -39,6 +41,10 @@ public:
         bool alpha_is_light,
         std::vector<models::ColourVertex>& vertices);
 
+    /// Adds what is painted on the ground, on which later shadows fall. It stays where it is until
+    /// the next begin().
+    void lay(const GroundPaints& paints);
+
     /// Adds the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view.
     void cast(
         const PlacedAircraft& aircraft,
@@ -46,10 +52,10 @@ public:
         const landscape::GroundMesher& ground,
         const FrameView& view);
 
-    /// To be called after the last cast().
+    /// To be called after the last lay() and cast().
     void sort_pieces();
 
-    /// The pieces cast since begin(): by ascending ground triangle after sort_pieces().
+    /// The pieces laid and cast since begin(): by ascending ground triangle after sort_pieces().
     std::span<const ShadowPieces> pieces() const { return pieces_; }
 
     std::span<const std::uint32_t> indices() const { return indices_; }
@@ -66,12 +72,17 @@ private:
     void collect_faces(const PlacedAircraft& aircraft);
     void cast_on(std::uint32_t triangle);
     void add_piece(std::uint32_t triangle);
+    void add_on_paint(std::uint32_t triangle);
+    void add_pieces(std::uint32_t triangle, GroundLayer layer, std::size_t first);
+    void add_fan(std::size_t corners);
 
     glm::dvec3 to_sun_;
     bool high_enough_;
     scene::TriangleDraw ground_;
     bool alpha_is_light_ = false;
     std::vector<models::ColourVertex>* vertices_ = nullptr;
+    GroundPaints paints_;
+    std::vector<std::uint32_t> paints_by_triangle_; ///< places in paints_
     std::vector<ShadowPieces> pieces_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint32_t> candidates_;
@@ -79,6 +90,10 @@ private:
     std::vector<SightCorner> face_corners_;
     SightPolygon triangle_;
     SightPolygon part_;
+    /// The shadows on one triangle's plane that meet it, not yet cut to it, one after the other,
+    /// and where each ends.
+    std::vector<SightCorner> shadow_parts_;
+    std::vector<std::size_t> shadow_ends_;
     SightPolygon scratch_;
 };
 

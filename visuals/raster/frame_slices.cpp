@@ -12,6 +12,15 @@ namespace octant::visuals::raster {
 using scene::FramePlan;
 using scene::PaintStep;
 
+namespace {
+
+/// Whether a corner of textured ground has its own colour: FramePlan::ground_texture.
+bool has_own_colour(const models::ColourVertex& vertex) {
+    return vertex.colour >> 24U == 0;
+}
+
+} // namespace
+
 /// Ground, shadows and sky have one list of corners each; their slices are the steps.
 void FrameSlices::collect(const FrameInput& input) {
     const FramePlan& plan = input.plan;
@@ -23,7 +32,8 @@ void FrameSlices::collect(const FrameInput& input) {
     assert(!plan.ground_texture || input.ground != nullptr);
     const Kind ground = plan.ground_texture ? Kind::Textured : Kind::Ground;
     add_block(ground, plan.ground.vertices.size()).coloured = plan.ground.vertices;
-    add_block(ground, plan.shadow_vertices.size()).coloured = plan.shadow_vertices;
+    has_paint_ = false;
+    add_on_ground(ground, plan.shadow_vertices);
     first_sky_ = static_cast<std::int64_t>(corners_);
     add_block(Kind::Sky, plan.sky.vertices.size()).coloured = plan.sky.vertices;
     const std::vector<std::uint16_t> groups = depth_groups(plan.steps);
@@ -41,14 +51,6 @@ void FrameSlices::collect(const FrameInput& input) {
 
 void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawStyle style) {
     const FramePlan& plan = input.plan;
-    const auto add_ground = [&](std::span<const std::uint32_t> indices) {
-        const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
-        style.fill = shows_mesh            ? Fill::Mesh
-                     : plan.ground_texture ? Fill::TextureInPerspective
-                                           : Fill::Levels;
-        style.has_grain = style.fill == Fill::Levels && plan.grain;
-        add_slice({.indices = indices.subspan(step.first, step.count), .style = style});
-    };
     switch (step.what) {
     case PaintStep::What::ClearDepth:
     case PaintStep::What::Overlay:
@@ -66,10 +68,10 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
              .first_corner = first_sky_});
         break;
     case PaintStep::What::Ground:
-        add_ground(plan.ground.indices);
+        add_ground(plan, plan.ground.indices.subspan(step.first, step.count), style);
         break;
     case PaintStep::What::GroundAgain:
-        add_ground(plan.repaint_indices);
+        add_ground(plan, std::span(plan.repaint_indices).subspan(step.first, step.count), style);
         break;
     case PaintStep::What::Aircraft:
         style.culls_back_faces = true;
@@ -88,6 +90,47 @@ void FrameSlices::add_step(const FrameInput& input, const PaintStep& step, DrawS
             add_mesh(std::array{draw.indices}, draw.vertices, look, style);
         }
         break;
+    }
+}
+
+/// Corners of what lies on the ground, whose numbers follow those of the ground's own. On textured
+/// ground each run of them that have their own colours is a block.
+void FrameSlices::add_on_ground(
+    CornerBlock::Kind ground, std::span<const models::ColourVertex> corners) {
+    while (!corners.empty()) {
+        const bool is_paint = ground == CornerBlock::Kind::Textured && has_own_colour(corners[0]);
+        const auto end = std::ranges::find_if(corners, [&](const models::ColourVertex& corner) {
+            return ground == CornerBlock::Kind::Textured && has_own_colour(corner) != is_paint;
+        });
+        const auto count = static_cast<std::size_t>(end - corners.begin());
+        add_block(is_paint ? CornerBlock::Kind::Ground : ground, count).coloured =
+            corners.first(count);
+        corners = corners.subspan(count);
+        has_paint_ = has_paint_ || is_paint;
+    }
+}
+
+void FrameSlices::add_ground(
+    const FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style) {
+    const bool shows_mesh = plan.mesh_look != scene::MeshLook::None;
+    const Fill usual = shows_mesh            ? Fill::Mesh
+                       : plan.ground_texture ? Fill::TextureInPerspective
+                                             : Fill::Levels;
+    const std::size_t own = plan.ground.vertices.size();
+    const auto is_paint = [&](std::size_t i) {
+        return indices[i] >= own && has_own_colour(plan.shadow_vertices[indices[i] - own]);
+    };
+    std::size_t first = 0;
+    while (first < indices.size()) {
+        const bool painted = has_paint_ && is_paint(first);
+        std::size_t end = has_paint_ ? first + 3 : indices.size();
+        while (end < indices.size() && is_paint(end) == painted) {
+            end += 3;
+        }
+        style.fill = painted && !shows_mesh ? Fill::Levels : usual;
+        style.has_grain = style.fill == Fill::Levels && plan.grain;
+        add_slice({.indices = indices.subspan(first, end - first), .style = style});
+        first = end;
     }
 }
 

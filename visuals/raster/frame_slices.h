@@ -62,6 +62,9 @@ public:
 
 private:
     void add_step(const FrameInput& input, const scene::PaintStep& step, DrawStyle style);
+    void add_on_ground(CornerBlock::Kind ground, std::span<const models::ColourVertex> corners);
+    void add_ground(
+        const scene::FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style);
     CornerBlock& add_block(CornerBlock::Kind kind, std::size_t corners);
     void
     add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
@@ -77,6 +80,7 @@ private:
     std::size_t corners_ = 0;
     std::size_t flat_corners_ = 0;
     std::int64_t first_sky_ = 0;
+    bool has_paint_ = false;                             ///< on textured ground
     std::vector<std::span<const std::uint32_t>> ranges_; ///< of the aircraft at hand
 };
 

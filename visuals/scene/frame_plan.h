@@ -173,7 +173,8 @@ struct FramePlan {
     /// The spacing of the ground's samples, from which levels are counted.
     float sample_spacing_m = 1.0F;
     /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and
-    /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours.
+    /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours. So is what is
+    /// painted on textured ground: a triangle of shadow_vertices whose alpha is 0.
     std::optional<TexturePlaces> ground_texture;
     /// The fine pattern on ground and shadows without a texture; nothing = none.
     std::optional<Grain> grain;

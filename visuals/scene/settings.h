@@ -135,6 +135,8 @@ struct GroundSettings {
     bool near_detail = true;
     /// By screen error: trees and houses stand near the eye.
     bool scenery = true;
+    /// A runway where the path begins, on ground that is levelled for it.
+    bool airfield = false;
     MeshLook show_mesh = MeshLook::None;
 
     bool operator==(const GroundSettings&) const = default;

@@ -171,6 +171,18 @@ TEST_CASE("pictures of near ground with its detail and what stands there are tho
     }
 }
 
+TEST_CASE("pictures of a runway are those that were approved") {
+    RunSettings low = small("straight", "500md", "hills", View::Chase);
+    low.path.place = "3178,3140"; // where the ground is gentle enough
+    low.path.heading_deg = 70.0;
+    low.ground.airfield = true;
+    low.view.size_px = {320, 180};
+    check_against_golden("500md-straight-hills-airfield", low);
+    low.air.ground_shading = visuals::scene::GroundShading::Texture;
+    low.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    check_against_golden("500md-straight-hills-airfield-textured", low, Golden::OfEach);
+}
+
 TEST_CASE("pictures with a head-up display are those that were approved") {
     RunSettings banked = small("pop-up", "f15", "canyon", View::Cockpit);
     banked.view.size_px = {640, 360};

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace octant;
 using namespace octant::tests;
 
@@ -95,6 +97,33 @@ TEST_CASE("a shadow on textured ground leaves its share of the texture's colour"
         const scene::Picture picture = studio.picture(plan, way, 3);
         CHECK(pixel(picture, 61, 61) == Pixel{0, 128, 0, 255});
         CHECK(pixel(picture, 2, 2) == blue_px); // not in the shadow
+    }
+}
+
+TEST_CASE("what is painted on textured ground has its own colour, in haze too") {
+    Studio studio;
+    studio.renderer().load_ground_texture(four_texels());
+    const Triangles ground = whole_ground();
+    for (const Way way : all_ways) {
+        scene::FramePlan plan = plan_over(ground);
+        plan.ambient = glm::vec3(0.3F); // its colour has its light already
+        for (const models::ColourVertex& vertex : ground.vertices) {
+            plan.shadow_vertices.push_back({vertex.position_m, 0x000000ffU});
+        }
+        for (const models::ColourVertex& vertex : ground.vertices) {
+            plan.shadow_vertices.push_back({vertex.position_m, 0xff000000U});
+        }
+        plan.repaint_indices = {4, 5, 6, 8, 10, 11};
+        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 6}};
+        const scene::Picture clear = studio.picture(plan, way, 6);
+        CHECK(pixel(clear, 61, 61) == red_px);
+        CHECK(pixel(clear, 2, 2)[2] == Approx(0.3 * 255.0).margin(1.0)); // of the texture
+        plan.haze.colour = glm::vec3(0.0F, 1.0F, 0.0F);
+        plan.haze.visibility_m = 14.0F;
+        const Pixel hazy = pixel(studio.picture(plan, way, 6), 32, 40);
+        const double left = std::exp(-std::sqrt(300.0) / 14.0); // as at all corners
+        CHECK(hazy[0] == Approx(255.0 * left).margin(2.0));
+        CHECK(hazy[1] == Approx(255.0 * (1.0 - left)).margin(2.0));
     }
 }
 

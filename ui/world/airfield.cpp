@@ -1,0 +1,127 @@
+#include "ui/world/airfield.h"
+
+#include "models/heights/height_field.h"
+#include "models/heights/map_frame.h"
+#include "models/heights/runway_site.h"
+#include "sim/aircraft_state.h"
+#include "sim/base/error.h"
+#include "sim/base/units.h"
+#include "sim/trajectory.h"
+#include "visuals/nature/runway.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace octant::ui::world {
+
+namespace heights = models::heights;
+
+namespace {
+
+GroundBelow below(const heights::HeightField& field) {
+    return {
+        [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); },
+        field.half_extent_m(),
+        heights::frame_of_ground(field.system, field.place)};
+}
+
+/// Below the beginning of a path, along the way its aircraft looks there, or near the first 15 km.
+heights::RunwayWish wish_of(const sim::Trajectory& path, double water_m) {
+    constexpr double step_m = 500.0;
+    constexpr std::size_t most_places = 31;
+    const sim::AircraftState& first = path.samples().front();
+    const glm::dvec3 ahead = first.body_to_world * glm::dvec3(1.0, 0.0, 0.0);
+    heights::RunwayWish wish;
+    wish.path_m.emplace_back(first.position_m);
+    for (const sim::AircraftState& state : path.samples()) {
+        const glm::dvec2 place_m(state.position_m);
+        if (wish.path_m.size() < most_places &&
+            glm::distance(wish.path_m.back(), place_m) >= step_m) {
+            wish.path_m.push_back(place_m);
+        }
+    }
+    wish.heading_rad = std::atan2(ahead.x, ahead.y);
+    wish.water_m = water_m;
+    return wish;
+}
+
+/// Throws Error for a site that is none, or too rough.
+void check_site(const std::optional<heights::RunwaySite>& site) {
+    const std::string expected = fmt::format(
+        "--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
+        "needs "
+        "cuttings and embankments of at most {:.0f} m",
+        heights::looked_for_within_m / 1000.0,
+        heights::most_earthwork_m);
+    if (!site) {
+        throw Error(fmt::format("{}, got only water or the edge of the map", expected));
+    }
+    if (site->earthwork_m > heights::most_earthwork_m) {
+        throw Error(fmt::format(
+            "{}, got {:.0f} m at best; another --place may do", expected, site->earthwork_m));
+    }
+}
+
+std::string note_of(const heights::RunwaySite& site, const heights::RunwayWish& wish) {
+    const std::array<std::string, 2> numbers =
+        visuals::nature::runway_numbers(site.strip.heading_rad);
+    std::string where = "where the path begins";
+    if (!site.is_as_wished) {
+        const glm::dvec2 way_m =
+            site.strip.place({0.5 * site.strip.length_m, 0.0}) - wish.path_m.front();
+        const double bearing_deg = deg_from_rad(std::atan2(way_m.x, way_m.y));
+        where = fmt::format(
+            "{:.1f} km from where the path begins, at {:03.0f} degrees, as the ground is too rough "
+            "there",
+            glm::length(way_m) / 1000.0,
+            bearing_deg < 0.0 ? bearing_deg + 360.0 : bearing_deg);
+    }
+    return fmt::format(
+        "airfield: runway {}/{} lies {}; its cuttings and embankments are up to {:.0f} m high",
+        numbers[0],
+        numbers[1],
+        where,
+        site.earthwork_m);
+}
+
+} // namespace
+
+RunwayFinder runway_finder(
+    const settings::RunSettings& settings,
+    const std::optional<LoadedPath>& script,
+    std::optional<KnownPlace>& known) {
+    if (!settings.ground.airfield) {
+        return nullptr;
+    }
+    return [&](const heights::HeightField& field, std::vector<std::string>& notes) {
+        std::vector<std::string> told_later;
+        const GroundBelow ground = below(field);
+        const Flight first = script ? place_flight(settings, *script, ground, told_later)
+                                    : live_flight(settings, ground);
+        known = {first.place_m, first.heading_rad};
+        const heights::RunwayWish wish = wish_of(first.trajectory, settings.air.water_level_m);
+        const auto site = heights::runway_site(field, wish);
+        check_site(site);
+        notes.push_back(note_of(*site, wish));
+        return site->strip;
+    };
+}
+
+RunwayFinder known_runway(std::shared_ptr<const heights::RunwayStrip> runway) {
+    if (!runway) {
+        return nullptr;
+    }
+    return [runway = std::move(runway)](const heights::HeightField&, std::vector<std::string>&) {
+        return *runway;
+    };
+}
+
+} // namespace octant::ui::world

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "models/heights/runway_strip.h"
+#include "ui/settings/settings.h"
+#include "ui/world/loaded_path.h"
+#include "ui/world/placed_flight.h"
+#include "ui/world/scene_ground.h"
+
+#include <memory>
+#include <optional>
+
+namespace octant::ui::world {
+
+/// Finds the runway of a run where its first aircraft begins, along the way it looks, or near
+/// there; null where the settings ask for none. `script`: nothing where others fly the aircraft.
+/// `known` is set to where its path lies over the ground as it was. All must outlive it.
+RunwayFinder runway_finder(
+    const settings::RunSettings& settings,
+    const std::optional<LoadedPath>& script,
+    std::optional<KnownPlace>& known);
+
+/// Says where it lies already; null where there is none.
+RunwayFinder known_runway(std::shared_ptr<const models::heights::RunwayStrip> runway);
+
+} // namespace octant::ui::world

@@ -1,0 +1,192 @@
+#include "visuals/nature/runway.h"
+
+#include "sim/base/units.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <fmt/format.h>
+
+namespace octant::visuals::nature {
+
+namespace {
+
+constexpr float line_m = 0.9F; ///< width of lines
+// The threshold; its stripes are as wide as AC 150/5340-1 has them, 5.75 feet.
+constexpr float threshold_begin_m = 6.0F;
+constexpr float threshold_m = 30.0F;
+constexpr float stripe_width_m = 1.75F; ///< and as far apart, in the middle twice as far
+constexpr int stripes_a_side = 6;       ///< of a runway 45 m wide
+// The number: 12 m between markings as in Annex 14; its size is that of the AC.
+constexpr float apart_m = 12.0F;
+constexpr float digits_begin_m = threshold_begin_m + threshold_m + apart_m;
+constexpr float digit_m = 18.3F;
+constexpr float digit_width_m = 6.1F;
+constexpr float digits_apart_m = 4.6F;
+constexpr float stroke_m = 1.5F;
+// The centre line: stripe and gap are 50 to 75 m together, the stripe the longer of both.
+constexpr float lines_begin_m = digits_begin_m + digit_m + apart_m;
+constexpr float dash_m = 30.0F;
+constexpr float least_gap_m = 20.0F;
+// The aiming point; it is as long, as wide and as far apart as in the AC.
+constexpr float aim_begin_m = 300.0F;
+constexpr float aim_m = 45.0F;
+constexpr float aim_width_m = 9.0F;
+constexpr float inner_m = 11.0F; ///< from the middle to its inner side, and to the bars'
+// The touchdown zone: pairs every 150 m but at the aiming point; bars as in the AC.
+constexpr float bar_m = 22.5F;
+constexpr float bar_width_m = 1.8F;
+constexpr float bars_apart_m = 1.5F;
+
+struct Bars {
+    float begin_m;
+    int a_side;
+};
+
+constexpr std::array touchdown_zone = {Bars{150.0F, 3}, Bars{450.0F, 2}, Bars{600.0F, 2}};
+
+/// Patches of one end, which is the beginning or, turned by half a circle, the other one.
+class End {
+public:
+    End(std::vector<RunwayPatch>& patches, float length_m, bool is_other)
+        : patches_(patches)
+        , length_m_(length_m)
+        , is_other_(is_other) {}
+
+    /// On both sides of the middle, so far from it.
+    void paint_both(float from_m, float long_m, float near_m, float wide_m) {
+        paint({from_m, near_m}, {from_m + long_m, near_m + wide_m});
+        paint({from_m, -near_m - wide_m}, {from_m + long_m, -near_m});
+    }
+
+    /// Along from this end; left of the middle as it is seen from there.
+    void paint(const glm::vec2& least_m, const glm::vec2& most_m) {
+        if (is_other_) {
+            const glm::vec2 all(length_m_, 0.0F);
+            patches_.push_back({all - most_m, all - least_m, true});
+        } else {
+            patches_.push_back({least_m, most_m, true});
+        }
+    }
+
+private:
+    std::vector<RunwayPatch>& patches_;
+    float length_m_;
+    bool is_other_;
+};
+
+/// Strokes of digits: bits from the top clockwise around, then the middle one.
+constexpr std::array<unsigned, 10> strokes = {
+    0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x07, 0x7f, 0x6f};
+
+/// A digit whose left side lies there. Strokes across take the corners, so that none overlap.
+void paint_digit(End& end, int digit, float left_m) {
+    const float begin_m = digits_begin_m;
+    const float middle_m = begin_m + 0.5F * digit_m;
+    const float right_m = left_m - digit_width_m;
+    const unsigned own = strokes[static_cast<std::size_t>(digit)];
+    if (digit == 1) { // one stroke in the middle of its room
+        const float at_m = 0.5F * (left_m + right_m - stroke_m);
+        end.paint({begin_m, at_m}, {begin_m + digit_m, at_m + stroke_m});
+        return;
+    }
+    const auto across = [&](unsigned bit, float from_m) {
+        if ((own >> bit & 1U) != 0) {
+            end.paint({from_m, right_m}, {from_m + stroke_m, left_m});
+        }
+    };
+    const float half_m = 0.5F * stroke_m;
+    across(0, begin_m + digit_m - stroke_m);
+    across(6, middle_m - half_m);
+    across(3, begin_m);
+    const bool has_top = (own & 0x01U) != 0;
+    const bool has_middle = (own & 0x40U) != 0;
+    const bool has_bottom = (own & 0x08U) != 0;
+    const auto upright = [&](unsigned bit, bool is_upper, float from_m) {
+        if ((own >> bit & 1U) == 0) {
+            return;
+        }
+        const float low_m = is_upper ? middle_m + (has_middle ? half_m : 0.0F)
+                                     : begin_m + (has_bottom ? stroke_m : 0.0F);
+        const float high_m = is_upper ? begin_m + digit_m - (has_top ? stroke_m : 0.0F)
+                                      : middle_m - (has_middle ? half_m : 0.0F);
+        end.paint({low_m, from_m}, {high_m, from_m + stroke_m});
+    };
+    upright(1, true, right_m);
+    upright(2, false, right_m);
+    upright(5, true, left_m - stroke_m);
+    upright(4, false, left_m - stroke_m);
+}
+
+void paint_end(End& end, const std::string& number) {
+    for (int stripe = 0; stripe < stripes_a_side; ++stripe) {
+        const float near_m = stripe_width_m * static_cast<float>(1 + 2 * stripe);
+        end.paint_both(threshold_begin_m, threshold_m, near_m, stripe_width_m);
+    }
+    const float left_m = 0.5F * digits_apart_m + digit_width_m;
+    paint_digit(end, number[0] - '0', left_m);
+    paint_digit(end, number[1] - '0', -0.5F * digits_apart_m);
+    end.paint_both(aim_begin_m, aim_m, inner_m, aim_width_m);
+    for (const Bars& bars : touchdown_zone) {
+        for (int bar = 0; bar < bars.a_side; ++bar) {
+            const float near_m = inner_m + (bar_width_m + bars_apart_m) * static_cast<float>(bar);
+            end.paint_both(bars.begin_m, bar_m, near_m, bar_width_m);
+        }
+    }
+}
+
+/// Even stripes from one number to the other.
+void paint_centre_line(float length_m, std::vector<RunwayPatch>& patches) {
+    const float free_m = length_m - 2.0F * lines_begin_m;
+    const float dashes = std::floor((free_m + least_gap_m) / (dash_m + least_gap_m));
+    const float step_m = dash_m + (free_m - dashes * dash_m) / (dashes - 1.0F);
+    for (float dash = 0.0F; dash < dashes; ++dash) {
+        const float from_m = lines_begin_m + dash * step_m;
+        patches.push_back({{from_m, -0.5F * line_m}, {from_m + dash_m, 0.5F * line_m}, true});
+    }
+}
+
+/// A long patch in equal parts.
+void add_in_parts(const RunwayPatch& whole, std::vector<RunwayPatch>& patches) {
+    const float all_m = whole.most_m.x - whole.least_m.x;
+    const auto parts = static_cast<int>(std::ceil(all_m / longest_patch_m));
+    for (int part = 0; part < parts; ++part) {
+        const auto at_m = [&](int i) {
+            return whole.least_m.x + all_m * static_cast<float>(i) / static_cast<float>(parts);
+        };
+        patches.push_back(
+            {{at_m(part), whole.least_m.y}, {at_m(part + 1), whole.most_m.y}, whole.is_painted});
+    }
+}
+
+} // namespace
+
+std::array<std::string, 2> runway_numbers(double heading_rad) {
+    const double tenths = deg_from_rad(heading_rad) / 10.0;
+    const auto number = [](long tenth) {
+        const long own = (tenth % 36 + 36) % 36;
+        return fmt::format("{:02}", own == 0 ? 36 : own);
+    };
+    const long own = std::lround(tenths);
+    return {number(own), number(own + 18)};
+}
+
+std::vector<RunwayPatch> runway_patches(double length_m, double width_m, double heading_rad) {
+    assert(length_m >= 1500.0 && width_m >= 45.0);
+    const auto long_m = static_cast<float>(length_m);
+    const auto half_m = static_cast<float>(0.5 * width_m);
+    std::vector<RunwayPatch> patches;
+    add_in_parts({{0.0F, -half_m}, {long_m, half_m}, false}, patches);
+    for (const float inside_m : {half_m - line_m, -half_m}) {
+        add_in_parts({{0.0F, inside_m}, {long_m, inside_m + line_m}, true}, patches);
+    }
+    paint_centre_line(long_m, patches);
+    const std::array<std::string, 2> numbers = runway_numbers(heading_rad);
+    for (const bool is_other : {false, true}) {
+        End end(patches, long_m, is_other);
+        paint_end(end, numbers[is_other ? 1 : 0]);
+    }
+    return patches;
+}
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+// The surface of a runway and what is painted on it, as rectangles: ICAO Annex 14, volume I,
+// chapter 5 (visual aids for navigation), for a runway 45 m wide, of code number 4 and up to
+// 2,400 m long. Where Annex 14 leaves a range, widths are those of FAA AC 150/5340-1 (Standards for
+// Airport Markings). The ranges for the aiming point are also in EASA CS-ADR-DSN, L.540.
+//
+// threshold         12 stripes of 30 x 1.75 m, 6 m from the end
+// number            18.3 m tall (60 feet), of straight strokes
+// centre line       stripes of 30 x 0.9 m with gaps of 20 m or a little more
+// touchdown zone    pairs of 3, 2 and 2 bars of 22.5 x 1.8 m at 150, 450 and 600 m
+// aiming point      a pair of 45 x 9 m at 300 m, 22 m apart
+// side stripes      0.9 m
+//
+// Deviations: numbers are by grid north and not by magnetic north, which the ground does not know;
+// they have the size of the AC, Annex 14 draws them 9 m tall and with slanted strokes. The AC
+// leaves out the bars at 600 m where a runway is shorter than 1,826 m.
+
+namespace octant::visuals::nature {
+
+/// A rectangle along the runway's axes: metres along from its beginning, and left of its middle.
+/// Those that are painted do not overlap; they lie within the surface.
+struct RunwayPatch {
+    glm::vec2 least_m{0.0F};
+    glm::vec2 most_m{0.0F};
+    bool is_painted = false; ///< white; else the surface itself
+};
+
+/// What the two ends are called by those who approach them: "07" and "25". The beginning first.
+std::array<std::string, 2> runway_numbers(double heading_rad);
+
+/// No patch is longer.
+inline constexpr float longest_patch_m = 150.0F;
+
+/// The surface, then what is painted on it. There is room for all of
+/// it (asserted): the runway is 45 m wide, or more, and 1,500 m long.
+std::vector<RunwayPatch> runway_patches(double length_m, double width_m, double heading_rad);
+
+/// Display values under a light of 1.
+inline constexpr glm::vec3 runway_surface(0.31F, 0.31F, 0.32F);
+inline constexpr glm::vec3 runway_paint(0.88F, 0.88F, 0.86F);
+
+} // namespace octant::visuals::nature
