@@ -5,7 +5,6 @@
 #include "models/measure/flipped_area.h"
 
 #include "models/measure/surface_samples.h"
-#include "models/measure/target_surface.h"
 #include "sim/base/worker_team.h"
 
 #include <glm/geometric.hpp>
@@ -18,10 +17,6 @@
 
 namespace octant::models::measure {
 
-namespace {
-
-/// Whether no triangle of the original near a point faces as `normal` does. `nearest` is the
-/// nearest point of the original.
 bool is_flipped(
     const TargetSurface& original,
     const glm::dvec3& point_m,
@@ -44,8 +39,6 @@ bool is_flipped(
     });
     return against;
 }
-
-} // namespace
 
 double flipped_area_share(
     const TriangleMesh& mesh, const TriangleMesh& original, const FlippedAreaOptions& options) {

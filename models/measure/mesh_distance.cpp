@@ -70,7 +70,7 @@ OneWayDistance one_way(
     const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
     steps.next();
     const SampledDistance sampled =
-        sampled_distance(mesh, target, options.samples, options.threads);
+        sampled_distance(mesh, target, {.samples = options.samples, .threads = options.threads});
     steps.next();
     return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
 }

@@ -3,6 +3,7 @@
 // number of threads does not change the result.
 #include "models/measure/sampled_distance.h"
 
+#include "models/measure/flipped_area.h"
 #include "models/measure/surface_samples.h"
 #include "sim/base/worker_team.h"
 
@@ -20,6 +21,7 @@ struct Sums {
     double distances = 0.0;
     double squares = 0.0;
     double colour_squares = 0.0;
+    std::size_t flipped = 0;
 };
 
 /// The squared difference between the colours of a point and of its nearest point.
@@ -37,14 +39,14 @@ double colour_difference2(
 } // namespace
 
 SampledDistance sampled_distance(
-    const TriangleMesh& mesh, const TargetSurface& target, std::size_t samples, int threads) {
-    if (samples == 0) {
+    const TriangleMesh& mesh, const TargetSurface& target, const SampleOptions& options) {
+    if (options.samples == 0) {
         return {};
     }
     const bool coloured = !mesh.colours.empty() && !target.mesh().colours.empty();
-    const SurfaceSamples points(mesh, samples);
+    const SurfaceSamples points(mesh, options.samples);
     std::vector<Sums> chunks(points.chunks());
-    share_out(chunks.size(), threads, [&](std::size_t chunk, std::size_t) {
+    share_out(chunks.size(), options.threads, [&](std::size_t chunk, std::size_t) {
         Sums sums;
         std::uint32_t guess = NearestOnMesh::none;
         points.for_each(chunk, [&](const SurfacePoint& here) {
@@ -55,6 +57,10 @@ SampledDistance sampled_distance(
             if (coloured) {
                 sums.colour_squares += colour_difference2(mesh, here, target.mesh(), there);
             }
+            if (options.flipped) {
+                const glm::dvec3 normal = area_vector(mesh, mesh.triangles[here.triangle]);
+                sums.flipped += is_flipped(target, here.point_m, normal, there, 0.0) ? 1U : 0U;
+            }
         });
         chunks[chunk] = sums;
     });
@@ -63,12 +69,14 @@ SampledDistance sampled_distance(
         total.distances += sums.distances;
         total.squares += sums.squares;
         total.colour_squares += sums.colour_squares;
+        total.flipped += sums.flipped;
     }
-    const auto count = static_cast<double>(samples);
+    const auto count = static_cast<double>(options.samples);
     return {
         std::sqrt(total.squares / count),
         total.distances / count,
-        std::sqrt(total.colour_squares / count)};
+        std::sqrt(total.colour_squares / count),
+        static_cast<double>(total.flipped) / count};
 }
 
 } // namespace octant::models::measure

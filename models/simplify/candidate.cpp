@@ -15,26 +15,37 @@ bool is_reached(const Simplified& result, const Goal& goal) {
 }
 
 bool Candidate::is_better_than(const Candidate& other, const Yardstick& yardstick) const {
-    constexpr double clearly = 0.99;
-    return misses != other.misses
-               ? other.misses
-               : yardstick.badness(fault) < clearly * yardstick.badness(other.fault);
+    return misses != other.misses ? other.misses : other.is_worse_than(fault, yardstick);
 }
 
-Candidate judged(Simplified result, const SimplifyOptions& options) {
-    constexpr double tightness = 1.02;
+bool Candidate::is_worse_than(const Fault& other, const Yardstick& yardstick) const {
+    constexpr double clearly = 0.99;
+    return yardstick.badness(other) < clearly * yardstick.badness(fault);
+}
+
+Candidate judged(
+    Simplified result,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options,
+    const IsHopeless& is_hopeless) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const bool misses = !is_reached(result, options.goal);
     Fault fault;
     if (result.mesh.triangles.empty()) {
         fault = {infinite, infinite, 1.0};
     } else if (!result.sequence.collapses.empty()) {
-        fault = fault_of(result.mesh, result.sequence.original, tightness, options.threads);
+        FaultOptions how;
+        how.threads = options.threads;
+        how.is_hopeless = is_hopeless;
+        fault = fault_of(result.mesh, original, how);
     }
     return {std::move(result), misses, fault, options.fits_slivers};
 }
 
-Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& options) {
+Yardstick yardstick_of(
+    std::span<const Candidate> tried,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options) {
     Yardstick yardstick;
     for (const Candidate& one : tried) {
         const CollapseSequence& sequence = one.result.sequence;
@@ -43,7 +54,7 @@ Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& 
         }
         const TriangleMesh mesh = mesh_after(sequence, sequence.collapses.size());
         if (!mesh.triangles.empty()) {
-            yardstick.add(mesh, sequence.original, options.threads);
+            yardstick.add(mesh, original, options.threads);
         }
     }
     return yardstick;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/measure/target_surface.h"
 #include "models/simplify/fault.h"
 #include "models/simplify/simplified.h"
 #include "models/simplify/simplify_options.h"
@@ -20,13 +21,25 @@ struct Candidate {
 
     /// One that misses the goal comes after all that reach it.
     bool is_better_than(const Candidate& other, const Yardstick& yardstick) const;
+
+    /// Whether a result with this fault that reaches the goal, as this one does, is better.
+    bool is_worse_than(const Fault& other, const Yardstick& yardstick) const;
 };
 
-Candidate judged(Simplified result, const SimplifyOptions& options);
+/// The result with its fault. If `is_hopeless` is true of a part of the fault (FaultOptions), all
+/// of it is infinite.
+Candidate judged(
+    Simplified result,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options,
+    const IsHopeless& is_hopeless = {});
 
 /// What the plain ones of the passes reached before their polish. Nothing is known where none was
 /// tried.
-Yardstick yardstick_of(std::span<const Candidate> tried, const SimplifyOptions& options);
+Yardstick yardstick_of(
+    std::span<const Candidate> tried,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options);
 
 /// The share of its area that what takes the place of a candidate may turn over: no more than that
 /// one, or than plain ways do.

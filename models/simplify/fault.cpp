@@ -3,8 +3,8 @@
 // result.
 #include "models/simplify/fault.h"
 
-#include "models/measure/flipped_area.h"
-#include "models/measure/mesh_distance.h"
+#include "models/measure/hausdorff.h"
+#include "models/measure/sampled_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,17 +28,9 @@ constexpr double noise = 2e-4;
 constexpr double most_for_turned = 4.0;
 
 constexpr std::size_t samples = 50'000;
-
-measure::DistanceOptions
-distance_options(const TriangleMesh& original, double tightness, int threads) {
-    measure::DistanceOptions how;
-    how.tightness = tightness;
-    how.samples = samples;
-    how.negligible_m = 1e-6 * diagonal_m(original);
-    how.threads = threads;
-    how.larger_alone = true;
-    return how;
-}
+/// Distances below this share of the diagonal need not be told apart.
+constexpr double negligible = 1e-6;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// 1 where a value is as low as wanted, and more where it is not.
 double beyond(double value, double wanted) {
@@ -56,23 +48,35 @@ double Fault::product() const {
 }
 
 Fault fault_of(
-    const TriangleMesh& mesh, const TriangleMesh& original, double tightness, int threads) {
-    const measure::DistanceOptions how = distance_options(original, tightness, threads);
-    const measure::MeshDistance distance = measure::distance(original, mesh, how);
-    Fault fault;
-    fault.off_m = distance.most_hausdorff_m();
-    if (!(fault.off_m > 2.0 * how.negligible_m)) {
+    const TriangleMesh& mesh, const measure::TargetSurface& original, const FaultOptions& options) {
+    measure::HausdorffLimits limits;
+    limits.tightness = options.tightness;
+    limits.negligible_m = negligible * diagonal_m(original.mesh());
+    limits.threads = options.threads;
+    const double negligible_m = limits.negligible_m;
+    measure::SampleOptions how{.samples = samples, .threads = options.threads};
+    const measure::TargetSurface surface(mesh);
+    const measure::HausdorffBounds there =
+        measure::one_way_hausdorff(original.mesh(), surface, limits);
+    const double rms_there_m = measure::sampled_distance(original.mesh(), surface, how).rms_m;
+    if (options.is_hopeless && options.is_hopeless({there.most_m, rms_there_m, 0.0})) {
+        return {infinite, infinite, infinite};
+    }
+    // Only the larger one of the two ways need be tight.
+    limits.negligible_m = std::max(limits.negligible_m, there.least_m);
+    const measure::HausdorffBounds back = measure::one_way_hausdorff(mesh, original, limits);
+    const double off_m = std::max(there.most_m, back.most_m);
+    if (!(off_m > 2.0 * negligible_m)) {
         return {};
     }
-    fault.rms_m = distance.rms_m();
-    fault.turned =
-        measure::flipped_area_share(mesh, original, {.samples = samples, .threads = threads});
-    return fault;
+    how.flipped = true;
+    const measure::SampledDistance sampled_back = measure::sampled_distance(mesh, original, how);
+    return {off_m, std::max(rms_there_m, sampled_back.rms_m), sampled_back.flipped_share};
 }
 
-void Yardstick::add(const TriangleMesh& plain, const TriangleMesh& original, int threads) {
-    constexpr double tightness = 1.1;
-    add(fault_of(plain, original, tightness, threads));
+void Yardstick::add(
+    const TriangleMesh& plain, const measure::TargetSurface& original, int threads) {
+    add(fault_of(plain, original, {.tightness = 1.1, .threads = threads, .is_hopeless = {}}));
 }
 
 void Yardstick::add(const Fault& plain) {

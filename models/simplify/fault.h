@@ -1,7 +1,9 @@
 #pragma once
 
+#include "models/measure/target_surface.h"
 #include "models/triangle_mesh.h"
 
+#include <functional>
 #include <limits>
 
 namespace octant::models::simplify {
@@ -16,16 +18,29 @@ struct Fault {
     double product() const;
 };
 
-/// The fault of a mesh that has triangles. The upper bound of the distance is at most `tightness`
-/// times the lower one.
+/// Whether a fault whose values are at least these is of no use.
+using IsHopeless = std::function<bool(const Fault& least)>;
+
+/// How a fault is measured.
+struct FaultOptions {
+    /// The upper bound of the distance is at most this times the lower one.
+    double tightness = 1.02;
+    int threads = 1; ///< The number of threads; it does not change the result.
+    /// Asked when half is measured; may be empty. Where it is true all values are infinite.
+    IsHopeless is_hopeless;
+};
+
+/// The fault of a mesh that has triangles, as has the original.
 Fault fault_of(
-    const TriangleMesh& mesh, const TriangleMesh& original, double tightness, int threads);
+    const TriangleMesh& mesh,
+    const measure::TargetSurface& original,
+    const FaultOptions& options = {});
 
 /// What plain ways to simplify reach without a polish, which is about what others reach, each value
 /// by the best one for it. Infinite where none was tried.
 class Yardstick {
 public:
-    void add(const TriangleMesh& plain, const TriangleMesh& original, int threads);
+    void add(const TriangleMesh& plain, const measure::TargetSurface& original, int threads);
     void add(const Fault& plain);
 
     double rms_m() const { return rms_m_; }

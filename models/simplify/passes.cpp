@@ -58,6 +58,7 @@ Candidate lowered(
     Candidate best,
     const Yardstick& yardstick,
     int most_times,
+    const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const OnePass& one_pass) {
     struct Try {
@@ -79,13 +80,17 @@ Candidate lowered(
     const double most_rms_m = std::max(hardly * best.fault.rms_m, plain_m);
     bool is_better = !best.misses && best.fault.off_m > 0.0;
     for (int time = 0; time < most_times && is_better; ++time) {
+        const auto is_hopeless = [&](const Fault& least) {
+            return least.rms_m > most_rms_m || !best.is_worse_than(least, yardstick);
+        };
         std::array<Candidate, tries.size()> tried;
         share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
             SimplifyOptions how = options;
             how.fits_slivers = best.fits_slivers;
             how.avoided_m = tries[i].part * best.fault.off_m;
             how.slivers_too = tries[i].slivers_too;
-            tried[i] = judged(one_pass(best.result.sequence.original, how, tries[i].chooser), how);
+            tried[i] = judged(
+                one_pass(original.mesh(), how, tries[i].chooser), original, how, is_hopeless);
         });
         is_better = false;
         for (Candidate& other : tried) {
@@ -106,6 +111,7 @@ std::size_t beside_plain(
     std::vector<Candidate>& tried,
     std::size_t best,
     const Yardstick& yardstick,
+    const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const OnePass& one_pass) {
     const Fault fault = tried[best].fault;
@@ -121,8 +127,8 @@ std::size_t beside_plain(
         how.avoided_m = yardstick.wanted_off_m();
     }
     share_out(passes, options.threads, [&](std::size_t i, std::size_t) {
-        const Simplified& other = tried[i].result;
-        tried[passes + i] = judged(one_pass(other.sequence.original, how, other.chosen_by), how);
+        tried[passes + i] =
+            judged(one_pass(original.mesh(), how, tried[i].result.chosen_by), original, how);
     });
     for (std::size_t i = 0; i < tried.size(); ++i) {
         if (tried[i].fault.turned <= most && tried[i].is_better_than(tried[best], yardstick)) {
@@ -145,21 +151,27 @@ bool is_plain(const TriangleMesh& mesh) {
 Simplified improved(
     std::vector<Candidate> tried,
     std::size_t best,
+    const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Ways& ways) {
-    const Yardstick yardstick = yardstick_of(tried, options);
-    const bool plain = is_plain(tried[best].result.sequence.original);
+    const Yardstick yardstick = yardstick_of(tried, original, options);
+    const bool plain = is_plain(original.mesh());
     if (plain || yardstick.is_better_than(tried[best].fault)) {
-        best = beside_plain(tried, best, yardstick, options, ways.one_pass);
+        best = beside_plain(tried, best, yardstick, original, options, ways.one_pass);
+    }
+    if (!plain) {
+        Candidate& one = tried[best];
+        return lowered(std::move(one), Yardstick(), 3, original, options, ways.one_pass).result;
+    }
+    Candidate found = lowered(tried[best], yardstick, 1, original, options, ways.one_pass);
+    found = revised(std::move(found), yardstick, original, options, ways.revise);
+    if (found.misses || yardstick.is_beaten_by(found.fault)) {
+        return std::move(found.result);
     }
     const std::size_t other = least_in_the_mean(tried, best, yardstick);
-    if (!plain) {
-        return lowered(std::move(tried[best]), Yardstick(), 3, options, ways.one_pass).result;
-    }
-    Candidate found = lowered(tried[best], yardstick, 1, options, ways.one_pass);
-    found = revised(std::move(found), yardstick, options, ways.revise);
-    if (other != best && !found.misses && !yardstick.is_beaten_by(found.fault)) {
-        Candidate second = revised(std::move(tried[other]), yardstick, options, ways.revise);
+    if (other != best) {
+        Candidate second =
+            revised(std::move(tried[other]), yardstick, original, options, ways.revise);
         if (second.is_better_than(found, yardstick)) {
             return std::move(second.result);
         }
@@ -180,17 +192,21 @@ Simplified best_pass(TriangleMesh original, const SimplifyOptions& options, cons
     std::vector<Candidate> tried(choosers.size());
     share_out(choosers.size(), options.threads, [&](std::size_t i, std::size_t) {
         const SimplifyOptions& how = i == 0 ? options : quiet;
-        tried[i] = judged(one_pass(original, how, choosers[i]), how);
+        tried[i].result = one_pass(original, how, choosers[i]);
+    });
+    const measure::TargetSurface surface(original);
+    share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
+        tried[i] = judged(std::move(tried[i].result), surface, quiet);
     });
     std::size_t best = 0;
     for (std::size_t i = 1; i < tried.size(); ++i) {
         best = tried[i].is_better_than(tried[best], Yardstick()) ? i : best;
     }
-    const bool is_small = tried[best].result.sequence.original.triangles.size() <= small;
+    const bool is_small = original.triangles.size() <= small;
     if (options.quality == Quality::Fast || !is_small) {
         return std::move(tried[best].result);
     }
-    return improved(std::move(tried), best, quiet, ways);
+    return improved(std::move(tried), best, surface, quiet, ways);
 }
 
 } // namespace

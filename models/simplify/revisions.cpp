@@ -31,7 +31,12 @@ constexpr int most_times = 6;
 constexpr double most_badness_left = 0.98;
 
 Candidate tried_out(
-    const Candidate& before, const Try& one, const SimplifyOptions& options, const Revise& revise) {
+    const Candidate& before,
+    const Try& one,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options,
+    const Revise& revise,
+    const IsHopeless& is_hopeless) {
     SimplifyOptions how = options;
     how.fits_slivers = before.fits_slivers;
     how.slivers_too = true;
@@ -40,10 +45,10 @@ Candidate tried_out(
     const double splits = one.splits * static_cast<double>(other.mesh.triangles.size());
     other.mesh = revise(
         before.result.mesh,
-        other.sequence.original,
+        original.mesh(),
         how,
         {one.split_by, 1 + static_cast<std::size_t>(splits), one.chooser});
-    return judged(std::move(other), how);
+    return judged(std::move(other), original, how, is_hopeless);
 }
 
 } // namespace
@@ -51,14 +56,18 @@ Candidate tried_out(
 Candidate revised(
     Candidate best,
     const Yardstick& yardstick,
+    const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Revise& revise) {
     const double most = most_turned(best, yardstick);
     bool is_better = !best.misses && best.fault.off_m > 0.0;
     for (int time = 0; time < most_times && is_better; ++time) {
+        const auto is_hopeless = [&](const Fault& least) {
+            return !best.is_worse_than(least, yardstick);
+        };
         std::array<Candidate, tries.size()> tried;
         share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
-            tried[i] = tried_out(best, tries[i], options, revise);
+            tried[i] = tried_out(best, tries[i], original, options, revise, is_hopeless);
         });
         const double before = yardstick.badness(best.fault);
         for (Candidate& other : tried) {

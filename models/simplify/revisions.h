@@ -25,11 +25,12 @@ using Revise = std::function<TriangleMesh(
     const SimplifyOptions& options,
     const Revision& revision)>;
 
-/// Tries to improve a result by revisions, side by side, as long as one of them is better and turns
-/// no more over than most_turned.
+/// Tries to improve a result, which has the original given, by revisions, side by side, as long as
+/// one of them is better and turns no more over than most_turned.
 Candidate revised(
     Candidate best,
     const Yardstick& yardstick,
+    const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Revise& revise);
 

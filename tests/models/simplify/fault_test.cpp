@@ -15,8 +15,8 @@ TEST_CASE("a surface is not off itself, and a larger one by what it is larger") 
     for (glm::dvec3& vertex_m : large.vertices_m) {
         vertex_m *= 1.1;
     }
-    CHECK(fault_of(small, small, 1.02, 1).off_m == 0.0);
-    const Fault fault = fault_of(large, small, 1.02, 1);
+    CHECK(fault_of(small, measure::TargetSurface(small)).off_m == 0.0);
+    const Fault fault = fault_of(large, measure::TargetSurface(small));
     CHECK(fault.off_m == Approx(0.1).epsilon(0.05));
     CHECK(fault.rms_m == Approx(0.1).epsilon(0.05));
     CHECK(fault.turned == 0.0);
@@ -31,7 +31,7 @@ TEST_CASE("a surface that faces inwards is turned over") {
     for (Triangle& triangle : inwards.triangles) {
         std::swap(triangle[0], triangle[1]);
     }
-    CHECK(fault_of(inwards, outwards, 1.02, 1).turned > 0.99);
+    CHECK(fault_of(inwards, measure::TargetSurface(outwards)).turned > 0.99);
 }
 
 TEST_CASE("without a yardstick the product of distance and root mean square counts") {
