@@ -20,7 +20,7 @@ const glm::vec3 light(0.6F, 0.7F, 0.8F);
 
 /// A ball whose lower half is dark and whose upper half is light, with a hard seam between.
 struct TwoHalves {
-    TriangleMesh mesh = ball(24);
+    TriangleMesh mesh = ball(16);
     std::vector<CornerColours> corner_colours;
 
     TwoHalves() {
