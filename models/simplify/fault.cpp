@@ -27,7 +27,9 @@ constexpr double noise = 2e-4;
 /// By no more than this what turns more over than plain ways counts as worse.
 constexpr double most_for_turned = 4.0;
 
-constexpr std::size_t samples = 50'000;
+/// Twenty a triangle of the original tell two results apart, between these numbers.
+constexpr std::size_t fewest_samples = 10'000;
+constexpr std::size_t most_samples = 50'000;
 /// Distances below this share of the diagonal need not be told apart.
 constexpr double negligible = 1e-6;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -54,6 +56,8 @@ Fault fault_of(
     limits.negligible_m = negligible * diagonal_m(original.mesh());
     limits.threads = options.threads;
     const double negligible_m = limits.negligible_m;
+    const std::size_t samples =
+        std::clamp(20 * original.mesh().triangles.size(), fewest_samples, most_samples);
     measure::SampleOptions how{.samples = samples, .threads = options.threads};
     const measure::TargetSurface surface(mesh);
     const measure::HausdorffBounds there =

@@ -29,8 +29,13 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// At least this many points stand for the original surface.
-constexpr std::size_t least_points = 24'000;
+/// At least so many points stand for an original surface: where it is coloured, its borders need
+/// them all.
+std::size_t least_points(std::size_t triangles, bool coloured) {
+    constexpr std::size_t enough = 24'000;
+    return coloured ? enough : std::clamp(24 * triangles, std::size_t{8'000}, enough);
+}
+
 /// How many times the wanted error collapses go by their own estimate: the polish may bring the
 /// error back.
 constexpr double beyond_goal = 2.0;
@@ -108,8 +113,9 @@ wanted_points(const TargetMesh& target, std::size_t faces_left, const SimplifyOp
     if (!target.coloured() && stands_for_many(target, faces_left)) {
         return std::min(target.places.size(), points_a_face * faces_left);
     }
-    return options.quality == Quality::Surface || target.coloured() ? least_points
-                                                                    : target.places.size() + 1;
+    return options.quality == Quality::Surface || target.coloured()
+               ? least_points(target.face_count(), target.coloured())
+               : target.places.size() + 1;
 }
 
 CollapseSequence
@@ -118,7 +124,9 @@ sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& opti
     WorkingSurface surface(original, units);
     std::optional<TrackedPoints> points;
     if (options.quality == Quality::Surface) {
-        points.emplace(TargetMesh(original, units), least_points);
+        points.emplace(
+            TargetMesh(original, units),
+            least_points(original.triangles.size(), !original.colours.empty()));
     }
     CollapsingSurface collapsing(surface, units, points ? EdgeWeights{} : cost_weights);
     const Chooser chooser = points ? Chooser::Distances : Chooser::Quadrics;
