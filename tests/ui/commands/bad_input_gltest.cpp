@@ -1,6 +1,7 @@
 #include "sim/base/output_file.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/flight/small_ground.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,13 +1,10 @@
 #include "tests/ui/commands/command_line.h"
 
-#include "models/heights/height_field_export.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
-#include "visuals/groundfile/ground_import.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
@@ -80,36 +77,6 @@ std::filesystem::path empty_folder(const std::string& name) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;
-}
-
-std::string small_map() {
-    static const std::string file = [] {
-        constexpr int side = 257;
-        std::vector<float> heights_m;
-        for (int row = 0; row < side; ++row) {
-            for (int column = 0; column < side; ++column) {
-                const double east = 60.0 * std::sin(column / 9.0);
-                const double south = 40.0 * std::cos(row / 13.0);
-                heights_m.push_back(static_cast<float>(std::lround(200.0 + east + south)));
-            }
-        }
-        const std::filesystem::path map = scratch_folder() / "small.tif";
-        models::heights::write_height_field(map, {side, side, 101.5625, heights_m});
-        return map.string();
-    }();
-    return file;
-}
-
-std::string small_ground() {
-    static const std::string file = [] {
-        const std::filesystem::path ground = scratch_folder() / "small.ground";
-        visuals::groundfile::import_ground(
-            {small_map()}, ground, {}, [](visuals::groundfile::ImportStage, double) {
-                return false;
-            });
-        return ground.string();
-    }();
-    return file;
 }
 
 int lines_in(const std::string& text) {

@@ -24,12 +24,6 @@ int run_octant_and_signal(
 /// An empty folder for one test, removed and made anew.
 std::filesystem::path empty_folder(const std::string& name);
 
-/// A map of gentle ground, 26 by 26 km, made once, and the ground imported from it. They are loaded
-/// in a tenth of the time that made hills take, for flights of which it does not matter what they
-/// are over.
-std::string small_map();
-std::string small_ground();
-
 /// Number of lines in a text.
 int lines_in(const std::string& text);
 

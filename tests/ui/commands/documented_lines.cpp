@@ -3,6 +3,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/flight/small_ground.h"
 
 #include <algorithm>
 #include <array>

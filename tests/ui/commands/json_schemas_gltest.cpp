@@ -2,6 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/json_schema.h"
+#include "tests/ui/flight/small_ground.h"
 #include "ui/commands/commands.h"
 #include "ui/report/table_text.h"
 #include "ui/window/listen_command.h"

@@ -1,6 +1,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/flight/small_ground.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/loaded_recording.h"
 

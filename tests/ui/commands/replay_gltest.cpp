@@ -4,6 +4,7 @@
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
+#include "tests/ui/flight/small_ground.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/studies/hybrid_shading/shading_models.h"

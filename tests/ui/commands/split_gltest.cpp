@@ -2,6 +2,7 @@
 #include "sim/base/text_file.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/flight/small_ground.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/slow_pictures.h"

@@ -1,6 +1,7 @@
 #include "tests/ui/window/driven_viewer.h"
 
 #include "sim/base/output_file.h"
+#include "tests/ui/flight/small_ground.h"
 
 #include <cstdio>
 #include <unistd.h>
@@ -13,7 +14,7 @@ ui::settings::RunSettings small_flight() {
     ui::settings::RunSettings settings;
     settings.view.size_px = {480, 360};
     settings.ground.triangles = 2000;
-    settings.path.terrain = "hills";
+    settings.path.terrain = small_map();
     return settings;
 }
 
