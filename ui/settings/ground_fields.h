@@ -92,8 +92,7 @@ inline constexpr std::tuple ground_rows{
          "",
          "a runway of 1,800 x 45 m with its markings on levelled ground: where the path begins, "
          "along its first heading; near its first 15 km where that needs cuttings or embankments "
-         "of "
-         "more than 15 m; refused where all places within 6 km of it do. Heights that are asked "
+         "of more than 15 m; refused where all places within 6 km of it do. Heights that are asked "
          "for are those of the levelled ground"},
         {.group = SettingGroup::Ground, .change = SettingsChange::World}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::show_mesh>(

@@ -57,8 +57,7 @@ heights::RunwayWish wish_of(const sim::Trajectory& path, double water_m) {
 void check_site(const std::optional<heights::RunwaySite>& site) {
     const std::string expected = fmt::format(
         "--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
-        "needs "
-        "cuttings and embankments of at most {:.0f} m",
+        "needs cuttings and embankments of at most {:.0f} m",
         heights::looked_for_within_m / 1000.0,
         heights::most_earthwork_m);
     if (!site) {
@@ -79,8 +78,8 @@ std::string note_of(const heights::RunwaySite& site, const heights::RunwayWish& 
             site.strip.place({0.5 * site.strip.length_m, 0.0}) - wish.path_m.front();
         const double bearing_deg = deg_from_rad(std::atan2(way_m.x, way_m.y));
         where = fmt::format(
-            "{:.1f} km from where the path begins, at {:03.0f} degrees, as the ground is too rough "
-            "there",
+            "{:.1f} km from where the path begins, at {:03.0f} degrees, as rough ground, water "
+            "or the map's edge is in its way there",
             glm::length(way_m) / 1000.0,
             bearing_deg < 0.0 ? bearing_deg + 360.0 : bearing_deg);
     }

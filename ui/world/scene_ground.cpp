@@ -92,7 +92,7 @@ HeightField field_of(const terrain::GroundTiles& tiles) {
 
 /// Throws Error for more samples than are levelled in memory.
 void check_samples(std::int64_t columns, std::int64_t rows) {
-    constexpr std::int64_t most = 70'000'000;
+    constexpr std::int64_t most = std::int64_t{16385} * 16385;
     if (columns * rows > most) {
         throw Error(fmt::format(
             "--airfield: expected at most {} samples of ground, got {} x {}", most, columns, rows));

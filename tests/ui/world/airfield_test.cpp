@@ -108,9 +108,8 @@ TEST_CASE("ground on which no airfield can lie is refused with what it would nee
         ui::world::load_world(airfield_over(waves("rough.tif", 150.0))),
         Catch::Matchers::Matches(
             "--airfield: expected ground within 6 km of the path on which a runway of 1,800 m "
-            "needs "
-            "cuttings and embankments of at most 15 m, got [0-9]+ m at best; another --place may "
-            "do"));
+            "needs cuttings and embankments of at most 15 m, got [0-9]+ m at best; another --place "
+            "may do"));
     RunSettings flooded = airfield_over(waves("gentle.tif", 5.0));
     flooded.air.water_level_m = 600.0;
     CHECK_THROWS_WITH(
