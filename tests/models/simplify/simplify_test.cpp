@@ -213,6 +213,7 @@ TEST_CASE("the same input gives the same bytes, on one thread and on three") {
         CHECK(one.sequence.collapses.size() == three.sequence.collapses.size());
     };
     check(two_coloured(ring(40, 24)), Quality::Fast);
+    check(two_coloured(ring(12, 8)), Quality::Surface);
     INFO("with passes that avoid far distances, and revisions");
     check(ball(12), Quality::Surface);
 }
