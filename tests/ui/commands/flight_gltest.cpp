@@ -148,13 +148,13 @@ TEST_CASE("who asks for detail near the eye is told where the ground cannot show
         told({"--terrain", "background60", "--scenery"}),
         Contains("note: --scenery shows nothing: background60 has no samples"));
     CHECK_THAT(
-        told({"--terrain", "hills", "--mesh", "midpoint", "--near-detail"}),
+        told({"--terrain", tests::small_map(), "--mesh", "midpoint", "--near-detail"}),
         Contains("note: --near-detail shows nothing: only ground that is refined by screen-error"));
     CHECK_THAT(
-        told({"--terrain", "hills", "--ground-shading", "texture", "--scenery"}),
+        told({"--terrain", tests::small_map(), "--ground-shading", "texture", "--scenery"}),
         Contains("note: --scenery shows nothing: where a texture colours the ground"));
     CHECK_THAT(told({"--terrain", "background60"}), !Contains("shows nothing"));
-    CHECK_THAT(told({"--terrain", "hills", "--scenery"}), !Contains("shows nothing"));
+    CHECK_THAT(told({"--terrain", tests::small_map(), "--scenery"}), !Contains("shows nothing"));
 }
 
 TEST_CASE("a finished flight is skipped when asked, unless something has changed") {
