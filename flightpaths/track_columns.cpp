@@ -73,6 +73,13 @@ bool has_place(std::span<const Known> columns, const std::vector<std::string_vie
     return has[Time] && has[North] && has[East] && has[Altitude];
 }
 
+/// Whether names are of these columns, as far as they go: the time and one more.
+bool are_of(std::span<const Known> columns, const std::vector<std::string_view>& names) {
+    const auto known = std::ranges::count_if(
+        columns, [&](const Known& column) { return is_among(column.name, names); });
+    return known >= 2 && is_among(columns.front().name, names);
+}
+
 int field_of(
     const std::vector<std::string_view>& names, std::string_view name, const TrackLine& at) {
     int found = -1;
@@ -119,8 +126,8 @@ TrackHeader track_header(std::string_view line, const TrackLine& at) {
     header.separator = separator_of(line);
     const auto names = unquoted_fields(line, header.separator);
     header.fields = names.size();
-    const bool own = field_of(names, "t_s", at) >= 0;
-    header.jsbsim = !own && field_of(names, "Time", at) >= 0;
+    const bool own = are_of(own_columns, names);
+    header.jsbsim = !own && are_of(jsbsim_columns, names);
     if (!own && !header.jsbsim) {
         at.refuse(fmt::format(
             "expected column names with a time, a place and an altitude among them (t_s, north_m, "

@@ -163,6 +163,10 @@ TEST_CASE("what no log of a flight may hold is refused with its line") {
     CHECK(
         track_fault(head + "0,47,8,500\n90000,47,8,500\n") ==
         "3: expected a time within 86400 s of the first, got 90000.000 s");
+    CHECK(
+        track_fault("time,lat,lon\n0,47,8\n") ==
+        "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
+        "east_m, alt_m or Time, Latitude, Longitude, Altitude), got time,lat,lon");
     CHECK(track_fault(head + "0,,,\n") == " expected at least 2 samples with a place, got 0");
     CHECK(
         track_fault(head + "0,47,8,1e9\n1,47,8,0\n") ==

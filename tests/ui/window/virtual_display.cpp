@@ -4,11 +4,13 @@
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
 #include <X11/keysym.h>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <stdexcept>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -75,6 +77,7 @@ std::unique_ptr<VirtualDisplay> VirtualDisplay::start() {
             "2000x1200x24",
             "-nolisten",
             "tcp",
+            "-noreset", // a signal that comes while it begins anew would be lost
             nullptr);
         _exit(127);
     }
@@ -98,6 +101,13 @@ VirtualDisplay::VirtualDisplay(int process, std::unique_ptr<Connection> connecti
 VirtualDisplay::~VirtualDisplay() {
     connection_.reset();
     kill(process_, SIGTERM);
+    for (int tenth = 0; tenth < 50; ++tenth) {
+        if (waitpid(process_, nullptr, WNOHANG) != 0) {
+            return;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
 }
 
