@@ -20,11 +20,11 @@ namespace octant::models::simplify {
 namespace {
 
 /// Colours break where a part of them differs by more: a few steps of eight bits do not show.
-constexpr float alike = 0.02F;
+constexpr float alike_within = 0.02F;
 
 bool is_alike(const glm::vec3& a, const glm::vec3& b) {
     for (int part = 0; part < 3; ++part) {
-        if (std::abs(a[part] - b[part]) > alike) {
+        if (std::abs(a[part] - b[part]) > alike_within) {
             return false;
         }
     }

@@ -15,7 +15,7 @@ namespace octant::models::simplify {
 namespace {
 
 /// With one percent of its area turned over a result counts as twice as far off.
-constexpr double turned_price = 100.0;
+constexpr double price_of_turned = 100.0;
 
 /// A result should be less than these shares of the best plain value: other ones of the same kind
 /// are somewhat better than ours now and then.
@@ -46,7 +46,7 @@ double fourth_power(double x) {
 } // namespace
 
 double Fault::product() const {
-    return off_m * rms_m * (1.0 + turned_price * turned);
+    return off_m * rms_m * (1.0 + price_of_turned * turned);
 }
 
 Fault fault_of(

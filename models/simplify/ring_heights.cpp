@@ -24,7 +24,7 @@ int grid_fields(std::size_t target_faces, std::size_t faces) {
 
 /// Bounds of the number of samples on a triangle when there is a spacing.
 constexpr std::size_t least_samples = 12;
-constexpr std::size_t most_samples = 400;
+constexpr std::size_t most_ring_samples = 400;
 /// Beside the samples by area there are this many for each spacing that fits into the longest edge,
 /// so that long thin triangles get enough.
 constexpr double along_edge = 2.0;
@@ -42,7 +42,7 @@ RingHeights::RingHeights(
     , in_turn_(target)
     , spacing_(spacing) {
     if (spacing > 0.0) {
-        for (std::size_t i = 0; i < most_samples; ++i) {
+        for (std::size_t i = 0; i < most_ring_samples; ++i) {
             samples_on_.push_back({spread_weights(i), 0.0});
         }
     } else {
@@ -62,9 +62,9 @@ std::size_t RingHeights::count_for(const std::array<glm::dvec3, 3>& corners) con
     const double area = 0.5 * glm::length(area_vector(corners));
     const double wanted = area / (spacing_ * spacing_) + along_edge * longest / spacing_;
     return std::clamp(
-        static_cast<std::size_t>(std::min(wanted, static_cast<double>(most_samples))),
+        static_cast<std::size_t>(std::min(wanted, static_cast<double>(most_ring_samples))),
         least_samples,
-        most_samples);
+        most_ring_samples);
 }
 
 void RingHeights::take_face(std::uint32_t face) {

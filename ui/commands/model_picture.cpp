@@ -13,7 +13,7 @@ namespace octant::ui::commands {
 
 namespace {
 
-constexpr int samples = 2; ///< a pixel's side
+constexpr int samples_a_side = 2; ///< Of a pixel.
 constexpr glm::vec3 paper(0.93F, 0.94F, 0.96F);
 
 /// The directions on the screen, body axes. `towards` points to the eye.
@@ -64,12 +64,12 @@ public:
     /// The mean of a pixel's samples.
     glm::vec3 pixel(int x, int y) const {
         glm::vec3 sum(0.0F);
-        for (int j = 0; j < samples; ++j) {
-            for (int i = 0; i < samples; ++i) {
-                sum += colours_[index(x * samples + i, y * samples + j)];
+        for (int j = 0; j < samples_a_side; ++j) {
+            for (int i = 0; i < samples_a_side; ++i) {
+                sum += colours_[index(x * samples_a_side + i, y * samples_a_side + j)];
             }
         }
-        return sum / static_cast<float>(samples * samples);
+        return sum / static_cast<float>(samples_a_side * samples_a_side);
     }
 
 private:
@@ -157,8 +157,8 @@ report::Picture three_views(const models::TriangleMesh& body, int pane_width_px,
         const Pane pane = pane_of(
             body,
             views.at(static_cast<std::size_t>(number)),
-            pane_width_px * samples,
-            height_px * samples);
+            pane_width_px * samples_a_side,
+            height_px * samples_a_side);
         for (int y = 0; y < height_px; ++y) {
             for (int x = 0; x < pane_width_px; ++x) {
                 const glm::vec3 colour = pane.pixel(x, y);

@@ -23,7 +23,7 @@ namespace {
 
 enum class Kind { Whole, Number, MayBeEmpty, Hash };
 
-struct Column {
+struct CsvColumn {
     std::string_view name;
     Kind kind;
     int decimals;
@@ -36,7 +36,7 @@ struct Column {
 };
 
 template <auto Member>
-constexpr Column column(std::string_view name, Kind kind = Kind::Whole, int decimals = 0) {
+constexpr CsvColumn column(std::string_view name, Kind kind = Kind::Whole, int decimals = 0) {
     return {
         name,
         kind,
@@ -48,7 +48,7 @@ constexpr Column column(std::string_view name, Kind kind = Kind::Whole, int deci
 }
 
 template <auto Member, int axis>
-constexpr Column axis_column(std::string_view name) {
+constexpr CsvColumn axis_column(std::string_view name) {
     return {
         name,
         Kind::MayBeEmpty,
@@ -57,12 +57,12 @@ constexpr Column axis_column(std::string_view name) {
         [](FrameRecord& record, double value) { (record.*Member)[axis] = value; }};
 }
 
-constexpr Column
+constexpr CsvColumn
 hash_column(std::string_view name, std::optional<std::uint64_t> FrameRecord::*hash) {
     return {name, Kind::Hash, 0, nullptr, nullptr, hash};
 }
 
-constexpr Column required(Column column) {
+constexpr CsvColumn required(CsvColumn column) {
     column.required = true;
     return column;
 }
@@ -129,14 +129,14 @@ constexpr std::array frame_columns{
 
 std::string header_line() {
     std::string line;
-    for (const Column& each : frame_columns) {
+    for (const CsvColumn& each : frame_columns) {
         line += line.empty() ? "" : ",";
         line += each.name;
     }
     return line;
 }
 
-std::string field_text(const Column& column, const FrameRecord& record) {
+std::string field_text(const CsvColumn& column, const FrameRecord& record) {
     if (column.kind == Kind::Hash) {
         const auto& hash = record.*column.hash;
         return hash ? fmt::format("{:016x}", *hash) : std::string();
@@ -157,7 +157,7 @@ std::optional<std::uint64_t> hash_from(std::string_view text) {
 }
 
 /// The column's value from its text, or nothing when the text does not fit the column.
-std::optional<double> field_value(const Column& column, std::string_view text) {
+std::optional<double> field_value(const CsvColumn& column, std::string_view text) {
     if (column.kind == Kind::Whole) {
         const auto whole = whole_number(text);
         const bool fits = whole && *whole >= std::numeric_limits<int>::min() &&
@@ -171,7 +171,7 @@ std::optional<double> field_value(const Column& column, std::string_view text) {
 }
 
 /// Sets the column's value from its text; false when the text does not fit the column.
-bool set_field(const Column& column, std::string_view text, FrameRecord& record) {
+bool set_field(const CsvColumn& column, std::string_view text, FrameRecord& record) {
     if (column.kind == Kind::Hash) {
         record.*column.hash = hash_from(text);
         return text.empty() || record.*column.hash;
@@ -195,7 +195,7 @@ std::vector<std::size_t> read_header(
     std::vector<std::size_t> order;
     for (const std::string_view name : split_fields(line, ',')) {
         const auto found =
-            std::find_if(frame_columns.begin(), frame_columns.end(), [&](const Column& each) {
+            std::find_if(frame_columns.begin(), frame_columns.end(), [&](const CsvColumn& each) {
                 return each.name == name;
             });
         const auto column = static_cast<std::size_t>(found - frame_columns.begin());
@@ -236,7 +236,7 @@ FrameRecord read_line(
         if (order[i] == frame_columns.size()) {
             continue;
         }
-        const Column& column = frame_columns[order[i]];
+        const CsvColumn& column = frame_columns[order[i]];
         if (!set_field(column, fields[i], record)) {
             error_at(
                 path,
@@ -259,7 +259,7 @@ std::string frame_csv_header() {
 
 std::string frame_csv_line(const FrameRecord& record) {
     std::string line;
-    for (const Column& each : frame_columns) {
+    for (const CsvColumn& each : frame_columns) {
         line += line.empty() ? "" : ",";
         line += field_text(each, record);
     }
@@ -268,7 +268,7 @@ std::string frame_csv_line(const FrameRecord& record) {
 
 FrameRecord as_written(const FrameRecord& record) {
     FrameRecord rounded;
-    for (const Column& each : frame_columns) {
+    for (const CsvColumn& each : frame_columns) {
         if (each.kind == Kind::Hash) {
             rounded.*each.hash = record.*each.hash;
             continue;

@@ -4,7 +4,7 @@ namespace octant::ui::report {
 
 namespace {
 
-constexpr std::string_view style = R"css(
+constexpr std::string_view style_sheet = R"css(
 :root {
   color-scheme: light dark;
   --page: #f6f7f9; --card: #ffffff; --ink: #1b2430; --soft: #5d6b7c; --line: #dde3ea;
@@ -110,7 +110,7 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 } // namespace
 
 std::string_view page_style() {
-    return style;
+    return style_sheet;
 }
 
 } // namespace octant::ui::report

@@ -75,7 +75,7 @@ constexpr std::array pad_buttons{
     Named{GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "down"},
     Named{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "left"}};
 
-constexpr std::array axes{
+constexpr std::array axis_names{
     Named{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
     Named{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"},
     Named{GLFW_GAMEPAD_AXIS_RIGHT_X, "right x"},
@@ -136,11 +136,11 @@ std::optional<int> button_of_name(std::string_view name) {
 }
 
 std::string name_of_axis(int axis) {
-    return name_in(axes, axis);
+    return name_in(axis_names, axis);
 }
 
 std::optional<int> axis_of_name(std::string_view name) {
-    return number_in(axes, name);
+    return number_in(axis_names, name);
 }
 
 std::string name_of_pad_button(int button) {

@@ -37,7 +37,7 @@ constexpr std::array known_panels{
     KnownPanel{"First steps", &OpenPanels::first_steps, Column::Middle}};
 
 constexpr float edge = 8.0F;
-constexpr float gap = 6.0F;
+constexpr float gap_px = 6.0F;
 constexpr float side_width = 330.0F;
 /// A side column takes no more of the window than this.
 constexpr float most_of_window = 0.35F;
@@ -93,8 +93,8 @@ Strip strip_of(Column column, const PanelRoom& room, bool left_open, bool right_
         strip.left = room.size.x - border - side;
         strip.bottom -= room.inset.y;
     } else if (column == Column::Middle) {
-        const float from = border + (left_open ? side + gap * room.scale : 0.0F);
-        const float right = right_open ? side + gap * room.scale : 0.0F;
+        const float from = border + (left_open ? side + gap_px * room.scale : 0.0F);
+        const float right = right_open ? side + gap_px * room.scale : 0.0F;
         const float to = room.size.x - border - std::max(right, room.inset.x);
         strip.width = std::floor(std::min(to - from, most_middle_width * room.scale));
         strip.left = std::floor(
@@ -143,7 +143,7 @@ void PanelColumns::lay_out(const OpenPanels& open, const PanelRoom& room) {
         for (const Place* const place : places) {
             heights.push_back(place->wanted_height);
         }
-        const float between = gap * room.scale;
+        const float between = gap_px * room.scale;
         const float gaps =
             between * static_cast<float>(std::max<std::size_t>(places.size(), 1) - 1);
         heights = fitted(std::move(heights), strip.bottom - strip.top - gaps);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view first_line = "# octant panels: title = x y width height";
 constexpr double farthest = 32000.0;
-constexpr double smallest = 16.0;
+constexpr double smallest_px = 16.0;
 
 /// The numbers of "x y width height".
 std::optional<PanelRect> rect_from(std::string_view text) {
@@ -26,7 +26,7 @@ std::optional<PanelRect> rect_from(std::string_view text) {
     }
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto number = finite_number(words[i]);
-        if (!number || std::abs(*number) > farthest || (i >= 2 && *number < smallest)) {
+        if (!number || std::abs(*number) > farthest || (i >= 2 && *number < smallest_px)) {
             return std::nullopt;
         }
         numbers[i] = std::round(*number);

@@ -16,7 +16,7 @@ namespace {
 
 /// A little more than two of scene::screen_step_px. What is painted again is cut this much too wide
 /// where only that rounding could tell, so that no line of the covered thing shows along the cut.
-constexpr double rounding_px = 0.01;
+constexpr double paint_rounding_px = 0.01;
 
 double away_m2(const HullBox& box) {
     return glm::dot(box.centre_m, box.centre_m);
@@ -214,7 +214,7 @@ void ScenePainter::paint_members(const FrameScene& frame, const Knot& knot, Plan
 /// take too long.
 void ScenePainter::paint_tangle(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
     const StepWriter::Mark before = steps_.mark();
-    const double rounding_rad = rounding_px * frame.view.pixel_rad;
+    const double rounding_rad = paint_rounding_px * frame.view.pixel_rad;
     const auto cuts =
         repaint_.paint(members_, knot.box, frame.ground, in_front_.meeting(), rounding_rad, steps_);
     if (cuts) {

@@ -18,7 +18,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr int spokes = 36;
+constexpr int sky_spokes = 36;
 /// Only the direction shows: the sky has no depth.
 constexpr double dome_radius_m = 1000.0;
 
@@ -133,18 +133,18 @@ void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corne
 void Sky::add_dome(const nature::Daylight& day) {
     for (const double elevation_deg : rings_above_deg) {
         const double elevation_rad = rad_from_deg(elevation_deg);
-        for (int spoke = 0; spoke < spokes; ++spoke) {
+        for (int spoke = 0; spoke < sky_spokes; ++spoke) {
             const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / spokes);
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / sky_spokes);
             const double share = elevation_deg < 90.0 ? std::cos(elevation_rad) : 0.0;
             const glm::dvec3 direction(share * level.x, share * level.y, std::sin(elevation_rad));
             vertices_.push_back(dome_vertex(direction, day.sky(direction)));
         }
     }
-    vertices_.resize(vertices_.size() + std::size_t{rings_below} * spokes);
+    vertices_.resize(vertices_.size() + std::size_t{rings_below} * sky_spokes);
     for (int ring = 0; ring + 1 < rings_above + rings_below; ++ring) {
-        const auto upper = static_cast<std::uint32_t>(ring * spokes);
-        add_ring_triangles(upper, upper + spokes, spokes);
+        const auto upper = static_cast<std::uint32_t>(ring * sky_spokes);
+        add_ring_triangles(upper, upper + sky_spokes, sky_spokes);
     }
 }
 
@@ -213,14 +213,14 @@ Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m
         const glm::dvec2 to_rim_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
         beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_rim_m.x, to_rim_m.y));
     }
-    auto* vertex = &vertices_[std::size_t{rings_above} * spokes];
+    auto* vertex = &vertices_[std::size_t{rings_above} * sky_spokes];
     for (int ring = 1; ring <= rings_below; ++ring) {
         // The rings crowd towards the horizon, where the plain's colour changes fastest.
         const double share = ring / static_cast<double>(rings_below);
         const double elevation_rad = -deepest * share * share;
-        for (int spoke = 0; spoke < spokes; ++spoke, ++vertex) {
+        for (int spoke = 0; spoke < sky_spokes; ++spoke, ++vertex) {
             const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / spokes);
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / sky_spokes);
             const glm::dvec3 ray(
                 std::cos(elevation_rad) * level.x,
                 std::cos(elevation_rad) * level.y,

@@ -10,7 +10,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr std::size_t parts = 3; ///< Of a node.
+constexpr std::size_t parts_of_node = 3;
 constexpr std::size_t height_bytes = 2;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t multiple) {
@@ -76,11 +76,11 @@ GroundLayout::GroundLayout(int columns, int rows, bool has_both_rooms)
 
 /// Places the errors in a level's tiles, and the end of the tiles behind them.
 void GroundLayout::place_errors(Level& level, bool finest) const {
-    std::size_t planes = height_bytes * parts;
-    for (std::size_t part = 0; part < parts; ++part) {
+    std::size_t planes = height_bytes * parts_of_node;
+    for (std::size_t part = 0; part < parts_of_node; ++part) {
         level.errors[0][part] = planes++ * level.tile_nodes;
     }
-    for (std::size_t part = 0; part < parts; ++part) {
+    for (std::size_t part = 0; part < parts_of_node; ++part) {
         const bool is_needing = part == static_cast<std::size_t>(NodePart::Centre) || !finest;
         level.errors[1][part] =
             has_both_rooms_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];

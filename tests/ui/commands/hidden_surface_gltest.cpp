@@ -91,7 +91,10 @@ TEST_CASE("detail between samples, trees and houses are painted as the depth buf
     for (const char* const terrain : {"hills", "canyon"}) {
         for (const View view : {View::Chase, View::Tower}) {
             for (const auto& [detail, scenery] :
-                 {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
+                 {std::pair{true, true}, std::pair{true, false}, std::pair{false, true}}) {
+                if (view == View::Tower && !(detail && scenery)) {
+                    continue; // The tower looks at the same ground through the same steps.
+                }
                 INFO(terrain << " view " << static_cast<int>(view) << " " << detail << scenery);
                 ui::settings::RunSettings settings = canyon_flight("pop-up", "500md", view);
                 settings.path.terrain = terrain;

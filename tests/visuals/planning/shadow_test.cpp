@@ -17,7 +17,7 @@ using namespace octant::visuals::scene;
 
 namespace {
 
-double rolling(double x_m, double y_m) {
+double rolling_m(double x_m, double y_m) {
     return 3.0 * std::sin(x_m / 12.0) + 2.0 * std::cos(y_m / 9.0);
 }
 
@@ -29,7 +29,7 @@ struct Shadowed {
 
     Shadowed() {
         settings.surface.shadows = true;
-        scene.ground = cell_ground(40, 10.0, rolling);
+        scene.ground = cell_ground(40, 10.0, rolling_m);
         scene.add_model(convex_aircraft(box_model({8.0, 2.0, 1.0})));
         scene.aircraft = {0, 0};
         states = {
