@@ -31,10 +31,12 @@ void print_summary(
     }
     for (const report::Figure& figure : report::figures()) {
         std::fputs(
-            fmt::format(
-                "{:<28} {:.{}f}\n", figure.name, figure.value(end.statistics), figure.decimals)
+            fmt::format("{:<28} {}\n", figure.name, report::figure_text(figure, end.statistics))
                 .c_str(),
             stdout);
+    }
+    if (end.statistics.frames == 0) {
+        std::fputs("no frame was timed: statistics leave out the first (--warm-up)\n", stdout);
     }
     std::fputs(
         fmt::format(

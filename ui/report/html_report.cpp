@@ -110,11 +110,10 @@ std::string figures_table(const LoadedRecording& recording) {
                        "<th class=\"number\">Value</th><th>Definition</th></tr></thead>\n<tbody>\n";
     for (const Figure& figure : figures()) {
         html += fmt::format(
-            "<tr><td>{}</td><td class=\"number\">{:.{}f}</td><td "
+            "<tr><td>{}</td><td class=\"number\">{}</td><td "
             "class=\"definition\">{}</td></tr>\n",
             escaped(figure.name),
-            figure.value(recording.statistics),
-            figure.decimals,
+            figure_text(figure, recording.statistics),
             escaped(figure.definition));
     }
     return card(

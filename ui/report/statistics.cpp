@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cassert>
+#include <fmt/format.h>
 
 namespace octant::ui::report {
 
@@ -103,6 +104,13 @@ constexpr std::array all_figures{
 
 std::span<const Figure> figures() {
     return all_figures;
+}
+
+std::string figure_text(const Figure& figure, const Statistics& statistics) {
+    if (statistics.frames == 0 && figure.decimals > 0) {
+        return "-";
+    }
+    return fmt::format("{:.{}f}", figure.value(statistics), figure.decimals);
 }
 
 double nearest_rank(std::span<const double> sorted, int permille) {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace octant::ui::report {
 
 /// Frame-time figures of a flight, without its warm-up frames. Each is defined in words by
-/// figures(). No frames: all zero. One frame: sd and jitter are zero.
+/// figures(). No frames: all zero (figure_text() tells). One frame: sd and jitter are zero.
 struct Statistics {
     int frames = 0;
     double mean_ms = 0.0;
@@ -44,6 +45,9 @@ struct Figure {
 
 /// All figures in the order of run.json.
 std::span<const Figure> figures();
+
+/// A figure as people read it, with its decimals; "-" for a time or rate of no frames.
+std::string figure_text(const Figure& figure, const Statistics& statistics);
 
 /// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards.
 /// `permille` in [1, 1000]; 0 when there are no values.

@@ -13,6 +13,9 @@ using namespace octant::ui::report;
 
 TEST_CASE("no frames give zeros, and one frame has no deviation and no jitter") {
     CHECK(statistics_of({}) == Statistics{});
+    for (const Figure& figure : figures()) {
+        CHECK(figure_text(figure, {}) == (figure.decimals == 0 ? "0" : "-"));
+    }
     const std::array one{20.0};
     const Statistics got = statistics_of_times(one);
     CHECK(got.frames == 1);
