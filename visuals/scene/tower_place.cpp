@@ -145,7 +145,7 @@ double seen_from(
     const double flat = 1.0 - 0.7 * rising(steep_rad, upright_rad, std::abs(elevation_rad));
     const double balance = 1.0 - rising(0.25, 0.5, off);
     return calm * flat *
-           (0.25 * rising(0.08, 0.4, share) +
+           (rising(0.08, 0.4, share) * (0.21 + 0.04 * balance) +
             0.75 * balance * (0.3 + 0.7 * rising(few_samples, many_samples, samples)));
 }
 

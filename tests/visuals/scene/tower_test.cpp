@@ -157,3 +157,11 @@ TEST_CASE("the same flight has the same tower") {
     CHECK(one.skyline_rad == other.skyline_rad);
     CHECK(one.least_fov_rad == other.least_fov_rad);
 }
+
+TEST_CASE("coarse ground does not hold the lens wide where the picture shows sky alone") {
+    const Tower coarse{{0.0, 0.0, 20.0}, {}, 0.05};
+    const glm::dvec3 high_m(0.0, 1500.0, 900.0);
+    CHECK(share_of(tower_camera(coarse, high_m, radius_m), high_m) == Approx(0.5).epsilon(1e-3));
+    const glm::dvec3 low_m(0.0, 1500.0, 25.0);
+    CHECK(share_of(tower_camera(coarse, low_m, radius_m), low_m) < 0.4);
+}
