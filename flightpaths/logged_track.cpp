@@ -36,6 +36,20 @@ struct LeftOut {
     int jumps = 0;
 };
 
+/// How much was left out, behind `before`; empty when nothing was.
+std::string said_of(const LeftOut& left_out, std::string_view before = "") {
+    if (left_out.without_place + left_out.not_later + left_out.jumps == 0) {
+        return {};
+    }
+    return fmt::format(
+        "{}left out of the log: {} lines without place or time, {} of a moment that had been, "
+        "{} that only a jump leads to",
+        before,
+        left_out.without_place,
+        left_out.not_later,
+        left_out.jumps);
+}
+
 /// Reads the lines one by one and keeps those that fit.
 class LogReader {
 public:
@@ -79,7 +93,10 @@ public:
         if (samples_.size() < 2) {
             error_in(
                 log_.file,
-                fmt::format("expected at least 2 samples with a place, got {}", samples_.size()));
+                fmt::format(
+                    "expected at least 2 samples with a place, got {}{}",
+                    samples_.size(),
+                    said_of(left_out_, "; ")));
         }
         if (!has_velocities_) {
             fill_velocities(samples_);
@@ -261,14 +278,8 @@ private:
                 printable(altitude.name),
                 printable(altitude.name)));
         }
-        if (left_out_.without_place + left_out_.not_later + left_out_.jumps > 0) {
-            notes.push_back(fmt::format(
-                "left out of the log: {} lines without place or time, {} of a moment that had "
-                "been, "
-                "{} that only a jump leads to",
-                left_out_.without_place,
-                left_out_.not_later,
-                left_out_.jumps));
+        if (std::string left_out = said_of(left_out_); !left_out.empty()) {
+            notes.push_back(std::move(left_out));
         }
         return notes;
     }

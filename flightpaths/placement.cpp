@@ -81,7 +81,7 @@ std::vector<double> heights_on_map(
     const GroundHeight& ground) {
     GroundTrack track = ground_along(places_m, ground);
     if (track.leaves_at) {
-        throw Error(
+        throw LeavesMap(
             "path leaves the map at " +
             where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
     }
@@ -157,7 +157,7 @@ Choice chosen(
     }
     const auto as_is = turned(places_m, 0.0, placement.place_m);
     const std::size_t at = ground_along(as_is, ground).leaves_at.value_or(0);
-    throw Error(fmt::format(
+    throw LeavesMap(fmt::format(
         "path leaves the map at every heading, with heading 0 at {}",
         where(times_s[at], as_is[at])));
 }

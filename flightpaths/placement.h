@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_limits.h"
+#include "sim/base/error.h"
 #include "sim/base/ground_height.h"
 #include "sim/height_mode.h"
 #include "sim/trajectory.h"
@@ -38,13 +39,19 @@ struct PlacedPath {
     std::vector<std::string> notes;
 };
 
+/// A path goes beyond the map; the text says when and where.
+class LeavesMap : public Error {
+public:
+    using Error::Error;
+};
+
 /// Puts a path over ground. A clearance is the height of the aircraft's reference point (the origin
 /// of its body axes) over the ground right below it; lower parts of the aircraft are not looked at.
 /// Clearances are looked at every 1/120 s along the trajectory's curve.
 /// HeightMode::Follow guarantees `min_clearance_m` as Clear does; it alone needs the limits of what
 /// flies (asserted).
-/// Throws Error with time and place when the path leaves the map or, in any mode, meets the ground:
-/// at datum heights, or where `min_clearance_m` is not above zero.
+/// Throws Error with time and place when the path leaves the map (LeavesMap) or, in any mode, meets
+/// the ground: at datum heights, or where `min_clearance_m` is not above zero.
 PlacedPath place_over_ground(
     const sim::Trajectory& path,
     const Placement& placement,

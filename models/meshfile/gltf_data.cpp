@@ -7,7 +7,9 @@
 #include "sim/base/text_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace octant::models::meshfile {
 
@@ -326,7 +328,11 @@ std::string GltfData::buffer_bytes(const Json& buffer, const std::string& where)
     if (!name || !stays_inside(*name)) {
         refuse(where + ".uri", "a file in the folder of this one", in_quotes(text));
     }
-    return read_file(path_.parent_path() / *name, largest_gltf_bytes);
+    const std::filesystem::path file = path_.parent_path() / *name;
+    if (std::error_code ignored; !std::filesystem::exists(file, ignored)) {
+        refuse(where + ".uri", "a file that lies beside this one", in_quotes(text));
+    }
+    return read_file(file, largest_gltf_bytes);
 }
 
 } // namespace octant::models::meshfile

@@ -167,7 +167,11 @@ TEST_CASE("what no log of a flight may hold is refused with its line") {
         track_fault("time,lat,lon\n0,47,8\n") ==
         "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
         "east_m, alt_m or Time, Latitude, Longitude, Altitude), got time,lat,lon");
-    CHECK(track_fault(head + "0,,,\n") == " expected at least 2 samples with a place, got 0");
+    CHECK(
+        track_fault(head + "0,,,\n") ==
+        " expected at least 2 samples with a place, got 0; left out of the log: 1 lines without "
+        "place or time, 0 of a moment that had been, 0 that only a jump leads to");
+    CHECK(track_fault(head + "0,47,8,500\n") == " expected at least 2 samples with a place, got 1");
     CHECK(
         track_fault(head + "0,47,8,1e9\n1,47,8,0\n") ==
         "2: expected a place within 10000 km of the first");

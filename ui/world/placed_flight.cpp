@@ -101,6 +101,14 @@ flightpaths::PlacedPath placed_by_name(
     const GroundBelow& ground) {
     try {
         return placed(loaded, placement, ground);
+    } catch (const flightpaths::LeavesMap& fault) {
+        throw Error(fmt::format(
+            "{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, and "
+            "--terrain none has no end",
+            printable(name),
+            fault.what(),
+            ground.half_extent_m.x / 1000.0,
+            ground.half_extent_m.y / 1000.0));
     } catch (const Error& fault) {
         throw Error(fmt::format("{}: {}", printable(name), fault.what()));
     }

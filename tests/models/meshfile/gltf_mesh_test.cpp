@@ -164,7 +164,9 @@ TEST_CASE("data of glTF may lie in files beside it, but not outside its folder")
                               "one, got '"));
     }
     parts.uri = "none.bin";
-    CHECK(refused_gltf(parts) == "none.bin: expected a file, found none");
+    CHECK(
+        refused_gltf(parts) ==
+        "part.gltf: buffers[0].uri: expected a file that lies beside this one, got 'none.bin'");
 }
 
 TEST_CASE("a faulty glTF file is refused in one line that says what") {
