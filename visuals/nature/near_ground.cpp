@@ -49,24 +49,34 @@ NearGround::Triangles NearGround::made(
     const std::size_t count = mesh.indices.size() / 3;
     frame.indices.clear();
     first_of_.resize(count + 1);
+    const auto bears = [&](std::size_t triangle) {
+        const std::uint32_t* const corners = &mesh.indices[3 * triangle];
+        return reach_m > 0.0F && is_nearer(
+                                     {mesh.vertices[corners[0]].position_m,
+                                      mesh.vertices[corners[1]].position_m,
+                                      mesh.vertices[corners[2]].position_m},
+                                     reach_m);
+    };
     for (std::size_t step = 0; step < count; ++step) {
         const std::size_t triangle = far_first ? count - 1 - step : step;
         const std::uint32_t* const corners = &mesh.indices[3 * triangle];
         first_of_[far_first ? triangle + 1 : triangle] =
             static_cast<std::uint32_t>(frame.indices.size() / 3);
-        const std::array<glm::vec3, 3> corners_m = {
-            mesh.vertices[corners[0]].position_m,
-            mesh.vertices[corners[1]].position_m,
-            mesh.vertices[corners[2]].position_m};
-        const bool bears = is_nearer(corners_m, reach_m);
-        if (detail.fine_ground && survey_.is_near(triangle)) {
-            fine_.add(corners, bears, frame.indices);
-        } else {
-            if (bears) {
-                scenery_.add(corners_m, fine_.vertices(), frame.indices);
-            }
-            frame.indices.insert(frame.indices.end(), corners, corners + 3);
+        const bool is_near = detail.fine_ground && survey_.is_near(triangle);
+        const bool is_bearing = bears(triangle);
+        if (is_near) {
+            fine_.add(corners, is_bearing, frame.indices);
+            continue;
         }
+        if (is_bearing) {
+            scenery_.add(
+                {mesh.vertices[corners[0]].position_m,
+                 mesh.vertices[corners[1]].position_m,
+                 mesh.vertices[corners[2]].position_m},
+                fine_.vertices(),
+                frame.indices);
+        }
+        frame.indices.insert(frame.indices.end(), {corners[0], corners[1], corners[2]});
     }
     const auto all = static_cast<std::uint32_t>(frame.indices.size() / 3);
     first_of_[far_first ? 0 : count] = all;

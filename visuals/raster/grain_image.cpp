@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 
 namespace octant::visuals::raster {
@@ -71,11 +72,15 @@ GrainRays grain_rays(const scene::FramePlan& plan, const Projection& projection)
         rays.way[static_cast<std::size_t>(axis)] =
             ray_part(world_to_view[axis], view_to_clip, half_px);
     }
-    constexpr auto parts_a_tile = static_cast<float>(256 * GrainPattern::texels_a_side);
+    constexpr auto parts_a_texel = 256.0F;
+    constexpr auto parts_a_tile = parts_a_texel * GrainPattern::texels_a_side;
     for (std::size_t scale = 0; scale < GrainPattern::scales; ++scale) {
-        rays.at_eye[0][scale] = plan.grain->at_eye[scale].x * parts_a_tile;
-        rays.at_eye[1][scale] = plan.grain->at_eye[scale].y * parts_a_tile;
-        rays.at_eye[2][scale] = plan.grain->up_at_eye[scale] * parts_a_tile;
+        const float texels_per_m = std::ldexp(
+            GrainPattern::texels_per_m, -GrainPattern::levels_a_scale * static_cast<int>(scale));
+        rays.scales[scale] = {
+            plan.grain->at_eye[scale] * parts_a_tile,
+            plan.grain->up_at_eye[scale] * parts_a_tile,
+            parts_a_texel * texels_per_m};
     }
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;

@@ -5,6 +5,8 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/grain_pattern.h"
 
+#include <glm/vec2.hpp>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -38,8 +40,15 @@ const GrainImage& grain_image();
 struct GrainRays {
     /// World directions of the lines of sight, one unit deep: east, north and up.
     std::array<RealPlane, 3> way{};
-    /// The eye's place in the pattern, 1/256 texel: x at each scale, then y, then how high it is.
-    alignas(16) std::array<std::array<float, scene::GrainPattern::scales>, 3> at_eye{};
+
+    /// The pattern at a scale, 1/256 texel.
+    struct Scale {
+        glm::vec2 eye{0.0F}; ///< the eye's place
+        float eye_up = 0.0F; ///< how high it is
+        float parts_per_m = 0.0F;
+    };
+
+    std::array<Scale, scene::GrainPattern::scales> scales{};
     float haze_per_m = 0.0F; ///< as Light
     float haze_falloff_per_m = 0.0F;
     const std::uint32_t* contrast = nullptr; ///< scene::CoverContrast::table()

@@ -1,7 +1,7 @@
 // How near the ground of a tile is where its fine pattern is looked up: at every second pixel of
-// every second row, those of a row in two phases, so that the pattern can be found for one pair of
-// pixels in two first and for those between only where it must.
-// Included once for each instruction set.
+// every second row, those of a row in two phases, so that places in the pattern can be found for
+// one pair of pixels in two first and for those between only where they must. Included once for
+// each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_NEARNESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_NEARNESS_INL
 #undef OCTANT_RASTER_GRAIN_NEARNESS_INL
@@ -10,6 +10,7 @@
 #endif
 
 #include "visuals/raster/tile_counting-inl.h"
+#include "visuals/raster/triangle.h"
 
 #include <algorithm>
 #include <array>
@@ -53,6 +54,12 @@ struct Nearness {
     hn::Vec<Twos> down;
 };
 
+/// Pairs of pixels amid four others.
+struct PairsBetween {
+    hn::Mask<Twos> is_ground;
+    hn::Mask<Twos> is_even; ///< as near as the mean of these
+};
+
 /// The nearness of a tile's pairs by phases, in rows that stand for two of the tile's each. Right
 /// of the tile and below it the ground goes on as within it.
 class TileNearness {
@@ -60,7 +67,7 @@ public:
     HWY_INLINE TileNearness(const TileJob& job, const TileBuffer& buffer)
         : rows_((job.size_px.y + 1) / 2) {
         for (int row = 0; row < rows_; ++row) {
-            put_row(buffer.nearness_of_row(2 * row), row);
+            put_row(buffer.ground_of_row(2 * row), row);
         }
         if (any_ != 0) {
             go_on(1, 0, -1, true);
@@ -88,6 +95,26 @@ public:
             {hn::LoadU(real, own - row_size), hn::LoadU(real, own + row_size)});
     }
 
+    /// Those of a phase amid the nearest ones of the first phase in rows of even number.
+    HWY_INLINE PairsBetween amid(int row, std::size_t phase, std::size_t first) const {
+        const Twos real;
+        const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
+        const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
+        const auto both = [&](const float* corner) HWY_ATTR {
+            return hn::Add(hn::LoadU(real, corner), hn::LoadU(real, corner + phase));
+        };
+        const int away = row & 1;
+        const auto around =
+            hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
+        const auto here = hn::LoadU(real, own);
+        constexpr float most_off = 1.0F / 128.0F; // of four times itself: half a pixel's height
+        const auto off = hn::Sub(hn::Mul(here, twos(4.0F)), around);
+        const auto above = hn::LoadU(real, own - row_size);
+        return {
+            is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
+            hn::Le(hn::Abs(off), hn::Mul(here, twos(most_off)))};
+    }
+
     /// Of what lies right of the tile, in rows from one on.
     HWY_INLINE Nearness beside(int first_row) const {
         std::array<std::array<float, twos_at_once>, 4> columns{};
@@ -112,6 +139,12 @@ private:
     static constexpr std::size_t most_rows = tile_height / 2;
     static_assert(twos_a_phase + 1 < odd_pairs);
 
+    static HWY_INLINE hn::Mask<Twos>
+    is_seen(hn::Vec<Twos> own, hn::Vec<Twos> above, hn::Vec<Twos> before, hn::Vec<Twos> next) {
+        const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
+        return hn::Gt(least, hn::Zero(Twos()));
+    }
+
     static HWY_INLINE Nearness between(
         hn::Vec<Twos> own,
         const std::array<hn::Vec<Twos>, 2>& beside,
@@ -119,9 +152,8 @@ private:
         const auto& [before, next] = beside;
         const auto& [above, below] = above_and_below;
         const auto half = twos(0.5F);
-        const auto least = hn::Min(hn::Min(own, above), hn::Max(before, next));
         return {
-            hn::IfThenElseZero(hn::Gt(least, hn::Zero(Twos())), own),
+            hn::IfThenElseZero(is_seen(own, above, before, next), own),
             hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
             hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
     }
@@ -132,25 +164,26 @@ private:
 
     float* of_row(int row) { return const_cast<float*>(std::as_const(*this).of_row(row)); }
 
-    HWY_INLINE void put_row(const float* near, int row) {
+    HWY_INLINE void put_row(const std::uint32_t* ground, int row) {
         const Twos real;
+        const TwosBits bits;
         float* const to = of_row(row);
-        auto most = twos(near[0]);
+        const auto near_bits = twos_of(~GroundPlace::cover_bits);
+        auto any = hn::Zero(bits);
         for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
-            hn::Vec<Twos> even;
-            hn::Vec<Twos> odd;
-            hn::LoadInterleaved2(real, near + phases * i, even, odd);
-            hn::StoreU(even, real, to + i);
-            hn::StoreU(odd, real, to + odd_pairs + i);
-            most = hn::Max(most, hn::Max(even, odd));
+            hn::Vec<TwosBits> even;
+            hn::Vec<TwosBits> odd;
+            hn::LoadInterleaved2(bits, ground + phases * i, even, odd);
+            hn::StoreU(hn::BitCast(real, hn::And(even, near_bits)), real, to + i);
+            hn::StoreU(hn::BitCast(real, hn::And(odd, near_bits)), real, to + odd_pairs + i);
+            any = hn::Or(any, hn::Or(even, odd));
         }
-        const float last = near[twos_a_row - 1];
-        const float before = near[twos_a_row - 2];
+        const float last = to[odd_pairs + twos_a_phase - 1];
+        const float before = to[twos_a_phase - 1];
         to[twos_a_phase] = std::min(last, before) > 0.0F ? std::max(2.0F * last - before, 0.0F) : 0;
         to[odd_pairs - 1] = 0.0F;
         const std::uint32_t bit = std::uint32_t{1} << row;
-        const auto zero = hn::Zero(real);
-        any_ |= hn::AllTrue(real, hn::Eq(most, zero)) ? 0U : bit;
+        any_ |= hn::AllTrue(bits, hn::Eq(any, hn::Zero(bits))) ? 0U : bit;
     }
 
     /// The row beyond one at the tile's border, by the one before it, which need not see ground.

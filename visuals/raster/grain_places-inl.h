@@ -21,9 +21,9 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// A part of the lines of sight over a tile, from a row on.
+/// A part of the lines of sight over a tile.
 struct GrainRay {
-    float first; ///< of the row's first pixel
+    float first; ///< of the tile's first pixel
     float per_x; ///< from pixel to pixel
     float per_y;
 
@@ -32,11 +32,12 @@ struct GrainRay {
         , per_x(static_cast<float>(ray.per_x))
         , per_y(static_cast<float>(ray.per_y)) {}
 
-    /// Of the first pixels of every second pair of the row, from one on.
-    HWY_INLINE hn::Vec<Twos> in_row(std::size_t first_two) const {
+    /// Of the first pixels of every second pair of a row of the tile, from one on.
+    HWY_INLINE hn::Vec<Twos> in_row(std::size_t row, std::size_t first_two) const {
         const auto columns = hn::Add(
             hn::Mul(counting_from(Twos(), 0), twos(4.0F)), twos(static_cast<float>(2 * first_two)));
-        return hn::Add(twos(first), hn::Mul(columns, twos(per_x)));
+        const float of_row = first + static_cast<float>(row) * per_y;
+        return hn::Add(twos(of_row), hn::Mul(columns, twos(per_x)));
     }
 
     /// Of the pixels right of the tile, in every second row from one on.
@@ -48,7 +49,10 @@ struct GrainRay {
     }
 };
 
-/// The lines of sight of a row of a tile, or of all its rows: east, north and up.
+/// A part of the lines of sight at the first pixels of pairs.
+using GrainWay = std::array<hn::Vec<Twos>, 3>;
+
+/// The lines of sight of a tile: east, north and up.
 struct GrainWays {
     std::array<GrainRay, 3> part;
 
@@ -57,6 +61,17 @@ struct GrainWays {
               GrainRay(rays.way[0], first_px),
               GrainRay(rays.way[1], first_px),
               GrainRay(rays.way[2], first_px)} {}
+
+    HWY_INLINE GrainWay in_row(std::size_t row, std::size_t first_two) const {
+        return {
+            part[0].in_row(row, first_two),
+            part[1].in_row(row, first_two),
+            part[2].in_row(row, first_two)};
+    }
+
+    HWY_INLINE GrainWay beside(std::size_t first_row) const {
+        return {part[0].beside(first_row), part[1].beside(first_row), part[2].beside(first_row)};
+    }
 
     /// How far away ground one unit deep is in the middle of a tile.
     HWY_INLINE float length() const {
@@ -70,32 +85,31 @@ struct GrainWays {
     }
 };
 
-/// A part of the lines of sight at the first pixels of pairs.
-using GrainWay = std::array<hn::Vec<Twos>, 3>;
-
-/// A place in the pattern at one scale, 1/256 texel of its finest level.
-struct GrainPlace {
-    hn::Vec<TwosBits> x;
-    hn::Vec<TwosBits> y;
-};
-
-/// What the first pixels of pairs see of the pattern: a scale at the level of their size, and the
+/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the
 /// next coarser scale at its finest level.
 struct GrainPlaces {
-    GrainPlace fine;
-    GrainPlace coarse;
+    // 1/256 texel of the finest level.
+    hn::Vec<TwosWhole> fine_x;
+    hn::Vec<TwosWhole> fine_y;
+    hn::Vec<TwosWhole> coarse_x;
+    hn::Vec<TwosWhole> coarse_y;
+    /// The level, counted through all scales, 2^-24; its lowest bits are `ground` and `sides`.
     hn::Vec<TwosBits> level;
-    hn::Vec<TwosBits> next_level; ///< share of the next level, 1/256
-    hn::Vec<TwosBits> through;    ///< how far the scale's levels are gone through, 1/256
+    /// What the haze leaves, 2^-15; 0: no ground, or nothing is left.
+    hn::Vec<TwosBits> left;
+
+    static constexpr unsigned ground = 4; ///< there is some
+    static constexpr unsigned sides = 3;  ///< from which the pattern is laid over it
+    static constexpr int scale_shift = 26;
 };
 
 /// Finds them.
 class GrainLook {
 public:
     HWY_INLINE GrainLook(
-        const GrainRays& rays, const GrainWays& ways, const GrainWay& way, const Nearness& near) {
-        is_ground_ = hn::Gt(near.here, hn::Zero(Twos()));
-        depth_ = hn::Div(twos(1.0F), hn::Max(near.here, twos(1e-9F)));
+        const GrainRays& rays, const GrainWays& ways, const GrainWay& way, const Nearness& near)
+        : is_ground_(hn::Gt(near.here, hn::Zero(Twos())))
+        , depth_(hn::Div(twos(1.0F), hn::Max(near.here, twos(1e-9F)))) {
         GrainWay across;
         GrainWay down;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -109,27 +123,50 @@ public:
         // The pattern's finest features are two texels wide: half a level finer than usual will do.
         const auto widest = hn::Max(square(across), hn::Mul(square(down), twos(0.5F)));
         const auto depth2 = hn::Mul(depth_, depth_);
-        choose_levels(hn::Mul(widest, depth2));
-        // Four pixels span less than a texel of the level.
-        constexpr float texel2 =
-            1.0F / (scene::GrainPattern::texels_per_m * scene::GrainPattern::texels_per_m);
-        const auto wide2 = hn::Max(hn::Mul(widest, depth2), twos(texel2));
-        is_even_ = hn::Le(hn::Mul(hn::Mul(square(across), depth2), twos(16.0F)), wide2);
+        choose_level(hn::Mul(widest, depth2));
         choose_sides(across, down);
         look_at(rays);
     }
 
-    HWY_INLINE const GrainPlaces& places() const { return places_; }
+    /// `haze_per_depth`: by how much ground one unit deep dims.
+    HWY_INLINE GrainPlaces places(const GrainRays& rays, float haze_per_depth) const {
+        const TwosBits bits;
+        const auto of = [&](hn::Mask<Twos> which, unsigned bit) HWY_ATTR {
+            return hn::IfThenElseZero(hn::RebindMask(bits, which), twos_of(bit));
+        };
+        const auto flags = hn::Or(
+            of(is_ground_, GrainPlaces::ground),
+            hn::Or(of(upright_in_x_, 1), of(upright_in_y_, 2)));
+        const auto left = hn::IfThenElseZero(
+            hn::RebindMask(bits, is_ground_), left_of_haze(rays, haze_per_depth));
+        return {
+            fine_.x,
+            fine_.y,
+            coarse_.x,
+            coarse_.y,
+            hn::Or(hn::AndNot(twos_of(7), level_), flags),
+            left};
+    }
 
-    HWY_INLINE hn::Mask<Twos> is_ground() const { return is_ground_; }
+private:
+    /// As GrainPlaces has it.
+    struct Place {
+        hn::Vec<TwosWhole> x;
+        hn::Vec<TwosWhole> y;
+    };
 
-    /// Whether what they see changes so slowly along the row that it is even to the next pair but
-    /// one.
-    HWY_INLINE hn::Mask<Twos> is_even() const { return is_even_; }
+    struct PlaceM {
+        hn::Vec<Twos> x;
+        hn::Vec<Twos> y;
+    };
 
-    /// What the haze leaves, 2^-15, where ground one unit deep dims by so much. As scene::Haze, by
-    /// polynomials: the pattern need not fade to the bit.
-    HWY_INLINE hn::Vec<TwosBits> left(const GrainRays& rays, float haze_per_depth) const {
+    static HWY_INLINE hn::Vec<Twos> square(const GrainWay& way) {
+        return hn::Add(
+            hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
+    }
+
+    /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
+    HWY_INLINE hn::Vec<TwosBits> left_of_haze(const GrainRays& rays, float haze_per_depth) const {
         const auto fallen = hn::Mul(at_[2], twos(-rays.haze_falloff_per_m));
         const auto within = hn::Min(hn::Max(fallen, twos(-1.5F)), twos(6.0F));
         auto density = hn::Add(twos(1.0F / 24.0F), hn::Mul(within, twos(1.0F / 120.0F)));
@@ -144,12 +181,6 @@ public:
             share = hn::Mul(share, share);
         }
         return hn::BitCast(TwosBits(), hn::ConvertTo(TwosWhole(), hn::Mul(share, twos(32767.0F))));
-    }
-
-private:
-    static HWY_INLINE hn::Vec<Twos> square(const GrainWay& way) {
-        return hn::Add(
-            hn::Add(hn::Mul(way[0], way[0]), hn::Mul(way[1], way[1])), hn::Mul(way[2], way[2]));
     }
 
     /// From which side the pattern is laid over steep ground: by the normal of what is seen, which
@@ -171,17 +202,8 @@ private:
         any_upright_ = !hn::AllFalse(Twos(), is_steep);
     }
 
-    /// Not negative: whole tiles are added.
-    static HWY_INLINE hn::Vec<TwosBits> fixed(hn::Vec<Twos> parts_of_texels) {
-        constexpr int tiles = 1 << 30;
-        const auto parts = hn::ConvertTo(TwosWhole(), parts_of_texels);
-        return hn::BitCast(TwosBits(), hn::Add(parts, hn::Set(TwosWhole(), tiles)));
-    }
-
     /// By half the logarithm of the squared width of what is seen, straight between powers of two.
-    /// Most pixels take one level: the next one comes in over a third of the way only. A scale
-    /// gives way to the next one while its levels are gone through.
-    HWY_INLINE void choose_levels(hn::Vec<Twos> width2_m) {
+    HWY_INLINE void choose_level(hn::Vec<Twos> width2_m) {
         using scene::GrainPattern;
         constexpr std::int32_t of_one = 127 << 23; // the bits of 1.0
         constexpr int levels = GrainPattern::levels_a_scale * (GrainPattern::scales - 1);
@@ -190,82 +212,71 @@ private:
         const auto texels2 = hn::Mul(width2_m, twos(texels2_per_m2));
         const auto exponent =
             hn::Sub(hn::BitCast(TwosWhole(), texels2), hn::Set(TwosWhole(), of_one));
-        const auto within =
-            hn::Min(hn::Max(exponent, hn::Zero(TwosWhole())), hn::Set(TwosWhole(), most));
-        const auto bits = hn::BitCast(TwosBits(), within);
-        const auto part =
-            hn::BitCast(TwosWhole(), hn::And(hn::ShiftRight<16>(bits), twos_of(0xff)));
-        const auto from_band = hn::Sub(part, hn::Set(TwosWhole(), 85));
-        const auto thrice = hn::Add(hn::Add(from_band, from_band), from_band);
-        const auto share =
-            hn::Min(hn::Max(thrice, hn::Zero(TwosWhole())), hn::Set(TwosWhole(), 256));
-        // What has the next level whole has it alone.
-        const auto next = hn::ShiftRight<8>(hn::BitCast(TwosBits(), share));
-        static_assert(GrainPattern::levels_a_scale == 4);
-        scale_ = hn::ShiftRight<26>(bits);
-        places_.level = hn::Add(hn::And(hn::ShiftRight<24>(bits), twos_of(3)), next);
-        places_.next_level = hn::And(hn::BitCast(TwosBits(), share), twos_of(0xff));
-        places_.through = hn::And(hn::ShiftRight<18>(bits), twos_of(0xff));
-    }
-
-    HWY_INLINE void look_at(const GrainRays& rays) {
-        places_.fine = place_of(rays, scale_);
-        places_.coarse = place_of(rays, hn::Add(scale_, twos_of(1)));
-    }
-
-    /// The eye's part `part` of its place at scales.
-    static HWY_INLINE hn::Vec<Twos>
-    at_eye(const GrainRays& rays, std::size_t part, hn::Vec<TwosBits> scale) {
-        const Twos real;
-        const auto which = hn::IndicesFromVec(real, hn::BitCast(TwosWhole(), scale));
-        const float* const of_scales = rays.at_eye[part].data();
-        return hn::TableLookupLanes(hn::LoadDup128(real, of_scales), which);
+        level_ = hn::BitCast(
+            TwosBits(),
+            hn::Min(hn::Max(exponent, hn::Zero(TwosWhole())), hn::Set(TwosWhole(), most)));
     }
 
     /// At odd scales the pattern is turned by a right angle, and leans the other way.
-    HWY_INLINE GrainPlace place_of(const GrainRays& rays, hn::Vec<TwosBits> scale) const {
+    HWY_INLINE void look_at(const GrainRays& rays) {
         using scene::GrainPattern;
-        const Twos real;
-        static_assert(GrainPattern::scales == 4 && GrainPattern::texels_per_m == 8.0F);
-        static_assert(GrainPattern::scale_step == 16);
-        const auto is_odd = hn::RebindMask(real, hn::Ne(hn::And(scale, twos_of(1)), twos_of(0)));
-        const auto turned = hn::BitCast(real, hn::ShiftLeft<31>(scale)); // the sign of odd ones
-        const auto lean = [&](float per_m)
-                              HWY_ATTR { return hn::Xor(hn::Mul(at_[2], twos(per_m)), turned); };
-        const auto east = hn::Add(at_[0], lean(GrainPattern::lean.x));
-        const auto north = hn::Add(at_[1], lean(GrainPattern::lean.y));
-        auto x_m = hn::IfThenElse(is_odd, north, east);
-        auto y_m = hn::Xor(hn::IfThenElse(is_odd, east, north), turned);
-        auto eye_x = at_eye(rays, 0, scale);
-        auto eye_y = at_eye(rays, 1, scale);
+        const auto lean_east = hn::Mul(at_[2], twos(GrainPattern::lean.x));
+        const auto lean_north = hn::Mul(at_[2], twos(GrainPattern::lean.y));
+        PlaceM even{hn::Add(at_[0], lean_east), hn::Add(at_[1], lean_north)};
+        PlaceM odd{hn::Sub(at_[1], lean_north), hn::Sub(lean_east, at_[0])};
         if (any_upright_) {
-            const auto in_turn = [&](hn::Mask<Twos> odd, hn::Mask<Twos> even) HWY_ATTR {
-                return hn::Or(hn::And(is_odd, odd), hn::AndNot(is_odd, even));
-            };
-            const auto in_x = in_turn(upright_in_y_, upright_in_x_);
-            const auto in_y = in_turn(upright_in_x_, upright_in_y_);
-            const auto eye_up = at_eye(rays, 2, scale);
-            x_m = hn::IfThenElse(in_x, at_[2], x_m);
-            y_m = hn::IfThenElse(in_y, hn::Xor(at_[2], turned), y_m);
-            eye_x = hn::IfThenElse(in_x, eye_up, eye_x);
-            eye_y = hn::IfThenElse(in_y, hn::Xor(eye_up, turned), eye_y);
+            even.x = hn::IfThenElse(upright_in_x_, at_[2], even.x);
+            even.y = hn::IfThenElse(upright_in_y_, at_[2], even.y);
+            odd.x = hn::IfThenElse(upright_in_y_, at_[2], odd.x);
+            odd.y = hn::IfThenElse(upright_in_x_, hn::Neg(at_[2]), odd.y);
         }
-        const auto exponent = hn::Sub(twos_of(127 + 3 + 8), hn::ShiftLeft<2>(scale));
-        const auto parts_per_m = hn::BitCast(real, hn::ShiftLeft<23>(exponent));
-        return {
-            fixed(hn::Add(hn::Mul(x_m, parts_per_m), eye_x)),
-            fixed(hn::Add(hn::Mul(y_m, parts_per_m), eye_y))};
+        fine_ = {hn::Zero(TwosWhole()), hn::Zero(TwosWhole())};
+        coarse_ = fine_;
+        const auto scale_of_each = hn::ShiftRight<GrainPlaces::scale_shift>(level_);
+        // Pairs beside each other seldom see different scales.
+        for (std::size_t scale = 0; scale + 1 < GrainPattern::scales; ++scale) {
+            const auto is_it = hn::RebindMask(
+                TwosWhole(), hn::Eq(scale_of_each, twos_of(static_cast<unsigned>(scale))));
+            if (hn::AllFalse(TwosWhole(), is_it)) {
+                continue;
+            }
+            const bool is_odd = scale % 2 != 0;
+            const Place fine = place_of(rays, scale, is_odd ? odd : even);
+            const Place coarse = place_of(rays, scale + 1, is_odd ? even : odd);
+            fine_.x = hn::IfThenElse(is_it, fine.x, fine_.x);
+            fine_.y = hn::IfThenElse(is_it, fine.y, fine_.y);
+            coarse_.x = hn::IfThenElse(is_it, coarse.x, coarse_.x);
+            coarse_.y = hn::IfThenElse(is_it, coarse.y, coarse_.y);
+        }
+    }
+
+    HWY_INLINE Place place_of(const GrainRays& rays, std::size_t scale, const PlaceM& at_m) const {
+        const GrainRays::Scale& of = rays.scales[scale];
+        const auto fixed = [&](hn::Vec<Twos> place_m, hn::Vec<Twos> eye) HWY_ATTR {
+            const auto parts = hn::Add(hn::Mul(place_m, twos(of.parts_per_m)), eye);
+            return hn::ConvertTo(TwosWhole(), parts);
+        };
+        auto eye_x = twos(of.eye.x);
+        auto eye_y = twos(of.eye.y);
+        if (any_upright_) {
+            const bool is_odd = scale % 2 != 0;
+            const auto in_x = is_odd ? upright_in_y_ : upright_in_x_;
+            const auto in_y = is_odd ? upright_in_x_ : upright_in_y_;
+            eye_x = hn::IfThenElse(in_x, twos(of.eye_up), eye_x);
+            eye_y = hn::IfThenElse(in_y, twos(is_odd ? -of.eye_up : of.eye_up), eye_y);
+        }
+        return {fixed(at_m.x, eye_x), fixed(at_m.y, eye_y)};
     }
 
     hn::Mask<Twos> is_ground_;
     hn::Vec<Twos> depth_;
-    GrainWay at_; ///< metres from the eye
-    hn::Vec<TwosBits> scale_;
-    GrainPlaces places_;
-    hn::Mask<Twos> upright_in_x_; ///< the pattern's east is up
+    GrainWay at_;             ///< metres from the eye
+    hn::Vec<TwosBits> level_; ///< as GrainPlaces, but for its flags
+    Place fine_;
+    Place coarse_;
+    hn::Mask<Twos> upright_in_x_; ///< at even scales the pattern's east is up
     hn::Mask<Twos> upright_in_y_; ///< its north is
     bool any_upright_ = false;
-    hn::Mask<Twos> is_even_;
 };
 
 } // namespace HWY_NAMESPACE

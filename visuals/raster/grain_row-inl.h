@@ -1,5 +1,4 @@
-// What the pixels of a row of a tile see of the fine pattern of ground: looked up at one pair of
-// pixels in two, and at those between only where it is not even there.
+// What the pixels of a tile see of the fine pattern of ground.
 // Included once for each instruction set.
 #if defined(OCTANT_RASTER_GRAIN_ROW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GRAIN_ROW_INL
@@ -21,15 +20,13 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1.
-HWY_INLINE hn::Vec<TwosWhole>
-grain_of_level(const GrainImage& image, const GrainPlace& place, hn::Vec<TwosBits> level) {
+/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1. Places
+/// are as GrainPlaces::fine_x.
+HWY_INLINE hn::Vec<TwosWhole> grain_of_level(
+    const GrainImage& image, hn::Vec<TwosBits> x, hn::Vec<TwosBits> y, hn::Vec<TwosBits> level) {
     const TwosBits bits;
     const hn::Repartition<std::uint16_t, TwosBits> halves;
     const auto last = hn::Shr(twos_of(GrainImage::side - 1), level);
-    const auto half_texel = twos_of(128);
-    const auto x = hn::Sub(hn::Shr(place.x, level), half_texel);
-    const auto y = hn::Sub(hn::Shr(place.y, level), half_texel);
     const auto column = hn::And(hn::ShiftRight<8>(x), last);
     const auto in_level = hn::And(hn::ShiftRight<8>(y), last);
     const auto first_row =
@@ -46,10 +43,8 @@ grain_of_level(const GrainImage& image, const GrainPlace& place, hn::Vec<TwosBit
     const auto above = hn::BitCast(halves, hn::And(hn::ShiftRight<8>(four), byte_of_each));
     const auto up = hn::And(y, twos_of(0xff));
     const auto ups = hn::BitCast(halves, hn::Or(up, hn::ShiftLeft<16>(up)));
-    const auto both = hn::BitCast(
-        bits,
-        hn::Add(
-            hn::Mul(own, hn::Sub(hn::Set(halves, std::uint16_t{256}), ups)), hn::Mul(above, ups)));
+    const auto both =
+        hn::BitCast(bits, hn::Add(hn::ShiftLeft<8>(own), hn::Mul(hn::Sub(above, own), ups)));
     const auto left = hn::BitCast(TwosWhole(), hn::And(both, twos_of(0xffff)));
     const auto right = hn::BitCast(TwosWhole(), hn::ShiftRight<16>(both));
     const auto rightwards = hn::BitCast(TwosWhole(), hn::And(x, twos_of(0xff)));
@@ -57,163 +52,241 @@ grain_of_level(const GrainImage& image, const GrainPlace& place, hn::Vec<TwosBit
     return hn::Sub(mean, hn::Set(TwosWhole(), 128 * 256));
 }
 
-/// Both scales of the pattern together. The squares of their shares are about one, so that the
-/// contrast stays while one gives way to the other.
-HWY_INLINE hn::Vec<TwosWhole> grain_of(const GrainImage& image, const GrainPlaces& places) {
+/// Places of every second pair of a row, and of the one right of the tile.
+struct GrainOfRow {
+    using Each = std::array<std::uint32_t, twos_a_phase + 16>;
+
+    alignas(64) std::array<Each, 6> value; ///< as GrainPlaces
+
+    HWY_INLINE GrainPlaces places(std::size_t at) const {
+        const auto whole = [&](std::size_t which) HWY_ATTR {
+            return hn::BitCast(TwosWhole(), hn::LoadU(TwosBits(), &value[which][at]));
+        };
+        return {
+            whole(0),
+            whole(1),
+            whole(2),
+            whole(3),
+            hn::LoadU(TwosBits(), &value[4][at]),
+            hn::LoadU(TwosBits(), &value[5][at])};
+    }
+
+    HWY_INLINE void put(const GrainPlaces& places, std::size_t at) {
+        const auto put_one = [&](std::size_t which, auto values) HWY_ATTR {
+            hn::StoreU(hn::BitCast(TwosBits(), values), TwosBits(), &value[which][at]);
+        };
+        put_one(0, places.fine_x);
+        put_one(1, places.fine_y);
+        put_one(2, places.coarse_x);
+        put_one(3, places.coarse_y);
+        put_one(4, places.level);
+        put_one(5, places.left);
+    }
+
+    /// No ground.
+    void clear() {
+        for (Each& each : value) {
+            each.fill(0);
+        }
+    }
+};
+
+/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the
+/// lower half what the haze leaves of it, likewise; 0: no ground. Of both scales together: the
+/// squares of their shares are about one, so that the contrast stays while one gives way to the
+/// other while its levels are gone through. Most pixels take one level: the next one comes in over
+/// a third of the way only.
+HWY_INLINE hn::Vec<TwosBits> grain_seen(const GrainImage& image, const GrainPlaces& places) {
+    const TwosBits bits;
     const TwosWhole whole;
     const auto share_of = [&](hn::Vec<TwosWhole> value, hn::Vec<TwosWhole> share)
                               HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
-    auto fine = grain_of_level(image, places.fine, places.level);
-    const auto coarse = grain_of_level(image, places.coarse, hn::Zero(TwosBits()));
-    if (!hn::AllTrue(TwosBits(), hn::Eq(places.next_level, hn::Zero(TwosBits())))) {
-        const auto next = grain_of_level(image, places.fine, hn::Add(places.level, twos_of(1)));
-        fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, places.next_level)));
-    }
+    const auto half_texel = twos_of(128);
     const auto all = hn::Set(whole, 256);
-    const auto through = hn::BitCast(whole, places.through);
-    const auto left = hn::Sub(all, through);
+    const auto part = hn::BitCast(whole, hn::And(hn::ShiftRight<16>(places.level), twos_of(0xff)));
+    const auto from_band = hn::Sub(part, hn::Set(whole, 85));
+    const auto thrice = hn::Add(hn::Add(from_band, from_band), from_band);
+    const auto share = hn::Min(hn::Max(thrice, hn::Zero(whole)), all);
+    // What has the next level whole has it alone.
+    const auto is_next = hn::ShiftRight<8>(hn::BitCast(bits, share));
+    static_assert(scene::GrainPattern::levels_a_scale == 4);
+    const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), twos_of(3)), is_next);
+    const auto at_level = [&](hn::Vec<TwosBits> of) HWY_ATTR {
+        const auto place = [&](hn::Vec<TwosWhole> fine_place) HWY_ATTR {
+            return hn::Sub(hn::Shr(hn::BitCast(bits, fine_place), of), half_texel);
+        };
+        return grain_of_level(image, place(places.fine_x), place(places.fine_y), of);
+    };
+    const auto coarse = grain_of_level(
+        image,
+        hn::Sub(hn::BitCast(bits, places.coarse_x), half_texel),
+        hn::Sub(hn::BitCast(bits, places.coarse_y), half_texel),
+        hn::Zero(bits));
+    auto fine = at_level(level);
+    const auto next_level = hn::And(hn::BitCast(bits, share), twos_of(0xff));
+    if (!hn::AllTrue(bits, hn::Eq(next_level, hn::Zero(bits)))) {
+        const auto next = at_level(hn::Add(level, twos_of(1)));
+        fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, next_level)));
+    }
+    const auto through =
+        hn::BitCast(whole, hn::And(hn::ShiftRight<18>(places.level), twos_of(0xff)));
+    const auto before = hn::Sub(all, through);
     const auto both = hn::Add(
         share_of(fine, hn::Sub(all, share_of(through, through))),
-        share_of(coarse, hn::Sub(all, share_of(left, left))));
-    return hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
-}
-
-/// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the
-/// lower half what the haze leaves of it, likewise; 0: no ground.
-HWY_INLINE hn::Vec<TwosBits>
-grain_seen(const GrainRays& rays, const GrainLook& look, float haze_per_depth) {
-    const auto pattern = hn::BitCast(TwosBits(), grain_of(grain_image(), look.places()));
-    const auto seen = hn::Or(hn::ShiftLeft<16>(pattern), look.left(rays, haze_per_depth));
-    return hn::IfThenElseZero(hn::RebindMask(TwosBits(), look.is_ground()), seen);
+        share_of(coarse, hn::Sub(all, share_of(before, before))));
+    const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
+    const auto seen = hn::Or(hn::ShiftLeft<16>(hn::BitCast(bits, limited)), places.left);
+    return hn::IfThenZeroElse(hn::Eq(places.left, hn::Zero(bits)), seen);
 }
 
 /// What a row's pairs of pixels see, and what the one beside it does.
 struct GrainRow {
     alignas(64) std::array<std::uint32_t, twos_a_row + 16> seen;
 
-    HWY_INLINE hn::Vec<TwosWhole> at(std::size_t two) const {
-        return hn::LoadU(TwosWhole(), reinterpret_cast<const std::int32_t*>(&seen[two]));
-    }
-};
-
-/// In the middle between pairs that see ground; none between others. The mean of places that differ
-/// varies less than the pattern does: as much is added as they differ by.
-HWY_INLINE hn::Vec<TwosBits> seen_between(hn::Vec<TwosBits> one, hn::Vec<TwosBits> other) {
-    const TwosBits bits;
-    const TwosHalves halves;
-    const auto half = [&](hn::Vec<TwosBits> seen)
-                          HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, seen)); };
-    const auto mean = hn::Add(half(one), half(other));
-    const auto apart = hn::Abs(hn::Sub(half(one), half(other)));
-    const auto more = hn::ShiftLeft<1>(hn::MulHigh(mean, apart));
-    const auto pattern = hn::BitCast(halves, twos_of(0xffff0000U));
-    const auto both = hn::SaturatedAdd(mean, hn::And(more, pattern));
-    const auto is_none = hn::Or(hn::Eq(one, hn::Zero(bits)), hn::Eq(other, hn::Zero(bits)));
-    return hn::IfThenZeroElse(is_none, hn::BitCast(bits, both));
-}
-
-/// Every second pair of a row, and the one after them.
-using OfPhase = std::array<std::uint32_t, twos_a_phase + 16>;
-
-/// Finds what the pairs of every second row of a tile see.
-class RowLook {
-public:
-    HWY_INLINE RowLook(const TileJob& job, const TileNearness& nearness)
-        : job_(job)
-        , nearness_(nearness)
-        , haze_per_depth_(job.grain->haze_per_m * GrainWays(*job.grain, job.first_px).length()) {
-        const GrainWays ways(*job.grain, job.first_px);
-        for (std::size_t row = 0; row < beside_.size(); row += twos_at_once) {
-            const Nearness near = nearness.beside(static_cast<int>(row));
-            const GrainWay way{
-                ways.part[0].beside(2 * row),
-                ways.part[1].beside(2 * row),
-                ways.part[2].beside(2 * row)};
-            const GrainLook look(*job.grain, ways, way, near);
-            hn::StoreU(grain_seen(*job.grain, look, haze_per_depth_), TwosBits(), &beside_[row]);
-        }
-    }
-
-    HWY_INLINE void at(int row, GrainRow& grain) const {
-        alignas(64) OfPhase even;
-        alignas(64) OfPhase odd{};
-        const int in_tile = std::min(row, nearness_.rows() - 1);
-        even[twos_a_phase] = beside_[static_cast<std::size_t>(in_tile)];
-        alignas(64) OfPhase between;
-        if (!put_between(even, look(row, 0, even), between)) {
-            look(row, 1, odd);
-        }
-        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
-            const auto own = hn::LoadU(TwosBits(), &odd[i]);
-            const auto mean = hn::LoadU(TwosBits(), &between[i]);
-            const auto has_mean = hn::Ne(mean, hn::Zero(TwosBits()));
-            hn::StoreU(hn::IfThenElse(has_mean, mean, own), TwosBits(), &odd[i]);
-        }
-        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
-            hn::StoreInterleaved2(
-                hn::LoadU(TwosBits(), &even[i]),
-                hn::LoadU(TwosBits(), &odd[i]),
-                TwosBits(),
-                &grain.seen[2 * i]);
-        }
-        grain.seen[twos_a_row] = even[twos_a_phase];
-    }
-
     /// Between two rows.
-    static HWY_INLINE void between(const GrainRow& above, const GrainRow& below, GrainRow& grain) {
+    HWY_INLINE void put_between(const GrainRow& above, const GrainRow& below) {
         for (std::size_t two = 0; two < twos_a_row; two += twos_at_once) {
             const auto of = [&](const GrainRow& row)
-                                HWY_ATTR { return hn::LoadU(TwosBits(), &row.seen[two]); };
-            hn::StoreU(seen_between(of(above), of(below)), TwosBits(), &grain.seen[two]);
+                                HWY_ATTR { return hn::Load(TwosBits(), &row.seen[two]); };
+            hn::Store(seen_between(of(above), of(below)), TwosBits(), &seen[two]);
         }
-        grain.seen[twos_a_row] = below.seen[twos_a_row];
+        seen[twos_a_row] = below.seen[twos_a_row];
     }
 
 private:
-    /// A bit for each pair that sees ground which is even to the next one of its phase.
-    HWY_NOINLINE std::uint32_t look(int row, std::size_t phase, OfPhase& to) const {
-        std::uint32_t even = 0;
-        const GrainWays ways(*job_.grain, job_.first_px + glm::ivec2(0, 2 * row));
-        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
-            const Nearness near = nearness_.at(row, phase, i);
-            auto seen = hn::Zero(TwosBits());
-            if (!hn::AllFalse(Twos(), hn::Gt(near.here, hn::Zero(Twos())))) {
-                const std::size_t two = phases * i + phase;
-                const GrainWay way{
-                    ways.part[0].in_row(two), ways.part[1].in_row(two), ways.part[2].in_row(two)};
-                const GrainLook look(*job_.grain, ways, way, near);
-                seen = grain_seen(*job_.grain, look, haze_per_depth_);
-                alignas(8) std::array<std::uint8_t, 8> bits{};
-                hn::StoreMaskBits(Twos(), look.is_even(), bits.data());
-                constexpr std::uint32_t all = (1U << twos_at_once) - 1;
-                even |= ((bits[0] | static_cast<std::uint32_t>(bits[1]) << 8U) & all) << i;
-            }
-            hn::StoreU(seen, TwosBits(), &to[i]);
+    /// In the middle between pairs that see ground; none between others. The mean of places that
+    /// differ varies less than the pattern does: as much is added as they differ by.
+    static HWY_INLINE hn::Vec<TwosBits>
+    seen_between(hn::Vec<TwosBits> one, hn::Vec<TwosBits> other) {
+        const TwosBits bits;
+        const TwosHalves halves;
+        const auto half = [&](hn::Vec<TwosBits> of)
+                              HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, of)); };
+        const auto mean = hn::Add(half(one), half(other));
+        const auto apart = hn::Abs(hn::Sub(half(one), half(other)));
+        const auto more = hn::ShiftLeft<1>(hn::MulHigh(mean, apart));
+        const auto pattern = hn::BitCast(halves, twos_of(0xffff0000U));
+        const auto both = hn::SaturatedAdd(mean, hn::And(more, pattern));
+        const auto is_none = hn::Or(hn::Eq(one, hn::Zero(bits)), hn::Eq(other, hn::Zero(bits)));
+        return hn::IfThenZeroElse(is_none, hn::BitCast(bits, both));
+    }
+};
+
+/// Finds what the pairs of every second row of a tile see, and those of the row below it. Where
+/// they look is found by how near the ground is for one pair in four, the first phase of rows of
+/// even number; the others look in the middle of these where the ground goes on evenly from one to
+/// the other.
+class TileLook {
+public:
+    HWY_INLINE TileLook(const TileJob& job, const TileNearness& nearness)
+        : job_(job)
+        , nearness_(nearness)
+        , ways_(*job.grain, job.first_px)
+        , haze_per_depth_(job.grain->haze_per_m * ways_.length()) {
+        for (std::size_t row = 0; row < seen_beside_.size(); row += twos_at_once) {
+            const Nearness near = nearness_.beside(static_cast<int>(row));
+            const GrainLook look(*job_.grain, ways_, ways_.beside(2 * row), near);
+            const GrainPlaces places = look.places(*job_.grain, haze_per_depth_);
+            beside_.put(places, row);
+            hn::Store(grain_seen(grain_image(), places), TwosBits(), &seen_beside_[row]);
         }
-        return even;
     }
 
-    /// Between pairs of a phase that see ground, where the first of two is even; whether all are.
-    static HWY_INLINE bool put_between(const OfPhase& from, std::uint32_t even, OfPhase& to) {
-        const TwosBits bits;
-        bool all = true;
-        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
-            const auto which =
-                hn::And(twos_of(even >> i), hn::Shl(twos_of(1), counting_from(bits, 0)));
-            const auto mean =
-                seen_between(hn::LoadU(bits, &from[i]), hn::LoadU(bits, &from[i + 1]));
-            const auto is_none = hn::Eq(which, hn::Zero(bits));
-            const auto seen = hn::IfThenZeroElse(is_none, mean);
-            all = all && hn::AllTrue(bits, hn::Ne(seen, hn::Zero(bits)));
-            hn::StoreU(seen, bits, &to[i]);
+    /// Places of a row of even number.
+    HWY_NOINLINE void find(int in_tile, GrainOfRow& grain) const {
+        const std::size_t row = row_beside(in_tile);
+        for (std::size_t which = 0; which < grain.value.size(); ++which) {
+            grain.value[which][twos_a_phase] = beside_.value[which][row];
         }
-        return all;
+        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
+            grain.put(found(in_tile, 0, i), i);
+        }
+    }
+
+    /// Looks up a row between two of even number; one of these is its own above and below.
+    HWY_NOINLINE void
+    look(int row, const GrainOfRow& above, const GrainOfRow& below, GrainRow& grain) const {
+        const GrainImage& image = grain_image();
+        for (std::size_t i = 0; i < twos_a_phase; i += twos_at_once) {
+            const bool is_found = row % 2 == 0;
+            const auto even =
+                grain_seen(image, is_found ? above.places(i) : amid({row, 0, i}, above, below));
+            const auto odd = grain_seen(image, amid({row, 1, i}, above, below));
+            hn::StoreInterleaved2(even, odd, TwosBits(), &grain.seen[phases * i]);
+        }
+        grain.seen[twos_a_row] = seen_beside_[row_beside(row)];
+    }
+
+private:
+    /// Pairs from one on.
+    struct From {
+        int row;
+        std::size_t phase;
+        std::size_t first;
+    };
+
+    std::size_t row_beside(int row) const {
+        return static_cast<std::size_t>(std::min(row, nearness_.rows() - 1));
+    }
+
+    HWY_INLINE GrainPlaces found(int row, std::size_t phase, std::size_t first) const {
+        const auto way = ways_.in_row(static_cast<std::size_t>(2 * row), phases * first + phase);
+        const GrainLook look(*job_.grain, ways_, way, nearness_.at(row, phase, first));
+        return look.places(*job_.grain, haze_per_depth_);
+    }
+
+    /// Of pairs in the middle of others that are found.
+    HWY_INLINE GrainPlaces
+    amid(const From& from, const GrainOfRow& above, const GrainOfRow& below) const {
+        const TwosBits bits;
+        const TwosWhole whole;
+        const PairsBetween pairs = nearness_.amid(from.row, from.phase, from.first);
+        const auto is_ground = hn::RebindMask(bits, pairs.is_ground);
+        const GrainPlaces a = above.places(from.first);
+        const GrainPlaces b = above.places(from.first + from.phase);
+        const GrainPlaces c = below.places(from.first);
+        const GrainPlaces d = below.places(from.first + from.phase);
+        const auto differs = hn::And(
+            hn::Or(
+                hn::Xor(a.level, b.level),
+                hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
+            twos_of(~0U << GrainPlaces::scale_shift | GrainPlaces::ground | GrainPlaces::sides));
+        const auto has_none = hn::AndNot(a.level, twos_of(GrainPlaces::ground));
+        const auto is_alike = hn::And(
+            hn::RebindMask(bits, pairs.is_even), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
+        const auto mean = [&](auto i, auto j, auto k, auto l) HWY_ATTR {
+            return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l)));
+        };
+        const auto flags = hn::And(a.level, twos_of(7));
+        const auto level = hn::AndNot(twos_of(7), mean(a.level, b.level, c.level, d.level));
+        GrainPlaces places{
+            mean(a.fine_x, b.fine_x, c.fine_x, d.fine_x),
+            mean(a.fine_y, b.fine_y, c.fine_y, d.fine_y),
+            mean(a.coarse_x, b.coarse_x, c.coarse_x, d.coarse_x),
+            mean(a.coarse_y, b.coarse_y, c.coarse_y, d.coarse_y),
+            hn::Or(level, flags),
+            hn::IfThenElseZero(is_ground, mean(a.left, b.left, c.left, d.left))};
+        const auto is_other = hn::AndNot(is_alike, is_ground);
+        if (!hn::AllFalse(bits, is_other)) {
+            const GrainPlaces own = found(from.row, from.phase, from.first);
+            const auto is_own = hn::RebindMask(whole, is_other);
+            places.fine_x = hn::IfThenElse(is_own, own.fine_x, places.fine_x);
+            places.fine_y = hn::IfThenElse(is_own, own.fine_y, places.fine_y);
+            places.coarse_x = hn::IfThenElse(is_own, own.coarse_x, places.coarse_x);
+            places.coarse_y = hn::IfThenElse(is_own, own.coarse_y, places.coarse_y);
+            places.level = hn::IfThenElse(is_other, own.level, places.level);
+            places.left = hn::IfThenElse(is_other, own.left, places.left);
+        }
+        return places;
     }
 
     const TileJob& job_;
     const TileNearness& nearness_;
+    GrainWays ways_;
     float haze_per_depth_;
-    alignas(64) std::array<std::uint32_t, tile_height / 2> beside_; ///< of what lies right of it
+    // Of what lies right of the tile, by rows.
+    GrainOfRow beside_;
+    alignas(64) std::array<std::uint32_t, tile_height / 2> seen_beside_;
 };
 
 } // namespace HWY_NAMESPACE

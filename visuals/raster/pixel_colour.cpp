@@ -289,17 +289,6 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
     return by_levels(*one.triangle, column, row);
 }
 
-std::uint16_t grain_share_of(const TileTriangle& one, int column, int row) {
-    if (!one.triangle->has_grain) {
-        return 0;
-    }
-    if (one.triangle->fill == Fill::Perspective) {
-        return packed(one.extra->by_w[3].at(column, row) * depth_of(*one.extra, column, row));
-    }
-    const std::int32_t level = limited(one.triangle->levels, 3, column, row);
-    return static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
-}
-
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row) {
     std::uint32_t colour = 0;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -13,9 +13,6 @@ using PixelColour = std::array<std::uint16_t, 3>;
 /// The colour of a triangle at a pixel of the picture, whatever fills it.
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row);
 
-/// The share of grain of a triangle of levels at a pixel, in the same unit.
-std::uint16_t grain_share_of(const TileTriangle& one, int column, int row);
-
 /// The colour of a triangle of the overlay at a pixel, alpha in the highest byte, red in the
 /// lowest.
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row);

@@ -61,17 +61,6 @@ HWY_INLINE hn::Vec<Strip> from_level(hn::Vec<StripSigned> level) {
     return hn::ShiftRight<3>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128 + 4)));
 }
 
-/// What a sample adds to a plane of sums: of ground its cover's number in steps of two levels and,
-/// in the five lowest bits, itself. `colour`: 1/16 level from 0.
-template <class Values>
-HWY_INLINE Values of_sample(std::size_t plane, Values colour) {
-    const hn::DFromV<Values> values;
-    return plane < 3 ? colour
-                     : hn::Or(
-                           hn::And(colour, hn::Set(values, std::uint16_t{0xffe0})),
-                           hn::Set(values, std::uint16_t{1}));
-}
-
 /// A level over a strip, row by row: 1/128 level from the level 128, wrapping.
 struct StripLevel {
     std::uint32_t at; ///< where columns are counted from, 2^-16 level
@@ -106,21 +95,12 @@ struct StripLevel {
     HWY_INLINE hn::Vec<Strip> colour(std::size_t part) const { return from_level(level(part)); }
 };
 
-/// Red, green and blue; behind them the number of its covers where it is ground.
-template <bool has_grain>
-constexpr std::size_t level_planes = has_grain ? 4 : 3;
-
-/// The levels of a triangle over a strip.
-template <bool has_grain>
-HWY_INLINE std::array<StripLevel, level_planes<has_grain>>
+/// Red, green and blue of a triangle over a strip.
+HWY_INLINE std::array<StripLevel, 3>
 strip_levels(const Levels& levels, const glm::ivec2& from_px, int columns_right) {
     const auto level = [&](std::size_t k)
                            HWY_ATTR { return StripLevel(levels, k, from_px, columns_right); };
-    if constexpr (has_grain) {
-        return {level(0), level(1), level(2), level(3)};
-    } else {
-        return {level(0), level(1), level(2)};
-    }
+    return {level(0), level(1), level(2)};
 }
 
 /// A bit for each pixel of so many parts of a strip that has a value.

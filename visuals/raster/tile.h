@@ -100,13 +100,14 @@ struct TileBuffer {
     static constexpr std::size_t padding = 2 * tile_width; ///< two rows may be at hand at once
 
     alignas(64) std::array<std::uint16_t, pixels + padding> covered{};
-    /// Red, green, blue, 1/256 level; and, where the picture has grain, the ground (of_sample()).
+    /// Red, green, blue, 1/256 level; and, where the picture has grain, how many samples show
+    /// anything but ground that has it.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
     /// Where the picture has grain: of the first pixel, third, and so on of the first row, third,
-    /// and so on, one over the depth of the ground that was painted there last, 1/m; 0: none. Rows
-    /// follow each other without gaps; there is room before the first one and behind the last.
-    static constexpr std::size_t nearness_room = 16;
-    alignas(64) std::array<float, pixels / 4 + 2 * nearness_room> nearness{};
+    /// and so on, the GroundPlace that was painted there last; 0: none. Rows follow each other
+    /// without gaps; there is room before the first one and behind the last.
+    static constexpr std::size_t ground_room = 16;
+    alignas(64) std::array<std::uint32_t, pixels / 4 + 2 * ground_room> ground{};
     /// A bit for each column that is covered whole; one row more than there are.
     std::array<std::uint64_t, tile_height + 1> full{};
     std::uint32_t full_rows = 0; ///< a bit for each row that is covered whole
@@ -127,12 +128,12 @@ struct TileBuffer {
     std::vector<std::uint32_t> waiting_colour;
 
     /// Of a row of even number.
-    float* nearness_of_row(int row) {
-        return nearness.data() + nearness_room + static_cast<std::size_t>(row) * (tile_width / 4);
+    std::uint32_t* ground_of_row(int row) {
+        return ground.data() + ground_room + static_cast<std::size_t>(row) * (tile_width / 4);
     }
 
-    const float* nearness_of_row(int row) const {
-        return const_cast<TileBuffer*>(this)->nearness_of_row(row);
+    const std::uint32_t* ground_of_row(int row) const {
+        return const_cast<TileBuffer*>(this)->ground_of_row(row);
     }
 };
 

@@ -63,7 +63,7 @@ nearer_pixels(std::uint32_t pixels, float first, float per_px, DepthRule rule, f
 /// Colours pixels of a strip, a bit each, whatever is there.
 HWY_INLINE void colour_over(
     std::uint32_t pixels,
-    const std::array<StripLevel, 4>& levels,
+    const std::array<StripLevel, 3>& levels,
     std::size_t first,
     TileBuffer& buffer) {
     alignas(8) std::array<std::uint8_t, 8> bits{};
@@ -86,7 +86,6 @@ HWY_INLINE void colour_over(
 HWY_INLINE void grain_over(
     std::uint32_t pixels,
     const Triangle& triangle,
-    const StripLevel& share,
     const TileJob& job,
     const glm::ivec2& at,
     TileBuffer& buffer) {
@@ -96,12 +95,12 @@ HWY_INLINE void grain_over(
     for (std::size_t i = 0; i < strip_parts; ++i) {
         const std::size_t part = i * part_px;
         const auto is_drawn = hn::LoadMaskBits(Strip(), bits.data() + part / 8);
-        const auto value = triangle.has_grain ? hn::ShiftLeft<4>(of_sample(3, share.colour(i)))
-                                              : hn::Zero(Strip());
+        const auto beside =
+            hn::Set(Strip(), triangle.has_grain ? std::uint16_t{0} : std::uint16_t{16});
         std::uint16_t* const sums = buffer.sums[3].data() + first + part;
-        hn::StoreU(hn::IfThenElse(is_drawn, value, hn::LoadU(Strip(), sums)), Strip(), sums);
+        hn::StoreU(hn::IfThenElse(is_drawn, beside, hn::LoadU(Strip(), sums)), Strip(), sums);
         if (triangle.has_grain) {
-            put_nearness(
+            put_ground(
                 Strip(),
                 triangle,
                 job,
@@ -114,7 +113,7 @@ HWY_INLINE void grain_over(
          left &= left - 1) {
         const int column = at.x + std::countr_zero(left);
         if (column % 2 == 0) {
-            buffer.nearness_of_row(at.y)[column / 2] = 0.0F;
+            buffer.ground_of_row(at.y)[column / 2] = 0;
         }
     }
 }
@@ -132,7 +131,7 @@ HWY_INLINE void paint_strip_over(
     const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
     const DepthRule rule(triangle.depth);
-    auto levels = strip_levels<true>(triangle.levels, box_px, left - box.left);
+    auto levels = strip_levels(triangle.levels, box_px, left - box.left);
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         const std::uint32_t bent = (row < first_lower ? upper : lower).pixels_from();
@@ -152,7 +151,7 @@ HWY_INLINE void paint_strip_over(
         if (drawn != 0 && rule.colours) {
             colour_over(drawn, levels, pixel, buffer);
             if (job.grain != nullptr) {
-                grain_over(drawn, triangle, levels[3], job, {left, row}, buffer);
+                grain_over(drawn, triangle, job, {left, row}, buffer);
             }
         }
         whole.x += whole.slope;
@@ -200,14 +199,10 @@ HWY_INLINE void paint_pixels_over(
             }
             if (job.grain != nullptr) {
                 const Triangle& triangle = *one.triangle;
-                buffer.sums[3][pixel] =
-                    triangle.has_grain
-                        ? static_cast<std::uint16_t>(
-                              ((grain_share_of(one, at.x, at.y) & 0xffe0U) | 1U) * 16U)
-                        : std::uint16_t{0};
+                buffer.sums[3][pixel] = triangle.has_grain ? 0 : 16;
                 if (column % 2 == 0 && row % 2 == 0) {
-                    buffer.nearness_of_row(row)[column / 2] =
-                        triangle.has_grain ? nearness_at(triangle, at.x, at.y) : 0.0F;
+                    buffer.ground_of_row(row)[column / 2] =
+                        triangle.has_grain ? ground_at(triangle, at.x, at.y) : 0;
                 }
             }
         }

@@ -63,7 +63,7 @@ HWY_INLINE void add_level(
         hn::Min(hn::Max(raw, hn::Set(sign, levels.least[k])), hn::Set(sign, levels.most[k]));
     // To 1/16 level from 0, rounded.
     const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
-    const auto colour = of_sample(k, hn::ShiftRight<3>(from_zero));
+    const auto colour = hn::ShiftRight<3>(from_zero);
     hn::StoreU(hn::Add(hn::LoadU(px, sums), hn::Mul(colour, counts)), px, sums);
 }
 
@@ -147,6 +147,9 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                 if (shift < tile_width) {
                     buffer.full[static_cast<std::size_t>(at)] |= full << shift;
                 }
+                if (job.grain != nullptr && !triangle.has_grain) {
+                    count_beside(Pixels(), pixel + i, counts, buffer);
+                }
                 if (triangle.fill != Fill::Levels && triangle.fill != Fill::Perspective) {
                     alignas(32) std::array<std::uint16_t, px_at_once> each;
                     hn::Store(counts, Pixels(), each.data());
@@ -169,13 +172,13 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                             *one.extra, column, job.first_px.x + places.last, row, walk);
                     }
                 }
-                for (std::size_t k = 0; k < (triangle.has_grain ? 4 : 3); ++k) {
+                for (std::size_t k = 0; k < 3; ++k) {
                     add_level(
                         walk, triangle.levels, k, i, counts, buffer.sums[k].data() + pixel + i);
                 }
                 if (triangle.has_grain) {
                     const glm::ivec2 from(in_tile + static_cast<int>(i), at);
-                    put_nearness(Pixels(), triangle, job, from, counts, buffer);
+                    put_ground(Pixels(), triangle, job, from, counts, buffer);
                 }
             }
         }

@@ -24,36 +24,79 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// Changes colours of a row of pixels from `first` on by the pattern.
+/// Changes colours of a row of pixels of a tile by the pattern. `ground`: of its pairs of pixels.
 HWY_INLINE void change_row(
-    const GrainRow& grain, const std::uint32_t* table, std::size_t first, TileBuffer& buffer) {
+    const GrainRow& grain,
+    const std::uint32_t* ground,
+    const std::uint32_t* table,
+    int row,
+    TileBuffer& buffer) {
+    const TwosBits bits;
     const TwosHalves halves;
     const hn::RebindToUnsigned<TwosHalves> values;
     const auto white = hn::Set(values, std::uint16_t{255 * 256});
+    const auto middle = hn::Set(values, std::uint16_t{0x8000});
+    const auto all = hn::Set(values, std::uint16_t{16});
+    const bool is_full = (buffer.full_rows >> row & 1U) != 0;
     for (std::size_t two = 0; two < twos_a_row; two += twos_at_once) {
-        const std::size_t at = first + 2 * two;
-        const GroundOfPixels ground(hn::LoadU(values, buffer.sums[3].data() + at));
-        const ContrastOfTwos contrast(grain, two, hn::BitCast(TwosBits(), ground.kind), table);
-        const auto left = hn::And(hn::LoadU(TwosBits(), &grain.seen[two]), twos_of(0x7fff));
-        const auto left_of_both = hn::BitCast(values, hn::Or(left, hn::ShiftLeft<16>(left)));
+        const auto seen = hn::Load(bits, &grain.seen[two]);
+        if (hn::AllTrue(bits, hn::Eq(seen, hn::Zero(bits)))) {
+            continue;
+        }
+        const std::size_t at = static_cast<std::size_t>(row) * tile_width + 2 * two;
+        const ContrastOfTwos contrast(
+            seen, hn::LoadU(bits, &grain.seen[two + 1]), hn::LoadU(bits, ground + two), table);
+        const auto left = hn::And(seen, twos_of(0x7fff));
+        auto of_ground = hn::BitCast(values, hn::Or(left, hn::ShiftLeft<16>(left)));
         // Where other things than ground cover some samples, only the ground's share changes.
-        const auto is_whole = hn::Eq(ground.samples, hn::Set(values, std::uint16_t{16}));
-        const auto of_some = hn::MulHigh(left_of_both, hn::ShiftLeft<12>(ground.samples));
-        const auto of_ground = hn::BitCast(halves, hn::IfThenElse(is_whole, left_of_both, of_some));
+        const auto beside = hn::LoadU(values, buffer.sums[3].data() + at);
+        if (!is_full || !hn::AllTrue(values, hn::Eq(beside, hn::Zero(values)))) {
+            const auto covered = hn::LoadU(values, buffer.covered.data() + at);
+            const auto count = hn::Sub(hn::PopulationCount(covered), beside);
+            const auto of_some = hn::MulHigh(of_ground, hn::ShiftLeft<12>(count));
+            of_ground = hn::IfThenElse(hn::Eq(count, all), of_ground, of_some);
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + at;
-            const auto own = hn::LoadU(values, sums);
-            const auto half_own = hn::BitCast(halves, hn::ShiftRight<1>(own));
-            const auto seen = hn::ShiftLeft<1>(hn::MulHigh(contrast.part[k], of_ground));
-            const auto quarter = hn::MulHigh(half_own, seen);
-            const auto times_four = [&](hn::Vec<TwosHalves> value) HWY_ATTR {
-                return hn::ShiftLeft<2>(hn::BitCast(values, hn::Max(value, hn::Zero(halves))));
-            };
-            const auto brighter = hn::Min(hn::SaturatedAdd(own, times_four(quarter)), white);
-            hn::StoreU(hn::SaturatedSub(brighter, times_four(hn::Neg(quarter))), values, sums);
+            const auto change =
+                hn::MulFixedPoint15(contrast.part[k], hn::BitCast(halves, of_ground));
+            const auto half =
+                hn::MulHigh(hn::LoadU(values, sums), hn::Xor(hn::BitCast(values, change), middle));
+            hn::StoreU(hn::Min(hn::SaturatedAdd(half, half), white), values, sums);
         }
     }
 }
+
+/// Changes rows of pixels by what pairs in rows one after the other see.
+class GrainWalk {
+public:
+    HWY_INLINE GrainWalk(const TileJob& job, const TileNearness& nearness, TileBuffer& buffer)
+        : job_(job)
+        , nearness_(nearness)
+        , buffer_(buffer) {}
+
+    /// The pixels between a row of pairs and the one above it, and its own.
+    HWY_NOINLINE void change(int row, const GrainRow& above, const GrainRow& own) {
+        const bool is_seen = nearness_.has_ground(row);
+        if (is_seen && row > 0 && nearness_.has_ground(row - 1)) {
+            GrainRow between;
+            between.put_between(above, own);
+            change_pixels(2 * row - 1, between);
+        }
+        if (is_seen && 2 * row < job_.size_px.y) {
+            change_pixels(2 * row, own);
+        }
+    }
+
+private:
+    HWY_INLINE void change_pixels(int row, const GrainRow& grain) {
+        change_row(grain, buffer_.ground_of_row(row & ~1), job_.grain->contrast, row, buffer_);
+    }
+
+    const TileJob& job_;
+    const TileNearness& nearness_;
+    TileBuffer& buffer_;
+};
 
 /// Changes what a tile's pixels have summed up by the fine pattern, where its triangles are
 /// painted.
@@ -62,26 +105,39 @@ HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
     if (!nearness.has_ground()) {
         return;
     }
-    const RowLook look(job, nearness);
-    std::array<GrainRow, 3> rows;
-    GrainRow* above = &rows[0];
-    GrainRow* below = &rows[1];
-    const auto change = [&](int row, const GrainRow& grain) HWY_ATTR {
-        change_row(grain, job.grain->contrast, static_cast<std::size_t>(row) * tile_width, buffer);
-    };
-    for (int row = 0; row <= job.size_px.y / 2; ++row) {
-        const bool is_seen = nearness.has_ground(row);
-        if (is_seen) {
-            look.at(row, *below);
+    const TileLook look(job, nearness);
+    GrainWalk walk(job, nearness, buffer);
+    std::array<GrainOfRow, 2> places;
+    GrainRow even;
+    std::array<GrainRow, 2> odd; ///< the one before `even`, and the one behind it
+    GrainOfRow* above = &places[0];
+    GrainOfRow* below = &places[1];
+    const int last = job.size_px.y / 2;
+    // Places are written a while before they are read.
+    for (int row = 0; row < last + 2; row += 2) {
+        if (row <= last && nearness.has_ground(row)) {
+            look.find(row, *below);
+        } else {
+            below->clear();
         }
-        if (is_seen && row > 0 && nearness.has_ground(row - 1)) {
-            RowLook::between(*above, *below, rows[2]);
-            change(2 * row - 1, rows[2]);
-        }
-        if (is_seen && 2 * row < job.size_px.y) {
-            change(2 * row, *below);
+        if (row > 0) {
+            if (nearness.has_ground(row - 2)) {
+                look.look(row - 2, *above, *above, even);
+            }
+            if (nearness.has_ground(row - 1)) {
+                look.look(row - 1, *above, *below, odd[1]);
+            }
+            walk.change(row - 2, odd[0], even);
+            walk.change(row - 1, even, odd[1]);
+            odd[0] = odd[1];
         }
         std::swap(above, below);
+    }
+    if (last % 2 == 0) {
+        if (nearness.has_ground(last)) {
+            look.look(last, *above, *above, even);
+        }
+        walk.change(last, odd[0], even);
     }
 }
 

@@ -23,13 +23,13 @@ HWY_BEFORE_NAMESPACE();
 namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 
-/// How near the ground is in the parts of a strip that begins at a column of the tile.
-template <bool has_grain, std::size_t parts>
-HWY_INLINE auto nearness_of_parts(const Triangle& triangle, const TileJob& job, int left) {
-    if constexpr (has_grain) {
+/// The ground in the parts of a strip that begins at a column of the tile.
+template <PaintAs kind, std::size_t parts>
+HWY_INLINE auto ground_of_parts(const Triangle& triangle, const TileJob& job, int left) {
+    if constexpr (kind == PaintAs::Ground) {
         return [&]<std::size_t... part>(std::index_sequence<part...>) HWY_ATTR {
-            return std::array{NearnessOfColumns<Strip>(
-                triangle, job, left + static_cast<int>(part * part_px))...};
+            return std::array{
+                GroundOfColumns<Strip>(triangle, job, left + static_cast<int>(part * part_px))...};
         }
         (std::make_index_sequence<parts>());
     } else {
@@ -39,7 +39,7 @@ HWY_INLINE auto nearness_of_parts(const Triangle& triangle, const TileJob& job, 
 
 /// Paints the strip of a triangle that begins at a column of the tile, or as many parts of it as
 /// have columns.
-template <bool has_grain, std::size_t parts>
+template <PaintAs kind, std::size_t parts>
 HWY_INLINE void paint_strip(
     const Triangle& triangle,
     const TileJob& job,
@@ -48,8 +48,8 @@ HWY_INLINE void paint_strip(
     int left,
     TileBuffer& buffer) {
     const glm::ivec2 box_px = job.first_px + glm::ivec2(box.left, box.first_row);
-    auto levels = strip_levels<has_grain>(triangle.levels, box_px, left - box.left);
-    [[maybe_unused]] const auto nearness = nearness_of_parts<has_grain, parts>(triangle, job, left);
+    auto levels = strip_levels(triangle.levels, box_px, left - box.left);
+    [[maybe_unused]] const auto ground = ground_of_parts<kind, parts>(triangle, job, left);
     using Values = PartValues<parts>;
     const auto paint = [&](int row, const Values& /*masks*/, const Values& fresh) HWY_ATTR {
         for (std::size_t i = 0; i < parts; ++i) {
@@ -57,14 +57,16 @@ HWY_INLINE void paint_strip(
             const auto counts = hn::PopulationCount(fresh[i]);
             for (std::size_t k = 0; k < levels.size(); ++k) {
                 std::uint16_t* const sums = buffer.sums[k].data() + at;
-                const auto colour = of_sample(k, levels[k].colour(i));
+                const auto colour = levels[k].colour(i);
                 const auto sum = hn::Add(hn::LoadU(Strip(), sums), hn::Mul(colour, counts));
                 hn::StoreU(sum, Strip(), sums);
             }
-            if constexpr (has_grain) {
+            if constexpr (kind == PaintAs::Ground) {
                 if (row % 2 == 0) {
-                    nearness[i].put(row, fresh[i], buffer);
+                    ground[i].put(row, fresh[i], buffer);
                 }
+            } else if constexpr (kind == PaintAs::Beside) {
+                count_beside(Strip(), at, counts, buffer);
             }
         }
     };
@@ -93,7 +95,7 @@ struct MiddleEdge {
 
 /// paint_strip() where all lanes of a pixel share its middle: a triangle covers a pixel or does
 /// not.
-template <bool has_grain>
+template <PaintAs kind>
 HWY_INLINE void paint_strip_of_middles(
     const Triangle& triangle,
     const TileJob& job,
@@ -109,7 +111,7 @@ HWY_INLINE void paint_strip_of_middles(
     MiddleEdge lower(triangle.lower, triangle.middle, first_px);
     const std::uint32_t bends_left = triangle.middle_is_left ? ~0U : 0U;
     const int first_lower = first_row_of(triangle.middle) - job.first_px.y;
-    auto levels = strip_levels<has_grain>(triangle.levels, box_px, left - box.left);
+    auto levels = strip_levels(triangle.levels, box_px, left - box.left);
     auto pixel = static_cast<std::size_t>(box.first_row * tile_width + left);
     for (int row = box.first_row; row <= box.last_row; ++row, pixel += tile_width) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
@@ -132,13 +134,16 @@ HWY_INLINE void paint_strip_of_middles(
                     hn::IfThenElse(is_fresh, all, hn::LoadU(Strip(), covered)), Strip(), covered);
                 for (std::size_t k = 0; k < levels.size(); ++k) {
                     std::uint16_t* const sums = buffer.sums[k].data() + at;
-                    const auto sixteen = hn::ShiftLeft<4>(of_sample(k, levels[k].colour(i)));
+                    const auto sixteen = hn::ShiftLeft<4>(levels[k].colour(i));
                     hn::StoreU(
                         hn::IfThenElse(is_fresh, sixteen, hn::LoadU(Strip(), sums)), Strip(), sums);
                 }
-                if constexpr (has_grain) {
+                if constexpr (kind == PaintAs::Beside) {
+                    const auto sixteen = hn::Set(Strip(), std::uint16_t{16});
+                    count_beside(Strip(), at, hn::IfThenElseZero(is_fresh, sixteen), buffer);
+                } else if constexpr (kind == PaintAs::Ground) {
                     const auto columns_right = static_cast<int>(i * part_px);
-                    put_nearness(
+                    put_ground(
                         Strip(),
                         triangle,
                         job,
@@ -158,26 +163,32 @@ HWY_INLINE void paint_strip_of_middles(
 }
 
 /// Paints a triangle of Fill::Levels that no plane cuts.
-template <bool has_grain>
+template <PaintAs kind>
 HWY_NOINLINE void paint_levels(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    const TileBox box(triangle, job);
+    TileBox box(triangle, job);
     if ((box.rows() & ~buffer.full_rows) == 0) {
         return;
     }
+    if constexpr (kind == PaintAs::Ground) {
+        box.left &= ~1; // where the ground is noted
+    }
     if constexpr (has_pairs_of_rows) {
         if (!lanes.are_one && box.right - box.left < window_px) {
-            paint_levels_in_pairs<has_grain>(triangle, job, lanes, box, buffer);
+            if constexpr (kind == PaintAs::Ground) {
+                box.first_row &= ~1;
+            }
+            paint_levels_in_pairs<kind>(triangle, job, lanes, box, buffer);
             return;
         }
     }
     for (int left = box.left; left <= box.right; left += strip_px) {
         if (lanes.are_one) {
-            paint_strip_of_middles<has_grain>(triangle, job, box, left, buffer);
+            paint_strip_of_middles<kind>(triangle, job, box, left, buffer);
             continue;
         }
         with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
-            paint_strip<has_grain, parts>(triangle, job, lanes, box, left, buffer);
+            paint_strip<kind, parts>(triangle, job, lanes, box, left, buffer);
         });
     }
 }

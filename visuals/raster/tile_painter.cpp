@@ -45,10 +45,12 @@ HWY_INLINE void paint_one(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Fill fill_with = one.triangle->fill;
     if (fill_with == Fill::Levels && one.extra == nullptr) {
-        if (one.triangle->has_grain) {
-            paint_levels<true>(*one.triangle, job, lanes, buffer);
+        if (job.grain == nullptr) {
+            paint_levels<PaintAs::Plain>(*one.triangle, job, lanes, buffer);
+        } else if (one.triangle->has_grain) {
+            paint_levels<PaintAs::Ground>(*one.triangle, job, lanes, buffer);
         } else {
-            paint_levels<false>(*one.triangle, job, lanes, buffer);
+            paint_levels<PaintAs::Beside>(*one.triangle, job, lanes, buffer);
         }
     } else if (fill_with == Fill::Texture) {
         paint_even_texture(*one.triangle, job, lanes, buffer);

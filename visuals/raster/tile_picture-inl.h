@@ -26,7 +26,7 @@ HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
     }
     if (job.grain != nullptr) {
         buffer.sums[3].fill(0);
-        buffer.nearness.fill(0.0F);
+        buffer.ground.fill(0);
     }
     buffer.full.fill(0);
     buffer.full_rows = 0;

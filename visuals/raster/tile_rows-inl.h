@@ -205,14 +205,19 @@ struct PairLevel {
 };
 
 /// The levels of a triangle over two rows.
-template <bool has_grain>
-HWY_INLINE std::array<PairLevel, level_planes<has_grain>>
+HWY_INLINE std::array<PairLevel, 3>
 pair_levels(const Levels& levels, const TileJob& job, const TileBox& box) {
     const auto level = [&](std::size_t k) HWY_ATTR { return PairLevel(levels, k, job, box); };
-    if constexpr (has_grain) {
-        return {level(0), level(1), level(2), level(3)};
+    return {level(0), level(1), level(2)};
+}
+
+/// The ground in the columns of a box that is as narrow as a window.
+template <PaintAs kind>
+HWY_INLINE auto ground_of_box(const Triangle& triangle, const TileJob& job, const TileBox& box) {
+    if constexpr (kind == PaintAs::Ground) {
+        return GroundOfColumns<Row>(triangle, job, box.left);
     } else {
-        return {level(0), level(1), level(2)};
+        return 0;
     }
 }
 
@@ -258,8 +263,9 @@ HWY_INLINE void paint_in_pairs(
     }
 }
 
-/// Paints a triangle of levels.
-template <bool has_grain>
+/// Paints a triangle of levels that is as narrow as a window; of ground its box begins in an even
+/// row and column.
+template <PaintAs kind>
 HWY_INLINE void paint_levels_in_pairs(
     const Triangle& triangle,
     const TileJob& job,
@@ -267,21 +273,20 @@ HWY_INLINE void paint_levels_in_pairs(
     const TileBox& box,
     TileBuffer& buffer) {
     PairCoverage coverage(triangle, job, box, lanes);
-    auto levels = pair_levels<has_grain>(triangle.levels, job, box);
+    auto levels = pair_levels(triangle.levels, job, box);
+    [[maybe_unused]] const auto ground = ground_of_box<kind>(triangle, job, box);
     const auto paint = [&](const PairWindow& window, hn::Vec<Strip> fresh) HWY_ATTR {
         const auto counts = hn::PopulationCount(fresh);
         for (std::size_t k = 0; k < levels.size(); ++k) {
             std::uint16_t* const sums = buffer.sums[k].data();
-            const auto colour = of_sample(k, from_level(levels[k].level(window)));
+            const auto colour = from_level(levels[k].level(window));
             window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
         }
-        if constexpr (has_grain) {
-            const auto put = [&](std::size_t which, hn::Vec<HalfStrip> of_row) HWY_ATTR {
-                const glm::ivec2 at(window.first[which], window.row + static_cast<int>(which));
-                put_nearness(HalfStrip(), triangle, job, at, of_row, buffer);
-            };
-            put(0, hn::LowerHalf(HalfStrip(), fresh));
-            put(1, hn::UpperHalf(HalfStrip(), fresh));
+        if constexpr (kind == PaintAs::Ground) {
+            ground.put(window.row, hn::LowerHalf(Row(), fresh), buffer);
+        } else if constexpr (kind == PaintAs::Beside) {
+            std::uint16_t* const beside = buffer.sums[3].data();
+            window.store(hn::Add(window.load(beside), counts), beside);
         }
     };
     paint_in_pairs(coverage, job, box, buffer, paint, [&]() HWY_ATTR {

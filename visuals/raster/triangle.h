@@ -4,8 +4,11 @@
 #include "visuals/raster/texture_levels.h"
 #include "visuals/scene/paint_step.h"
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace octant::visuals::raster {
@@ -112,12 +115,38 @@ struct Triangle {
     bool has_grain = false;      ///< the fine pattern, by the levels' fourth value
 };
 
-/// One over the depth of a triangle with grain at a pixel of the picture.
-inline float nearness_at(const Triangle& triangle, int column, int row) {
+/// Ground with the fine pattern at a pixel: one over its depth, 1/m, whose lowest bits are half the
+/// number of its covers. Without them it is right to 2^-16 of itself: a tenth of a pixel's width.
+struct GroundPlace {
+    static constexpr std::uint32_t cover_bits = 0x7f;
+    static constexpr int cover_shift = 17; ///< from 2^-16 level
+
+    /// Levels' fourth value at a place, 2^-16 level from 0.
+    static std::uint32_t first_cover(const Levels& levels, const glm::ivec2& at) {
+        return static_cast<std::uint32_t>(levels.base[3]) + (128U << 16U) +
+               static_cast<std::uint32_t>(levels.per_x[3]) * static_cast<std::uint32_t>(at.x) +
+               static_cast<std::uint32_t>(levels.per_y[3]) * static_cast<std::uint32_t>(at.y);
+    }
+
+    /// Levels' least or most in the same unit.
+    static constexpr std::int32_t limit(std::int16_t level) {
+        return (std::int32_t{level} + 128 * 128) * 512;
+    }
+};
+
+/// A GroundPlace of a triangle with grain at a pixel of the picture.
+inline std::uint32_t ground_at(const Triangle& triangle, int column, int row) {
     const NearnessPlane& plane = triangle.nearness;
     const float in_row = plane.first + plane.per_y * static_cast<float>(row - triangle.first_row);
     const float value = in_row + static_cast<float>(column - triangle.left) * plane.per_x;
-    return std::min(std::max(value, plane.least), plane.most);
+    const float near = std::min(std::max(value, plane.least), plane.most);
+    const Levels& levels = triangle.levels;
+    const std::int32_t cover = std::clamp(
+        static_cast<std::int32_t>(GroundPlace::first_cover(levels, {column, row})),
+        GroundPlace::limit(levels.least[3]),
+        GroundPlace::limit(levels.most[3]));
+    return (std::bit_cast<std::uint32_t>(near) & ~GroundPlace::cover_bits) |
+           (static_cast<std::uint32_t>(cover) >> GroundPlace::cover_shift);
 }
 
 } // namespace octant::visuals::raster

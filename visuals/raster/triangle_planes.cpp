@@ -182,14 +182,49 @@ HWY_INLINE void set_levels(
         levels.base.data() + i);
 }
 
+/// One over the depth in a triangle of ground. A sliver has the corners' mean.
+HWY_INLINE void
+set_nearness(const FallingCorners& corners, const PlaneBase& base, Triangle& triangle) {
+    const ScreenVertex& top = corners.top;
+    const auto at_top = static_cast<double>(top.inverse_w);
+    const double to_middle = static_cast<double>(corners.middle.inverse_w) - at_top;
+    const double to_bottom = static_cast<double>(corners.bottom.inverse_w) - at_top;
+    const double per_x = to_middle * base.bottom_y - to_bottom * base.middle_y;
+    const double per_y = to_bottom * base.middle_x - to_middle * base.bottom_x;
+    NearnessPlane& plane = triangle.nearness;
+    plane.least =
+        std::min(std::min(top.inverse_w, corners.middle.inverse_w), corners.bottom.inverse_w);
+    plane.most =
+        std::max(std::max(top.inverse_w, corners.middle.inverse_w), corners.bottom.inverse_w);
+    const double range = static_cast<double>(plane.most) - static_cast<double>(plane.least);
+    if (std::max(std::abs(per_x), std::abs(per_y)) > range) {
+        plane.first = static_cast<float>(at_top + (to_middle + to_bottom) / 3.0);
+        plane.per_x = 0.0F;
+        plane.per_y = 0.0F;
+        return;
+    }
+    constexpr double px_a_step = 1.0 / ScreenVertex::per_px;
+    plane.first = static_cast<float>(
+        at_top + per_x * (triangle.left - top.x * px_a_step) +
+        per_y * (triangle.first_row - top.y * px_a_step));
+    plane.per_x = static_cast<float>(per_x);
+    plane.per_y = static_cast<float>(per_y);
+}
+
 void SetEdges(const FallingCorners& corners, Triangle& triangle) {
-    edges_of(corners, triangle);
+    const PlaneBase base = edges_of(corners, triangle);
+    if (triangle.has_grain) {
+        set_nearness(corners, base, triangle);
+    }
 }
 
 void SetEdgesAndLevels(const FallingCorners& corners, double most_per_px, Triangle& triangle) {
     const PlaneBase base = edges_of(corners, triangle);
     for (std::size_t i = 0; i < corners.top.value.size(); i += hn::Lanes(Reals())) {
         set_levels(corners, base, most_per_px, i, triangle.levels);
+    }
+    if (triangle.has_grain) {
+        set_nearness(corners, base, triangle);
     }
 }
 
@@ -210,31 +245,6 @@ void set_edges(const FallingCorners& corners, Triangle& triangle) {
 
 void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle) {
     HWY_DYNAMIC_DISPATCH(SetEdgesAndLevels)(corners, most_per_px, triangle);
-}
-
-NearnessPlane nearness_plane(const FallingCorners& corners, const glm::ivec2& first_px) {
-    const auto& [top, middle, bottom, doubled_area] = corners;
-    const double to_px = ScreenVertex::per_px / static_cast<double>(doubled_area);
-    const auto at_top = static_cast<double>(top.inverse_w);
-    const double to_middle = static_cast<double>(middle.inverse_w) - at_top;
-    const double to_bottom = static_cast<double>(bottom.inverse_w) - at_top;
-    const double per_x = (to_middle * (bottom.y - top.y) - to_bottom * (middle.y - top.y)) * to_px;
-    const double per_y = (to_bottom * (middle.x - top.x) - to_middle * (bottom.x - top.x)) * to_px;
-    const auto [least, most] = std::minmax({top.inverse_w, middle.inverse_w, bottom.inverse_w});
-    const double range = static_cast<double>(most) - static_cast<double>(least);
-    if (std::abs(per_x) > range || std::abs(per_y) > range) {
-        const double mean = at_top + (to_middle + to_bottom) / 3.0;
-        return {static_cast<float>(mean), 0.0F, 0.0F, least, most};
-    }
-    constexpr double px_a_step = 1.0 / ScreenVertex::per_px;
-    const double first = at_top + per_x * (first_px.x - top.x * px_a_step) +
-                         per_y * (first_px.y - top.y * px_a_step);
-    return {
-        static_cast<float>(first),
-        static_cast<float>(per_x),
-        static_cast<float>(per_y),
-        least,
-        most};
 }
 
 Levels even_levels(const std::array<float, 3>& rgb) {

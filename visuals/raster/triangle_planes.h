@@ -3,8 +3,6 @@
 #include "visuals/raster/screen_vertex.h"
 #include "visuals/raster/triangle.h"
 
-#include <glm/vec2.hpp>
-
 #include <array>
 #include <cstdint>
 
@@ -25,16 +23,12 @@ struct FallingCorners {
     std::int64_t doubled_area;
 };
 
-/// Fills in the edges of a triangle.
+/// Fills in the edges of a triangle, and of one with grain how near it is; its box is known.
 void set_edges(const FallingCorners& corners, Triangle& triangle);
 
-/// Fills in the edges, and the four values at the corners as planes of levels. Where a level would
+/// Fills in these and the four values at the corners as planes of levels. Where a level would
 /// change by more than `most_per_px` it is the corners' mean.
 void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle);
-
-/// One over the depth in a triangle that begins at a column and row of the picture. A sliver has
-/// the corners' mean.
-NearnessPlane nearness_plane(const FallingCorners& corners, const glm::ivec2& first_px);
 
 /// The levels of a triangle that has one colour everywhere.
 Levels even_levels(const std::array<float, 3>& rgb);

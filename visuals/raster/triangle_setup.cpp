@@ -289,9 +289,6 @@ void TriangleSetup::add_placed(
     const FallingCorners corners{top, middle, bottom, area};
     triangle.has_grain =
         style_.has_grain && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
-    if (triangle.has_grain) {
-        triangle.nearness = nearness_plane(corners, {left, first});
-    }
     if (flat_ != nullptr) {
         set_edges(corners, triangle);
         triangle.levels = even_levels(flat_->rgb);
