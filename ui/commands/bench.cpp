@@ -1,5 +1,6 @@
 #include "ui/commands/bench.h"
 
+#include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "ui/base/progress.h"
 #include "ui/commands/bench_features.h"
@@ -32,6 +33,8 @@ namespace {
 
 constexpr int floor_triangles = 20000;
 constexpr int warm_up_frames = 20;
+constexpr int usual_frames = 300;
+constexpr int frames_of_features = 30; ///< a minute for them all
 
 settings::RunSettings by_gl(settings::RunSettings settings) {
     settings.drawing.renderer = settings::RendererKind::Gl;
@@ -159,24 +162,35 @@ std::string name_of(const settings::RunSettings& settings) {
         gl ? "OpenGL" : "raster");
 }
 
-/// A scene for each ground and renderer: both, unless one is asked for.
+std::vector<std::string> terrains_of(const BenchOptions& options) {
+    if (!options.terrains.empty()) {
+        return options.terrains;
+    }
+    return options.features ? std::vector<std::string>{"hills"}
+                            : std::vector<std::string>{"hills", "canyon", "background60"};
+}
+
+/// A scene for each ground and renderer: both, unless one is asked for; features are measured with
+/// OpenGL beside them anyway.
 std::vector<BenchScene> scenes_of(const BenchOptions& options) {
     using settings::RendererKind;
     std::vector<BenchScene> scenes;
-    for (const std::string& terrain : options.terrains) {
+    const RendererKind wanted = options.settings.drawing.renderer;
+    const RendererKind asked =
+        wanted == RendererKind::Auto && options.features ? RendererKind::Raster : wanted;
+    for (const std::string& terrain : terrains_of(options)) {
         for (const RendererKind kind : {RendererKind::Raster, RendererKind::Gl}) {
-            const RendererKind asked = options.settings.drawing.renderer;
             if (asked != RendererKind::Auto && asked != kind) {
                 continue;
             }
             settings::RunSettings settings = options.settings;
             settings.path.terrain = terrain;
-            settings.time.frames = options.frames + warm_up_frames;
+            settings.time.frames = timed_frames(options) + warm_up_frames;
             settings.drawing.renderer = kind;
             if (kind == RendererKind::Gl && settings.view.samples == 16) {
                 settings.view.samples.reset();
             }
-            const BenchScene scene{name_of(settings), settings};
+            const BenchScene scene{name_of(settings), settings, false};
             if (options.growth) {
                 std::ranges::move(growth_scenes(scene), std::back_inserter(scenes));
             } else {
@@ -187,20 +201,36 @@ std::vector<BenchScene> scenes_of(const BenchOptions& options) {
     return scenes;
 }
 
+/// A scene's session; none of an optional one whose world cannot be loaded.
+std::unique_ptr<flight::Session> session_of(const BenchScene& scene, bool quiet) {
+    base::say(quiet, fmt::format("loading {}", scene.name));
+    try {
+        return std::make_unique<flight::Session>(scene.settings);
+    } catch (const Error& error) {
+        if (!scene.is_optional) {
+            throw;
+        }
+        base::say(quiet, fmt::format("left out: {}", error.what()));
+        return nullptr;
+    }
+}
+
 /// Draws scenes and the floor in turn.
 std::vector<BenchResult>
 timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
     Floor floor(options.settings);
-    std::vector<Timed> timed(scenes.size() + 1);
+    std::vector<Timed> timed(1);
     timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        timed[i + 1].name = scenes[i].name;
-        base::say(options.quiet, fmt::format("loading {}", scenes[i].name));
-        sessions.push_back(std::make_unique<flight::Session>(scenes[i].settings));
+    for (const BenchScene& scene : scenes) {
+        if (auto session = session_of(scene, options.quiet)) {
+            sessions.push_back(std::move(session));
+            timed.emplace_back().name = scene.name;
+        }
     }
-    base::Progress progress("bench", options.frames + warm_up_frames, options.quiet);
-    for (int frame = 0; frame < options.frames + warm_up_frames; ++frame) {
+    const int frames = timed_frames(options) + warm_up_frames;
+    base::Progress progress("bench", frames, options.quiet);
+    for (int frame = 0; frame < frames; ++frame) {
         const bool counts = frame >= warm_up_frames;
         double before_ms = cpu_ms_so_far();
         const auto add = [&](Timed& to, const report::FrameRecord& record, const auto& drawn) {
@@ -228,6 +258,10 @@ timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options
 }
 
 } // namespace
+
+int timed_frames(const BenchOptions& options) {
+    return options.frames.value_or(options.features ? frames_of_features : usual_frames);
+}
 
 std::vector<BenchResult> run_bench(const BenchOptions& options) {
     const std::vector<BenchScene> scenes = scenes_of(options);

@@ -11,11 +11,12 @@ namespace octant::ui::commands {
 
 struct BenchOptions {
     settings::RunSettings settings =
-        settings::of_given_ground();   ///< size, samples, triangles, aircraft and drawing are used
-    std::vector<std::string> terrains; ///< one scene each, and each renderer if none is asked for
-    int frames = 300;                  ///< timed, of each scene
-    bool features = false;             ///< each scene with and without each feature of the picture
-    bool growth = false;               ///< each scene with 20,000 to 200,000 triangles of ground
+        settings::of_given_ground(); ///< size, samples, triangles, aircraft and drawing are used
+    /// One scene each, and each renderer if none is asked for; none: the usual ones.
+    std::vector<std::string> terrains;
+    std::optional<int> frames; ///< timed, of each scene; else as many as are usual
+    bool features = false;     ///< each scene with and without each feature of the picture
+    bool growth = false;       ///< each scene with 20,000 to 200,000 triangles of ground
     bool quiet = false;
 };
 
@@ -40,10 +41,13 @@ struct BenchResult {
     std::uint64_t hash = 0; ///< over the pixels of the timed frames
 };
 
+/// Frames that are timed of each scene: by default few where there are many scenes.
+int timed_frames(const BenchOptions& options);
+
 /// Draws all scenes in turn, frame by frame, the platform's floor first: a lit grid of 20,000
 /// triangles over the whole picture, by OpenGL with one sample a pixel, read back. The floor is the
 /// first result. With features, the scenes of each ground and renderer are drawn in turn, after a
-/// floor of their own. Throws Error.
+/// floor of their own; by default those of one ground by the raster renderer. Throws Error.
 std::vector<BenchResult> run_bench(const BenchOptions& options);
 
 } // namespace octant::ui::commands

@@ -64,7 +64,7 @@ RunSettings with_features(RunSettings settings, const ShareOf& share_of) {
 std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
     std::vector<BenchScene> scenes;
     const auto add = [&](std::string_view name, RunSettings settings) {
-        scenes.push_back({scene.name + ": " + std::string(name), std::move(settings)});
+        scenes.push_back({scene.name + ": " + std::string(name), std::move(settings), false});
     };
     const auto with = [&](const auto& share_of) { return with_features(scene.settings, share_of); };
     const RunSettings none = with([](const Feature&) { return 0.0; });
@@ -76,9 +76,13 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
     }
     RunSettings textured = none;
     textured.air.ground_shading = visuals::scene::GroundShading::Texture;
+    RunSettings with_airfield = none;
+    with_airfield.ground.airfield = true;
     const bool has_ground = scene.settings.path.terrain != "none";
     if (has_ground) {
         add("ground by texture", textured);
+        add("airfield", with_airfield);
+        scenes.back().is_optional = true;
     }
     const RunSettings by_default =
         with([](const Feature& feature) { return feature.share(RunSettings()); });
@@ -101,7 +105,7 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
 std::vector<BenchScene> growth_scenes(const BenchScene& scene) {
     std::vector<BenchScene> scenes;
     for (const int triangles : {20000, 50000, 100000, 200000}) {
-        scenes.push_back({fmt::format("{}, {}", scene.name, triangles), scene.settings});
+        scenes.push_back({fmt::format("{}, {}", scene.name, triangles), scene.settings, false});
         scenes.back().settings.ground.triangles = triangles;
     }
     return scenes;

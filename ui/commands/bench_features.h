@@ -11,10 +11,12 @@ namespace octant::ui::commands {
 struct BenchScene {
     std::string name;
     settings::RunSettings settings;
+    bool is_optional = false; ///< left out where its world cannot be loaded
 };
 
 /// A scene as it is with no feature at all, with each one alone, with its ground by a texture, with
-/// the features that are there by default, and with all; then with that texture and with the
+/// an airfield where there is room for one, with the features that are there by default, and with
+/// all others; then with that texture and with the
 /// defaults by OpenGL, whose frame times they are to keep. The first one is what the others are
 /// compared with.
 std::vector<BenchScene> feature_scenes(const BenchScene& scene);

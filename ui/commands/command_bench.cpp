@@ -117,7 +117,14 @@ std::vector<Option> options_of(BenchCommand& bench) {
     BenchOptions& options = bench.options;
     settings::RunSettings& settings = options.settings;
     return {
-        again("--terrain", "scenes: one for each ground", options.terrains),
+        showing(
+            "[hills,canyon,background60; with --features: hills]",
+            list_option(
+                "--terrain",
+                "NAME|FILE",
+                "scenes: one for each ground",
+                Takes::OneWordAgain,
+                options.terrains)),
         again("--aircraft", "aircraft of every scene; repeat for wingmen", settings.path.aircraft),
         read_option(
             {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, settings.view.size_px),
@@ -127,13 +134,20 @@ std::vector<Option> options_of(BenchCommand& bench) {
                 {"triangles", "N", "triangles of ground", 100, 10000000},
                 settings.ground.triangles)),
         read_option(
-            {"renderer", "KIND", "raster or gl; auto: both in turn"}, settings.drawing.renderer),
+            {"renderer", "KIND", "raster or gl; auto: both in turn, with --features raster"},
+            settings.drawing.renderer),
         read_option(
             {"samples", "N", "samples a pixel [raster: 16, gl: 1]", 1, 16, sample_counts},
             settings.view.samples),
         read_option(
             {"context", "KIND", "OpenGL's context: osmesa or egl"}, settings.drawing.context),
-        read_option({"frames", "N", "timed frames of each scene", 1, 100000}, options.frames),
+        read_option(
+            {"frames",
+             "N",
+             "timed frames of each scene [300; with --features 30, about a minute]",
+             1,
+             100000},
+            options.frames),
         flag(
             "--formation",
             "ten F-15s over the canyon, 25,000 triangles, 1920x1080, in place of other scenes",
@@ -146,7 +160,9 @@ std::vector<Option> options_of(BenchCommand& bench) {
         flag(
             "--features",
             "a table of costs: each scene without features, with each one alone (near detail, "
-            "scenery, sky, ...), with the defaults and with all, frame by frame in turn",
+            "scenery, sky, ...), with an airfield, with the defaults and with all, frame by frame "
+            "in "
+            "turn",
             options.features),
         flag(
             "--growth",
@@ -161,7 +177,6 @@ std::vector<Option> options_of(BenchCommand& bench) {
 
 Command bench_command() {
     auto bench = std::make_shared<BenchCommand>();
-    bench->options.terrains = {"hills", "canyon", "background60"};
     return {
         .name = "bench",
         .summary = "Frame times of standard scenes in turn with the platform's floor, each as a "

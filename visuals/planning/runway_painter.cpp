@@ -41,6 +41,16 @@ double moved_m(
     return glm::length(corner_m) * std::min(angle_rad / std::max(seen, 1e-9), most_overlap);
 }
 
+/// False only for a triangle of which nothing is in view, nor of what is painted a little beyond
+/// its sides.
+bool may_be_in_view(const SightPolygon& triangle, const FrameView& view) {
+    return std::ranges::all_of(view.frustum, [&](const glm::dvec3& inwards) {
+        return std::ranges::any_of(triangle, [&](const SightCorner& corner) {
+            return glm::dot(inwards, corner.at_m) >= -view.pixel_rad * glm::length(corner.at_m);
+        });
+    });
+}
+
 } // namespace
 
 RunwayPainter::RunwayPainter(std::shared_ptr<const models::heights::RunwayStrip> strip)
@@ -100,7 +110,9 @@ void RunwayPainter::paint(
     }
     for (const std::uint32_t candidate : candidates_) {
         place_triangle(triangles, candidate, triangle_);
-        paint_triangle(candidate, most);
+        if (may_be_in_view(triangle_, view)) {
+            paint_triangle(candidate, most);
+        }
     }
 }
 
@@ -190,14 +202,34 @@ void RunwayPainter::place_sides() {
     }
 }
 
-/// A patch cut to the triangle at hand, whose sides move out by so many overlaps.
-RunwayPainter::Piece RunwayPainter::piece_of(const Seen& patch, double overlaps) const {
-    Piece piece{
+RunwayPainter::Piece RunwayPainter::whole(const Seen& patch) {
+    return {
         {patch.least_m,
          {patch.most_m.x, patch.least_m.y},
          patch.most_m,
          {patch.least_m.x, patch.most_m.y}},
         4};
+}
+
+/// How a patch lies to the triangle at hand: most do not touch it, and many lie within it.
+RunwayPainter::Touch RunwayPainter::touch_of(const Piece& patch) const {
+    Touch touch = Touch::Whole;
+    for (const Side& side : sides_) {
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < patch.count; ++i) {
+            inside += area2(side.from_m, side.to_m, patch.corners[i]) >= 0.0 ? 1U : 0U;
+        }
+        if (inside == 0) {
+            return Touch::None;
+        }
+        touch = inside < patch.count ? Touch::Part : touch;
+    }
+    return touch;
+}
+
+/// A patch cut to the triangle at hand, whose sides move out by so many overlaps.
+RunwayPainter::Piece RunwayPainter::piece_of(const Piece& patch, double overlaps) const {
+    Piece piece = patch;
     for (const Side& side : sides_) {
         cut(piece,
             side.from_m + side.out * (side.from_moved_m * overlaps),
@@ -216,10 +248,13 @@ void RunwayPainter::paint_patch(const Seen& patch, std::uint32_t triangle) {
         }
         return sum_m2;
     };
-    if (area_m2(piece_of(patch, 0.0)) <= least_area_m2) {
+    const Piece all = whole(patch);
+    const Touch touch = touch_of(all);
+    if (touch == Touch::None ||
+        area_m2(touch == Touch::Whole ? all : piece_of(all, 0.0)) <= least_area_m2) {
         return;
     }
-    const Piece piece = piece_of(patch, patch.is_marking ? 2.0 : 1.0);
+    const Piece piece = touch == Touch::Whole ? all : piece_of(all, patch.is_marking ? 2.0 : 1.0);
     paints_.push_back(
         {triangle,
          static_cast<std::uint32_t>(corners_.size()),

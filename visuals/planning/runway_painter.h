@@ -23,8 +23,8 @@ namespace octant::visuals::planning {
 
 /// Lays a runway on the triangles of the ground: each of its patches is cut to each triangle, a
 /// little too wide, and lies in its plane, whatever the mesh, to be painted right after it. What
-/// looks narrow takes the colour of what it lies on and is left out from there on. Keeps its
-/// memory.
+/// looks narrow takes the colour of what it lies on and is left out from there on; so is what lies
+/// on triangles out of view. Keeps its memory.
 class RunwayPainter {
 public:
     /// Null: there is no runway, and nothing is painted.
@@ -56,6 +56,9 @@ private:
         std::size_t count = 0;
     };
 
+    /// How much of a patch lies on a triangle.
+    enum class Touch : std::uint8_t { None, Part, Whole };
+
     /// A side of a triangle on the strip, a unit vector outwards, and how far its ends move along
     /// that for one overlap.
     struct Side {
@@ -77,7 +80,9 @@ private:
     void choose_patches(const FrameView& view);
     void paint_triangle(std::uint32_t triangle, int most);
     void place_sides();
-    Piece piece_of(const Seen& patch, double overlaps) const;
+    static Piece whole(const Seen& patch);
+    Touch touch_of(const Piece& patch) const;
+    Piece piece_of(const Piece& patch, double overlaps) const;
     void paint_patch(const Seen& patch, std::uint32_t triangle);
     static void cut(Piece& piece, const glm::dvec2& from, const glm::dvec2& to);
 

@@ -1,3 +1,4 @@
+#include "ui/commands/bench.h"
 #include "ui/commands/bench_features.h"
 
 #include <catch2/catch.hpp>
@@ -56,6 +57,27 @@ TEST_CASE("a table of costs has ground by a texture from both renderers, else wi
     CHECK(scene_named(scenes, "hills: ground by texture").settings == expected);
     expected.drawing.renderer = settings::RendererKind::Gl;
     CHECK(scene_named(scenes, "hills: ground by texture by OpenGL").settings == expected);
+}
+
+TEST_CASE("a table of costs has an airfield where there is room for one") {
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    const BenchScene& airfield = scene_named(scenes, "hills: airfield");
+    CHECK(airfield.is_optional);
+    settings::RunSettings without = airfield.settings;
+    without.ground.airfield = false;
+    CHECK(without == scenes.front().settings);
+    for (const BenchScene& scene : scenes) {
+        CHECK(scene.settings.ground.airfield == (&scene == &airfield));
+    }
+}
+
+TEST_CASE("costs of features are timed over fewer frames than single scenes, unless it is said") {
+    BenchOptions options;
+    const int usual = timed_frames(options);
+    options.features = true;
+    CHECK(10 * timed_frames(options) <= usual);
+    options.frames = 77;
+    CHECK(timed_frames(options) == 77);
 }
 
 TEST_CASE("growth is measured from 20,000 to 200,000 triangles of ground, all else alike") {
