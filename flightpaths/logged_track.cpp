@@ -42,7 +42,7 @@ std::string said_of(const LeftOut& left_out, std::string_view before = "") {
         return {};
     }
     return fmt::format(
-        "{}left out of the log: {} lines without place or time, {} of a moment that had been, "
+        "{}left out of the log: {} without time, place or height, {} of a moment that had been, "
         "{} that only a jump leads to",
         before,
         left_out.without_place,
@@ -58,7 +58,7 @@ public:
         , columns_(columns) {}
 
     void read_line(std::size_t index) {
-        line_ = static_cast<int>(index) + 1;
+        line_ = log_.numbers.empty() ? static_cast<int>(index) + 1 : log_.numbers[index];
         fields_ = unquoted_fields(log_.lines[index], log_.separator);
         const auto time_s = time();
         const auto place = this->place();

@@ -20,6 +20,8 @@ struct LogLines {
     /// The last line before the samples, from 0: that of the columns' names or their units.
     std::size_t last_of_head = 0;
     char separator = ',';
+    /// Which line of the file each of these is, from 1; empty: they are all of its lines.
+    std::span<const int> numbers = {};
 };
 
 struct LoggedTrack {
@@ -31,7 +33,7 @@ struct LoggedTrack {
 };
 
 /// Reads another program's log of a flight (log_columns.h), whose lines are less regular than those
-/// of a recording: lines without a place or a time, of a moment that has been, or that only a jump
+/// of a recording: lines without time, place or height, of a moment that has been, or that only a jump
 /// faster than 3000 m/s leads to are left out and counted in the notes. Times begin at 0. Attitudes
 /// are the log's where it has roll and pitch in every line, with its true heading or else that of
 /// the motion; otherwise they are made from the motion. Throws Error with file and line for what is

@@ -1,7 +1,10 @@
 #include "flightpaths/recorded_track.h"
 
 #include "flightpaths/geocentric_latitude.h"
+#include "flightpaths/gpx_points.h"
+#include "flightpaths/igc_fixes.h"
 #include "flightpaths/log_columns.h"
+#include "flightpaths/log_table.h"
 #include "flightpaths/logged_track.h"
 #include "flightpaths/motion_fill.h"
 #include "flightpaths/track_columns.h"
@@ -205,11 +208,26 @@ std::optional<RecordedTrack> track_of_others(
         sim::Trajectory(std::move(track.samples)), track.origin, std::move(track.notes)};
 }
 
+RecordedTrack track_of_table(const std::filesystem::path& file, LogTable table) {
+    const std::vector<std::string_view> rows(table.rows.begin(), table.rows.end());
+    constexpr char separator = ',';
+    const auto columns = log_columns(unquoted_fields(log_table_columns, separator), {});
+    LoggedTrack track = logged_track({file, rows, 0, separator, table.line_numbers}, *columns);
+    table.notes.insert(table.notes.end(), track.notes.begin(), track.notes.end());
+    return {sim::Trajectory(std::move(track.samples)), track.origin, std::move(table.notes)};
+}
+
 } // namespace
 
 RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     const std::string text = read_text_file(file);
+    if (is_gpx(text)) {
+        return track_of_table(file, gpx_points(file, text));
+    }
     auto lines = split_lines(text);
+    if (is_igc(lines)) {
+        return track_of_table(file, igc_fixes(lines));
+    }
     if (!lines.empty() && lines.front().starts_with("\xef\xbb\xbf")) {
         lines.front().remove_prefix(3);
     }

@@ -31,6 +31,7 @@ struct RecordedTrack {
 ///           V_{Down} (ft/s)
 ///   others: what log_columns.h knows of other programs' names, such as Timestamp, Latitude,
 ///           Longitude, Altitude (ft) (logged_track.h)
+/// Files of flight recorders (IGC, igc_fixes.h) and GPX (gpx_points.h) are known by their content.
 /// Names are found in capitals, too; empty lines and lines that begin with # may stand before them.
 /// What is optional and missing is made from the motion (motion_fill.h). Throws Error with file and
 /// line for a missing or doubled column, too few or too many fields, what is no finite number,

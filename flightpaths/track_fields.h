@@ -6,6 +6,11 @@
 
 namespace octant::flightpaths {
 
+/// True for 0 to 9.
+constexpr bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 /// What separates the fields of a track: tabs where its line of column names has one, else
 /// semicolons where it has no comma but one of them, else commas.
 char separator_of(std::string_view column_names);

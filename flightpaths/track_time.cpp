@@ -1,9 +1,9 @@
 #include "flightpaths/track_time.h"
 
+#include "flightpaths/track_fields.h"
 #include "sim/base/text_file.h"
 
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -13,10 +13,6 @@ namespace octant::flightpaths {
 namespace {
 
 constexpr double day_s = 86400.0;
-
-bool is_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 
 /// Takes a number of digits off the front of a text.
 std::optional<int> taken_number(std::string_view& text) {

@@ -101,7 +101,7 @@ TEST_CASE("a log of Garmin's has comments and units above its names, and clocks 
     CHECK(angles.heading_rad == Approx(0.0).margin(1e-6)); // of the motion, not of the compass
     REQUIRE(track.notes.size() == 1);
     CHECK_THAT(
-        track.notes[0], Contains("1 lines without place or time, 1 of a moment that had been"));
+        track.notes[0], Contains("1 without time, place or height, 1 of a moment that had been"));
 }
 
 TEST_CASE("a log of FlySight has its units below its names, and velocities") {
@@ -169,8 +169,8 @@ TEST_CASE("what no log of a flight may hold is refused with its line") {
         "east_m, alt_m or Time, Latitude, Longitude, Altitude), got time,lat,lon");
     CHECK(
         track_fault(head + "0,,,\n") ==
-        " expected at least 2 samples with a place, got 0; left out of the log: 1 lines without "
-        "place or time, 0 of a moment that had been, 0 that only a jump leads to");
+        " expected at least 2 samples with a place, got 0; left out of the log: 1 without time, "
+        "place or height, 0 of a moment that had been, 0 that only a jump leads to");
     CHECK(track_fault(head + "0,47,8,500\n") == " expected at least 2 samples with a place, got 1");
     CHECK(
         track_fault(head + "0,47,8,1e9\n1,47,8,0\n") ==
@@ -186,4 +186,61 @@ TEST_CASE("every cut of a good log is read or refused, never worse") {
         const std::string fault = track_fault(good.substr(0, length));
         CHECK(fault.find('\n') == std::string::npos);
     }
+}
+
+TEST_CASE("a flight recorder's fixes are read, by the receiver's heights where most have one") {
+    const std::string head = "AXCS123\r\nHFDTE160701\r\nHFPLTPILOT:B\xfc"
+                             "rg\r\nI013638TAS\r\n";
+    const auto igc = [&](const std::string& fixes) {
+        return read_recorded_track(written("flight.igc", head + fixes));
+    };
+    check_northward(
+        igc("B2359584700000N00800000EA0048000500120\r\n"
+            "LXCS a note\r\n"
+            "B2359594700060N00800000EA0048000500120\r\n"
+            "B0000004700120N00800000EA0048000500120\r\n"),
+        500.0,
+        1.0);
+    const RecordedTrack by_pressure =
+        igc("B1000004700000N00800000EV-001200000\nB1000044700060N00800000EV-001200000\n"
+            "B1000084700120N00800000EA-001200000\nB10\nB100012470012\xc3N00800000EA-001200000\n");
+    check_northward(by_pressure, -12.0, 4.0);
+    REQUIRE(by_pressure.notes.size() == 2);
+    CHECK_THAT(by_pressure.notes[0], Contains("pressure altitudes"));
+    CHECK_THAT(by_pressure.notes[1], Contains("2 without time, place or height"));
+    const RecordedTrack south_west =
+        igc("B1000003330000S07030500WA0050000500\nB1000013330000S07030500WA0050000500\n");
+    CHECK(south_west.origin->latitude_deg == Approx(-33.5));
+    CHECK(south_west.origin->longitude_deg == Approx(-70.0 - 30.5 / 60.0));
+    CHECK_THROWS_WITH(
+        igc("B1000004700000N00800000EA0048000500\n"),
+        Contains("flight.igc: expected at least 2 samples with a place, got 1"));
+}
+
+TEST_CASE("the track points of GPX are read, of all segments, and nothing else of it") {
+    const std::string head =
+        "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<gpx version='1.1'>\n"
+        "<wpt lat=\"1\" lon=\"1\"><ele>1</ele><time>2020-01-01T00:00:00Z</time>"
+        "</wpt><!-- <trkpt lat='9' lon='9'> -->\n<trk><trkseg>\n";
+    const auto gpx = [&](const std::string& points) {
+        return read_recorded_track(written("flight.gpx", head + points + "</trkseg></trk></gpx>"));
+    };
+    const std::string first =
+        "<trkpt lat=\"47\" lon=\"8\"><ele>500</ele><time>2024-01-02T23:59:58Z</time></trkpt>";
+    check_northward(
+        gpx(first +
+            "</trkseg><trkseg><trkpt lon='8.0'\n lat='47.001'><time>2024-01-02T23:59:58.5Z"
+            "</time><ele> 500.0 </ele></trkpt>\n<trkpt lat='47.0015' lon='8'/>"
+            "<trkpt lat=\"47.002\" lon=\"8\"><ele>500</ele><time>2024-01-02T23:59:59Z</time>"
+            "<extensions><speed>3</speed></extensions></trkpt>"),
+        500.0,
+        0.5);
+    CHECK_THROWS_WITH(
+        gpx("<rtept lat='1' lon='1'/>"), Contains("flight.gpx: expected track points"));
+    CHECK_THROWS_WITH(
+        gpx("\n<trkpt lat='1' lon='1'>"), Contains("flight.gpx:6: expected </trkpt> further on"));
+    CHECK_THROWS_WITH(
+        gpx(first +
+            "\n<trkpt lat='97' lon='8'><ele>5</ele><time>2024-01-03T00:00:00Z</time></trkpt>"),
+        Contains("flight.gpx:6: expected a latitude within 90 deg"));
 }

@@ -46,6 +46,12 @@ std::vector<std::string> seeds() {
         "time,lat,lon,hMSL,velN,velE,velD\n,(deg),(deg),(m),(m/s),(m/s),(m/s)\n"
         "2018-08-12T14:25:43.07Z,47.1,15.4,3474.0,24.1,-45.3,-0.8\n"
         "2018-08-12T14:25:43.27Z,47.10001,15.4,3474.0,24.1,-45.3,-0.8\n",
+        "AXCS123\r\nHFDTE160701\r\nB2359584700000N00800000EA0048000500120\r\n"
+        "B2359594700060N00800000EV0048000500120\r\nB0000004700120N00800000EA-048000500120\r\n",
+        "<?xml version=\"1.0\"?>\n<gpx><!-- a --><trk><trkseg><trkpt lat=\"47\" "
+        "lon=\"8\"><ele>500</ele>"
+        "<time>2024-01-02T23:59:58Z</time></trkpt>\n<trkpt lon='8.0' lat='47.001'><time>2024-01-02T"
+        "23:59:59Z</time><ele>500.0</ele></trkpt></trkseg></trk></gpx>\n",
         "Time\tLatitude Geodetic (deg)\tLongitude (deg)\tAltitude ASL (ft)\tPhi (deg)\tTheta "
         "(deg)\t"
         "Psi (deg)\tV_{North} (ft/s)\tV_{East} (ft/s)\tV_{Down} (ft/s)\n"
@@ -62,6 +68,9 @@ const Registered target({
         {"t_s,",
          "q_w,",
          "n_g,",
+         "<trkpt",
+         "</trkpt>",
+         "<!--",
          "Time\t",
          "Longitude (deg)\t",
          "Latitude (deg)\t",
