@@ -199,7 +199,9 @@ void FineGround::add_parts(
         bears = false;
     }
     if (longest == nullptr) {
-        indices.insert(indices.end(), {triangle.a, triangle.b, triangle.c});
+        for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) {
+            indices.push_back(corner);
+        }
         return;
     }
     ++added_;

@@ -48,6 +48,7 @@ NearGround::Triangles NearGround::made(
     const auto reach_m = static_cast<float>(detail.scenery ? scenery_.reach_m() : 0.0);
     const std::size_t count = mesh.indices.size() / 3;
     frame.indices.clear();
+    frame.indices.reserve(mesh.indices.size());
     first_of_.resize(count + 1);
     const auto bears = [&](std::size_t triangle) {
         const std::uint32_t* const corners = &mesh.indices[3 * triangle];
@@ -76,7 +77,9 @@ NearGround::Triangles NearGround::made(
                 fine_.vertices(),
                 frame.indices);
         }
-        frame.indices.insert(frame.indices.end(), {corners[0], corners[1], corners[2]});
+        for (std::size_t k = 0; k < 3; ++k) {
+            frame.indices.push_back(corners[k]);
+        }
     }
     const auto all = static_cast<std::uint32_t>(frame.indices.size() / 3);
     first_of_[far_first ? 0 : count] = all;

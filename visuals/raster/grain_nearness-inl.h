@@ -107,7 +107,7 @@ public:
         const auto around =
             hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
         const auto here = hn::LoadU(real, own);
-        constexpr float most_off = 1.0F / 128.0F; // of four times itself: half a pixel's height
+        constexpr float most_off = 1.0F / 64.0F; // of four times itself: a pixel's height
         const auto off = hn::Sub(hn::Mul(here, twos(4.0F)), around);
         const auto above = hn::LoadU(real, own - row_size);
         return {

@@ -10,7 +10,6 @@
 #include "visuals/raster/strip_level-inl.h"
 #include "visuals/raster/strip_walk-inl.h"
 #include "visuals/raster/texture_windows-inl.h"
-#include "visuals/raster/tile_rows-inl.h"
 #include "visuals/raster/tile_texels-inl.h"
 
 #include <algorithm>
@@ -49,36 +48,6 @@ struct PlaceSteps {
     HWY_INLINE std::array<TexelPlaces, 2> from(TexelPlaces first) const {
         const auto even = hn::Add(first, of_even);
         return {even, hn::Add(even, to_odd)};
-    }
-};
-
-/// One coordinate of places over two rows at a time: 2^-16 texel of the fine level, wrapping.
-struct PlacePlane {
-    std::uint32_t at; ///< in the tile's first column, at the row at hand
-    std::uint32_t per_x;
-    std::uint32_t per_row;
-    PlaceSteps steps;
-
-    HWY_INLINE PlacePlane(const Levels& levels, std::size_t k, const glm::ivec2& first_px)
-        : per_x(static_cast<std::uint32_t>(levels.per_x[k]))
-        , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
-        , steps(levels.per_x[k], window_px) {
-        constexpr std::uint32_t middle_level = 128U << 16U;
-        at = static_cast<std::uint32_t>(levels.base[k]) + middle_level +
-             per_x * static_cast<std::uint32_t>(first_px.x) +
-             per_row * static_cast<std::uint32_t>(first_px.y);
-    }
-
-    HWY_INLINE std::array<TexelPlaces, 2> places(const PairWindow& window) const {
-        const hn::RebindToSigned<Texels> whole;
-        const hn::Half<decltype(whole)> row;
-        const auto next = hn::Set(row, of_column(window.first[1], per_row));
-        return steps.from(hn::Combine(whole, next, hn::Set(row, of_column(window.first[0], 0))));
-    }
-
-private:
-    std::int32_t of_column(int column, std::uint32_t below) const {
-        return static_cast<std::int32_t>(at + per_x * static_cast<std::uint32_t>(column) + below);
     }
 };
 
@@ -175,45 +144,6 @@ struct TextureLook {
     }
 };
 
-HWY_INLINE bool has_any(hn::Vec<Strip> values) {
-    return !hn::AllTrue(Strip(), hn::Eq(values, hn::Zero(Strip())));
-}
-
-HWY_INLINE void paint_texture_in_pairs(
-    const Triangle& triangle,
-    const TileJob& job,
-    const SampleLanes& lanes,
-    const TileBox& box,
-    TileBuffer& buffer) {
-    PairCoverage coverage(triangle, job, box, lanes);
-    const TextureLook look(triangle.texture, job);
-    const glm::ivec2 first_px = job.first_px + glm::ivec2(0, box.first_row);
-    std::array planes{
-        PlacePlane(triangle.levels, 0, first_px), PlacePlane(triangle.levels, 1, first_px)};
-    std::array shares{
-        PairLevel(triangle.levels, 2, job, box), PairLevel(triangle.levels, 3, job, box)};
-    const auto paint = [&](const PairWindow& window, hn::Vec<Strip> fresh) HWY_ATTR {
-        if (!has_any(fresh)) {
-            return;
-        }
-        const Colours colours = look.seen(
-            look.around({planes[0].places(window), planes[1].places(window)}),
-            share_of(shares[0].level(window)),
-            share_of(shares[1].level(window)));
-        const auto counts = hn::PopulationCount(fresh);
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint16_t* const sums = buffer.sums[k].data();
-            window.store(hn::Add(window.load(sums), hn::Mul(colours[k], counts)), sums);
-        }
-    };
-    paint_in_pairs(coverage, job, box, buffer, paint, [&]() HWY_ATTR {
-        for (std::size_t i = 0; i < 2; ++i) {
-            planes[i].at += 2 * planes[i].per_row;
-            shares[i].next_rows();
-        }
-    });
-}
-
 /// Covers what is free of a triangle in a strip; what is new waits for its colours.
 template <std::size_t parts>
 HWY_INLINE void cover_texture_strip(
@@ -266,18 +196,14 @@ HWY_INLINE void colour_windows(
     }
 }
 
-/// Paints the strip of a triangle that begins at a column of the tile.
-HWY_INLINE void paint_texture_strip(
+/// Colours what waits of a strip.
+HWY_INLINE void colour_waiting(
     const Triangle& triangle,
     const TileJob& job,
-    const SampleLanes& lanes,
     const TileBox& box,
     int left,
+    const TextureQueue& queue,
     TileBuffer& buffer) {
-    TextureQueue queue;
-    with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
-        cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue);
-    });
     if (queue.count() == 0) {
         return;
     }
@@ -296,12 +222,12 @@ HWY_NOINLINE void paint_even_texture(
     if ((box.rows() & ~buffer.full_rows) == 0) {
         return;
     }
-    if constexpr (has_pairs_of_rows) {
-        paint_texture_in_pairs(triangle, job, lanes, box, buffer);
-    } else {
-        for (int left = box.left; left <= box.right; left += strip_px) {
-            paint_texture_strip(triangle, job, lanes, box, left, buffer);
-        }
+    for (int left = box.left; left <= box.right; left += strip_px) {
+        TextureQueue queue;
+        with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
+            cover_texture_strip<parts>(triangle, job, lanes, box, left, buffer, queue);
+        });
+        colour_waiting(triangle, job, box, left, queue, buffer);
     }
 }
 

@@ -14,11 +14,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -30,34 +27,12 @@ class PairCoverage {
 public:
     HWY_INLINE PairCoverage(
         const Triangle& triangle, const TileJob& job, const TileBox& box, const SampleLanes& lanes)
-        : PairCoverage(triangle, job.first_px + glm::ivec2(0, box.first_row), box, lanes) {}
-
-    /// Where the row at hand or the next one may have any.
-    HWY_INLINE ColumnSpan span(int next) const {
-        const Reach whole(whole_, next);
-        const Reach upper(upper_, next);
-        const Reach lower(lower_, next);
-        constexpr std::int64_t far_away = std::numeric_limits<std::int64_t>::max();
-        const bool has_upper = middle_y_ > next * 256 - 128;
-        const bool has_lower = middle_y_ < next * 256 + 128;
-        const std::int64_t least =
-            std::min(has_upper ? upper.least : far_away, has_lower ? lower.least : far_away);
-        const std::int64_t most =
-            std::max(has_upper ? upper.most : -far_away, has_lower ? lower.most : -far_away);
-        const std::int64_t left = (bends_left_ ? least : whole.least) >> 32;
-        const std::int64_t right = (bends_left_ ? whole.most : most) >> 32;
-        return {
-            static_cast<int>(std::clamp<std::int64_t>(left, box_.left, box_.right)),
-            next > rows_left_
-                ? -1
-                : static_cast<int>(std::clamp<std::int64_t>(right, box_.left - 1, box_.right))};
-    }
+        : PairCoverage(triangle, job.first_px + glm::ivec2(box.left, box.first_row), lanes) {}
 
     HWY_INLINE hn::Vec<Strip> samples(const PairWindow& window) const {
         const PairBits bits;
         const auto is_before = [&](hn::Vec<PairLanes> y) HWY_ATTR { return hn::Lt(y_, y); };
-        const auto columns = [&](const StripEdge& edge)
-                                 HWY_ATTR { return columns_of(edge, window.first); };
+        const auto columns = [&](const StripEdge& edge) HWY_ATTR { return columns_of(edge); };
         const auto bent =
             pixels_from(hn::IfThenElse(is_before(middle_), columns(upper_), columns(lower_)));
         const auto whole = pixels_from(columns(whole_));
@@ -77,48 +52,24 @@ public:
             edge->x += 2 * edge->slope;
         }
         y_ = hn::Add(y_, hn::Set(PairLanes(), 512));
-        middle_y_ -= 512;
-        rows_left_ -= 2;
     }
 
 private:
-    HWY_INLINE PairCoverage(
-        const Triangle& triangle,
-        const glm::ivec2& first_px,
-        const TileBox& box,
-        const SampleLanes& lanes)
-        : box_(box)
-        , middle_y_(triangle.middle - first_px.y * 256)
-        , rows_left_(box.last_row - box.first_row)
-        , down_(load_lanes(lanes.down.data()))
+    HWY_INLINE
+    PairCoverage(const Triangle& triangle, const glm::ivec2& first_px, const SampleLanes& lanes)
+        : down_(load_lanes(lanes.down.data()))
         , round_up_(load_lanes(lanes.round_up.data()))
         , whole_(triangle.whole, triangle.top, first_px, down_, round_up_)
         , upper_(triangle.upper, triangle.top, first_px, down_, round_up_)
         , lower_(triangle.lower, triangle.middle, first_px, down_, round_up_)
         , bends_left_(triangle.middle_is_left)
         , top_(place(triangle.top - first_px.y * 256))
-        , middle_(place(middle_y_))
+        , middle_(place(triangle.middle - first_px.y * 256))
         , bottom_(place(triangle.bottom - first_px.y * 256)) {
         const auto first = hn::BitCast(LaneBits(), hn::ShiftLeft<3>(down_[0]));
         const auto second = hn::Add(first, hn::Set(LaneBits(), 256U));
         y_ = hn::BitCast(PairLanes(), in_turn(first, hn::ShiftLeft<16>(second)));
     }
-
-    /// Between which places an edge crosses the samples of a row or the next one, and half a pixel
-    /// for where they lie in theirs: 2^-32 pixel.
-    struct Reach {
-        std::int64_t least;
-        std::int64_t most;
-
-        HWY_INLINE Reach(const StripEdge& edge, int next) {
-            const std::uint64_t x = edge.x + edge.slope * static_cast<std::uint64_t>(next);
-            const std::int64_t half = static_cast<std::int64_t>(edge.slope) / 2;
-            const std::uint64_t reach =
-                static_cast<std::uint64_t>(std::abs(half)) + (std::uint64_t{1} << 31);
-            least = static_cast<std::int64_t>(x - reach);
-            most = static_cast<std::int64_t>(x + reach);
-        }
-    };
 
     /// A row's place from the first, 1/256 pixel; what is far away stays beyond a tile.
     static HWY_INLINE hn::Vec<PairLanes> place(std::int32_t y) {
@@ -131,17 +82,14 @@ private:
         return hn::Or(hn::And(low, lower_half), hn::AndNot(lower_half, high));
     }
 
-    /// StripEdge::column() of both rows, each from its own first column.
-    static HWY_INLINE hn::Vec<PairLanes>
-    columns_of(const StripEdge& edge, const std::array<int, 2>& first) {
-        const auto at = [&](std::uint64_t x, int column) HWY_ATTR {
-            const auto middle =
-                hn::Set(Lanes(), static_cast<std::int32_t>(x >> 16) - column * 65536);
+    /// StripEdge::column() of both rows.
+    static HWY_INLINE hn::Vec<PairLanes> columns_of(const StripEdge& edge) {
+        const auto at = [&](std::uint64_t x) HWY_ATTR {
+            const auto middle = hn::Set(Lanes(), static_cast<std::int32_t>(x >> 16));
             return hn::BitCast(LaneBits(), hn::Add(middle, edge.offsets[0]));
         };
         return hn::BitCast(
-            PairLanes(),
-            in_turn(hn::ShiftRight<16>(at(edge.x, first[0])), at(edge.x + edge.slope, first[1])));
+            PairLanes(), in_turn(hn::ShiftRight<16>(at(edge.x)), at(edge.x + edge.slope)));
     }
 
     /// The row's pixels from a column on.
@@ -151,9 +99,6 @@ private:
         return hn::Shl(hn::Set(bits, 0xffff), from); // nothing is left where it is 16 or more
     }
 
-    TileBox box_;
-    std::int32_t middle_y_; ///< of the triangle's middle corner, as y_
-    int rows_left_;         ///< of the triangle after the one at hand
     LaneValues down_;
     LaneValues round_up_;
     hn::Vec<PairLanes> y_; ///< of the samples, from the first row's middle, 1/256 pixel
@@ -170,8 +115,6 @@ private:
 struct PairLevel {
     std::uint32_t at; ///< of the upper row's first column in the box, 2^-16 level
     std::uint32_t per_row;
-    int left; ///< that column of the tile
-    int per_column;
     hn::Vec<StripSigned> least;
     hn::Vec<StripSigned> most;
     hn::Vec<StripSigned> steps;
@@ -180,8 +123,6 @@ struct PairLevel {
     PairLevel(const Levels& levels, std::size_t k, const TileJob& job, const TileBox& box)
         : at(first_level(levels, k, job.first_px + glm::ivec2(box.left, box.first_row)))
         , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
-        , left(box.left)
-        , per_column(levels.per_column[k])
         , least(hn::Set(StripSigned(), levels.least[k]))
         , most(hn::Set(StripSigned(), levels.most[k])) {
         const StripSigned sign;
@@ -190,14 +131,12 @@ struct PairLevel {
     }
 
     /// 1/128 level from the level 128.
-    HWY_INLINE hn::Vec<StripSigned> level(const PairWindow& window) const {
+    HWY_INLINE hn::Vec<StripSigned> level() const {
         const hn::Half<StripSigned> row;
-        const auto first = [&](std::uint32_t level_of_row, int column) HWY_ATTR {
-            const int of_row = static_cast<std::int32_t>(level_of_row) >> 9;
-            return hn::Set(row, static_cast<std::int16_t>(of_row + per_column * (column - left)));
+        const auto first = [&](std::uint32_t of_row) HWY_ATTR {
+            return hn::Set(row, static_cast<std::int16_t>(static_cast<std::int32_t>(of_row) >> 9));
         };
-        const auto both = hn::Combine(
-            StripSigned(), first(at + per_row, window.first[1]), first(at, window.first[0]));
+        const auto both = hn::Combine(StripSigned(), first(at + per_row), first(at));
         return hn::Min(hn::Max(hn::Add(both, steps), least), most);
     }
 
@@ -221,8 +160,8 @@ HWY_INLINE auto ground_of_box(const Triangle& triangle, const TileJob& job, cons
     }
 }
 
-/// Covers what is free of a triangle, and calls paint(window, fresh samples of its pixels) for all
-/// its windows and next_rows() after two rows.
+/// Covers what is free of a triangle whose box is as narrow as a window, and calls paint(window,
+/// fresh samples of its pixels) for all its windows and next_rows() after two rows.
 template <class Paint, class NextRows>
 HWY_INLINE void paint_in_pairs(
     PairCoverage& coverage,
@@ -234,26 +173,16 @@ HWY_INLINE void paint_in_pairs(
     const std::uint64_t full_row = job.full_row();
     for (int row = box.first_row; row <= box.last_row; row += 2) {
         std::uint64_t* const full = buffer.full.data() + row;
-        std::array<ColumnSpan, 2> spans{
-            ColumnSpan{box.left, box.right},
-            {box.left, row < box.last_row ? box.right : box.left - 1}};
-        if (box.right - box.left >= window_px) {
-            spans = {coverage.span(0), coverage.span(1)};
-        }
-        const int px = std::max(spans[0].last - spans[0].first, spans[1].last - spans[1].first) + 1;
-        for (int offset = 0; offset < px; offset += window_px) {
-            const PairWindow window(spans, row, offset);
-            if (!window.has_free(full)) {
-                continue;
-            }
+        const PairWindow window(box, row);
+        if (window.has_free(full)) {
             const auto masks = coverage.samples(window);
             const auto before = window.load(buffer.covered.data());
             const auto after = hn::Or(before, masks);
             window.store(after, buffer.covered.data());
             paint(window, hn::AndNot(before, masks));
             const std::uint32_t bits = full_bits(StripValues{after});
-            full[0] |= std::uint64_t{bits & 0xffffU} << window.first[0];
-            full[1] |= std::uint64_t{bits >> 16U} << window.first[1];
+            full[0] |= std::uint64_t{bits & 0xffffU} << window.left;
+            full[1] |= std::uint64_t{bits >> 16U} << window.left;
         }
         const std::uint64_t is_full = std::uint64_t{(full[0] & full_row) == full_row} |
                                       std::uint64_t{(full[1] & full_row) == full_row} << 1U;
@@ -279,7 +208,7 @@ HWY_INLINE void paint_levels_in_pairs(
         const auto counts = hn::PopulationCount(fresh);
         for (std::size_t k = 0; k < levels.size(); ++k) {
             std::uint16_t* const sums = buffer.sums[k].data();
-            const auto colour = from_level(levels[k].level(window));
+            const auto colour = from_level(levels[k].level());
             window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
         }
         if constexpr (kind == PaintAs::Ground) {

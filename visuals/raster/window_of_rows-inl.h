@@ -27,32 +27,28 @@ using PairLanes = hn::Repartition<std::int16_t, Lanes>;
 using PairBits = hn::RebindToUnsigned<PairLanes>;
 using Row = hn::Half<Strip>;
 
-/// Columns of a tile.
-struct ColumnSpan {
-    int first;
-    int last; ///< before the first: none
-};
-
-/// Sixteen columns of a row and sixteen of the next one.
+/// Sixteen columns of a row and of the next one.
 struct PairWindow {
-    std::array<int, 2> first; ///< columns of the tile
-    int row;                  ///< of the tile, the first one
-    std::uint32_t columns;    ///< which of them count, those of the next row in the upper half
+    int left;              ///< column of the tile
+    int row;               ///< of the tile, the first one
+    std::uint32_t columns; ///< which of them count, those of the next row in the upper half
 
-    HWY_INLINE PairWindow(const std::array<ColumnSpan, 2>& spans, int upper_row, int offset)
-        : first{column_of(spans[0], offset), column_of(spans[1], offset)}
-        , row(upper_row)
-        , columns(bits_of(spans[0], offset) | bits_of(spans[1], offset) << 16U) {}
+    /// From the first column of a box that has no more of them.
+    HWY_INLINE PairWindow(const TileBox& box, int upper_row)
+        : left(box.left)
+        , row(upper_row) {
+        const std::uint32_t of_row = box.columns_of_strip(left);
+        columns = upper_row < box.last_row ? of_row * 0x10001U : of_row;
+    }
 
-    std::size_t pixel(std::size_t which) const {
-        return static_cast<std::size_t>(
-            (row + static_cast<int>(which)) * tile_width + first[which]);
+    std::size_t pixel(int which) const {
+        return static_cast<std::size_t>((row + which) * tile_width + left);
     }
 
     /// Whether a pixel of it is not covered whole.
     bool has_free(const std::uint64_t* full) const {
-        return (((std::uint64_t{columns & 0xffffU} << first[0]) & ~full[0]) |
-                ((std::uint64_t{columns >> 16U} << first[1]) & ~full[1])) != 0;
+        return (((columns & 0xffffU) & ~(full[0] >> left)) |
+                ((columns >> 16U) & ~(full[1] >> left))) != 0;
     }
 
     HWY_INLINE hn::Vec<Strip> load(const std::uint16_t* from) const {
@@ -64,17 +60,6 @@ struct PairWindow {
     HWY_INLINE void store(hn::Vec<Strip> values, std::uint16_t* to) const {
         hn::StoreU(hn::LowerHalf(Row(), values), Row(), to + pixel(0));
         hn::StoreU(hn::UpperHalf(Row(), values), Row(), to + pixel(1));
-    }
-
-private:
-    /// Where the row has no more columns it is any one.
-    static int column_of(const ColumnSpan& span, int offset) {
-        return span.first + offset <= span.last ? span.first + offset : span.first;
-    }
-
-    static std::uint32_t bits_of(const ColumnSpan& span, int offset) {
-        const int count = std::clamp(span.last - span.first - offset + 1, 0, window_px);
-        return (1U << count) - 1U;
     }
 };
 
