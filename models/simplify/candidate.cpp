@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace octant::models::simplify {
@@ -64,17 +65,25 @@ double most_turned(const Candidate& candidate, const Yardstick& yardstick) {
     return std::max(candidate.fault.turned, yardstick.allowed_turned());
 }
 
-std::size_t
-least_in_the_mean(std::span<const Candidate> tried, std::size_t best, const Yardstick& yardstick) {
-    const double most = most_turned(tried[best], yardstick);
-    std::size_t least = best;
-    for (std::size_t i = 0; i < tried.size(); ++i) {
-        if (!tried[i].misses && tried[i].fault.turned <= most &&
-            tried[i].fault.rms_m < tried[least].fault.rms_m) {
-            least = i;
+std::vector<std::size_t> starts(std::span<const Candidate> tried, const Yardstick& yardstick) {
+    std::vector<std::size_t> order(tried.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&](std::size_t one, std::size_t other) {
+        const Candidate& a = tried[one];
+        const Candidate& b = tried[other];
+        return a.misses != b.misses
+                   ? b.misses
+                   : yardstick.hopelessness(a.fault) < yardstick.hopelessness(b.fault);
+    });
+    std::vector<std::size_t> found;
+    for (const std::size_t i : order) {
+        if (std::ranges::none_of(found, [&](std::size_t other) {
+                return tried[other].result.chosen_by == tried[i].result.chosen_by;
+            })) {
+            found.push_back(i);
         }
     }
-    return least;
+    return found;
 }
 
 } // namespace octant::models::simplify

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace octant::models::simplify {
 
@@ -45,8 +46,8 @@ Yardstick yardstick_of(
 /// one, or than plain ways do.
 double most_turned(const Candidate& candidate, const Yardstick& yardstick);
 
-/// The number of the candidate with the least root mean square of those that turn no more over.
-std::size_t
-least_in_the_mean(std::span<const Candidate> tried, std::size_t best, const Yardstick& yardstick);
+/// The numbers of the candidates from which revisions lead farthest, the most promising first, one
+/// for each way to choose collapses.
+std::vector<std::size_t> starts(std::span<const Candidate> tried, const Yardstick& yardstick);
 
 } // namespace octant::models::simplify

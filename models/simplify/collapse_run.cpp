@@ -150,7 +150,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
             }
         }
         h = heap_.top();
-        if (chooser_ != Chooser::Quadrics && !checked_[h]) {
+        if (!sums_planes(chooser_) && !checked_[h]) {
             update_cost(h);
             continue;
         }
@@ -313,7 +313,7 @@ void CollapseRun::update_around(std::uint32_t vertex) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.edges_around(vertex, [&](HalfEdge h) {
         const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
-        if (chooser_ == Chooser::Quadrics && !has_parked_[other]) {
+        if (sums_planes(chooser_) && !has_parked_[other]) {
             return;
         }
         has_parked_[other] = false;

@@ -63,7 +63,7 @@ private:
     bool low_may_turn_;
     EdgeHeap heap_;
     /// For each vertex slot whether edges at it may have been taken out of the heap; kept for
-    /// Chooser::Quadrics, which has nothing else to do one ring further.
+    /// choosers that sum planes, which have nothing else to do one ring further.
     std::vector<bool> has_parked_;
     std::vector<bool> checked_; ///< For each edge whether its cost and permission are up to date.
     /// For each checked edge whether the way back to the original was looked at, too.

@@ -19,11 +19,11 @@ constexpr double price_of_turned = 100.0;
 
 /// A result should be less than these shares of the best plain value: other ones of the same kind
 /// are somewhat better than ours now and then.
-constexpr double wanted_off = 0.95;
-constexpr double wanted_rms = 0.82;
+constexpr double wanted_off = 0.86;
+constexpr double wanted_rms = 0.8;
 
 /// A smaller share of turned area is a few samples.
-constexpr double noise = 2e-4;
+constexpr double noise = 3e-4;
 /// By no more than this what turns more over than plain ways counts as worse.
 constexpr double most_for_turned = 4.0;
 
@@ -100,6 +100,15 @@ double Yardstick::wanted_off_m() const {
 bool Yardstick::is_beaten_by(const Fault& fault) const {
     return fault.off_m <= wanted_off_m() && fault.rms_m <= wanted_rms * rms_m_ &&
            fault.turned <= allowed_turned();
+}
+
+bool Yardstick::is_better_in_the_mean_than(const Fault& fault) const {
+    return std::isfinite(off_m_) && fault.rms_m > wanted_rms * rms_m_;
+}
+
+double Yardstick::hopelessness(const Fault& fault) const {
+    const double turned = std::min(beyond(fault.turned, allowed_turned()), most_for_turned);
+    return fault.off_m * fault.rms_m * fault.rms_m * fault.rms_m * turned;
 }
 
 double Yardstick::badness(const Fault& fault) const {

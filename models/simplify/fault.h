@@ -60,6 +60,13 @@ public:
         return fault.off_m > off_m_ || fault.rms_m > rms_m_;
     }
 
+    /// Whether the root mean square is not clearly below that of plain ways, if any was tried.
+    bool is_better_in_the_mean_than(const Fault& fault) const;
+
+    /// How little may be hoped of a result as a start for revisions, which lower distances easily
+    /// and mean ones hardly.
+    double hopelessness(const Fault& fault) const;
+
     /// How bad a fault is: its product, and much more where one distance is not clearly below the
     /// yardstick or more is turned over than is allowed.
     double badness(const Fault& fault) const;

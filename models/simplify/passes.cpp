@@ -30,6 +30,21 @@ constexpr std::size_t small = 30'000;
 /// less time than Quality::Surface by far.
 constexpr std::size_t small_for_fast = 100'000;
 
+/// So many passes run again with a polish that makes slivers.
+constexpr std::size_t most_again = 4;
+/// So many results are revised where the first one does not beat the yardstick.
+constexpr std::size_t most_starts = 2;
+/// A later one is given up where it stays more than so many times as bad as the best.
+constexpr double most_behind = 1.25;
+
+/// Whether a mesh shows nothing but its shape. Distances do not tell where borders of colours and
+/// materials should be, and revisions know them only as the result has them.
+bool is_plain(const TriangleMesh& mesh) {
+    return mesh.colours.empty() &&
+           std::ranges::adjacent_find(mesh.triangle_materials, std::ranges::not_equal_to()) ==
+               mesh.triangle_materials.end();
+}
+
 /// What chooses the collapses of each pass that is tried; the usual one first.
 std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOptions& options) {
     const std::size_t before = original.triangles.size();
@@ -45,6 +60,9 @@ std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOp
         choosers.push_back(Chooser::Quadrics);
     }
     if (original.colours.empty() && has_plain) {
+        if (!is_fast && before <= small && is_plain(original)) {
+            choosers.push_back(Chooser::Planes);
+        }
         choosers.push_back(Chooser::Volumes);
     }
     return choosers;
@@ -119,16 +137,18 @@ std::size_t beside_plain(
         return best;
     }
     const double most = most_turned(tried[best], yardstick);
+    std::vector<std::size_t> again = starts(tried, yardstick);
+    again.resize(std::min(again.size(), most_again));
     const std::size_t passes = tried.size();
-    tried.resize(2 * passes);
+    tried.resize(passes + again.size());
     SimplifyOptions how = options;
     how.fits_slivers = true;
     if (fault.off_m > yardstick.wanted_off_m()) {
         how.avoided_m = yardstick.wanted_off_m();
     }
-    share_out(passes, options.threads, [&](std::size_t i, std::size_t) {
+    share_out(again.size(), options.threads, [&](std::size_t i, std::size_t) {
         tried[passes + i] =
-            judged(one_pass(original.mesh(), how, tried[i].result.chosen_by), original, how);
+            judged(one_pass(original.mesh(), how, tried[again[i]].result.chosen_by), original, how);
     });
     for (std::size_t i = 0; i < tried.size(); ++i) {
         if (tried[i].fault.turned <= most && tried[i].is_better_than(tried[best], yardstick)) {
@@ -138,16 +158,8 @@ std::size_t beside_plain(
     return best;
 }
 
-/// Whether a mesh shows nothing but its shape. Distances do not tell where borders of colours and
-/// materials should be, and revisions know them only as the result has them.
-bool is_plain(const TriangleMesh& mesh) {
-    return mesh.colours.empty() &&
-           std::ranges::adjacent_find(mesh.triangle_materials, std::ranges::not_equal_to()) ==
-               mesh.triangle_materials.end();
-}
-
-/// Improves the best of the passes that were tried. Where that does not beat the yardstick, the one
-/// that is least off in the mean is revised instead, if that leads farther.
+/// Improves the passes that were tried by revisions, the most promising one first, and another one
+/// where that does not beat the yardstick. Returns the best of all.
 Simplified improved(
     std::vector<Candidate> tried,
     std::size_t best,
@@ -163,17 +175,23 @@ Simplified improved(
         Candidate& one = tried[best];
         return lowered(std::move(one), Yardstick(), 3, original, options, ways.one_pass).result;
     }
-    Candidate found = lowered(tried[best], yardstick, 1, original, options, ways.one_pass);
-    found = revised(std::move(found), yardstick, original, options, ways.revise);
-    if (found.misses || yardstick.is_beaten_by(found.fault)) {
-        return std::move(found.result);
-    }
-    const std::size_t other = least_in_the_mean(tried, best, yardstick);
-    if (other != best) {
-        Candidate second =
-            revised(std::move(tried[other]), yardstick, original, options, ways.revise);
-        if (second.is_better_than(found, yardstick)) {
-            return std::move(second.result);
+    const std::vector<std::size_t> from = starts(tried, yardstick);
+    Candidate found = tried[best];
+    for (std::size_t i = 0; i < std::min(most_starts, from.size()); ++i) {
+        if (found.misses || (i > 0 && yardstick.is_beaten_by(found.fault))) {
+            break;
+        }
+        Candidate start = tried[from[i]];
+        const double wanted_m = yardstick.wanted_off_m();
+        if (i == 0 && (start.fault.off_m > wanted_m || std::isinf(wanted_m))) {
+            start = lowered(std::move(start), yardstick, 1, original, options, ways.one_pass);
+        }
+        const double rival = i == 0 ? std::numeric_limits<double>::infinity()
+                                    : most_behind * yardstick.badness(found.fault);
+        Candidate other =
+            revised(std::move(start), yardstick, rival, original, options, ways.revise);
+        if (other.is_better_than(found, yardstick)) {
+            found = std::move(other);
         }
     }
     return std::move(found.result);

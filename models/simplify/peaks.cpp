@@ -32,8 +32,8 @@ constexpr double hot_share = 0.85;
 constexpr double least_gain = 0.003;
 
 /// A distance of more than `tall` times the root mean square is an isolated peak, as where sharp
-/// edges meet. A step that lowers it by more than `tall_gain` may turn triangles further, make
-/// slivers, and add more to the squares.
+/// edges meet. A step that lowers it by more than `tall_gain` may fold triangles over and
+/// add more to the squares.
 constexpr double tall = 12.0;
 constexpr double tall_gain = 0.1;
 /// By this share of the root mean square such steps may make it grow, all together and beside the
@@ -51,6 +51,7 @@ public:
         const PolishTarget& target,
         const PeakOptions& options)
         : surface_(surface)
+        , is_plain_(!surface.coloured() && surface.materials.empty())
         , around_(surface, points, target)
         , heights_(surface.mesh.face_slots())
         , tried_vertices_(surface.mesh.vertex_slots(), false)
@@ -81,6 +82,7 @@ public:
 private:
     void measure(std::uint32_t face);
     VertexFit fitted() const;
+    glm::dvec3 way_of_worst_sample() const;
     bool is_better(const Heights& before, const Heights& after, Strictness strictness) const;
     bool step_to(
         const glm::dvec3& place,
@@ -92,6 +94,8 @@ private:
     void try_flip(HalfEdge h);
 
     WorkingSurface& surface_;
+    /// There are no borders of colours and materials, which are not looked at here.
+    bool is_plain_;
     RingHeights around_;
     std::vector<Heights> heights_; ///< For each triangle.
     /// Vertices that were tried in vain and around which nothing has changed since.
@@ -147,7 +151,8 @@ bool PeakLowering::is_better(
     const bool is_tall =
         before.most2 > tall2_ && after.most2 < (1.0 - tall_gain) * (1.0 - tall_gain) * before.most2;
     return is_tall ? growth <= allowance_ + tall_allowance_
-                   : growth <= allowance_ && strictness == Strictness::Normal;
+                   : growth <= allowance_ && (strictness == Strictness::Normal ||
+                                              (is_plain_ && after.turned <= before.turned));
 }
 
 /// Accepts a change that was just measured: books its cost and updates the points' lists and the
@@ -186,7 +191,23 @@ bool PeakLowering::step_to(
     return true;
 }
 
-/// Tries to move a vertex along the fitted direction, with shorter and shorter steps.
+/// The step that takes the farthest of the samples that were seen last to its nearest point.
+glm::dvec3 PeakLowering::way_of_worst_sample() const {
+    constexpr double least_share = 0.1; // Others hardly follow the vertex.
+    double most2 = 0.0;
+    glm::dvec3 way(0.0);
+    for (const SeenSample& sample : around_.samples()) {
+        const double off2 = glm::dot(sample.off, sample.off);
+        if (off2 > most2 && sample.share > least_share) {
+            most2 = off2;
+            way = sample.off / sample.share;
+        }
+    }
+    return way;
+}
+
+/// Tries to move a vertex along the fitted direction or towards what its farthest sample misses,
+/// with shorter and shorter steps.
 void PeakLowering::lower_at(std::uint32_t vertex) {
     around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
@@ -194,12 +215,11 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
     around_.set_ring(place, colour);
     const Heights before = around_.seen({});
     const glm::dvec3 way = fitted().way();
+    const glm::dvec3 way_of_worst = is_plain_ ? way_of_worst_sample() : way;
     for (const Strictness strictness : {Strictness::Normal, Strictness::Loose}) {
-        if (strictness == Strictness::Loose && !(before.most2 > tall2_)) {
-            break;
-        }
         for (const double step : {1.0, 0.5, 0.2, 0.1}) {
-            if (step_to(place + step * way, vertex, before, strictness)) {
+            if (step_to(place + step * way, vertex, before, strictness) ||
+                step_to(place + step * way_of_worst, vertex, before, strictness)) {
                 return;
             }
         }

@@ -15,7 +15,7 @@ struct PeakOptions {
     double most_growth = 0.01;
     /// It ends after this many sample distances, or after looks_a_face for each triangle of the
     /// target, whichever is more.
-    std::size_t least_looks = 70'000;
+    std::size_t least_looks = 110'000;
     std::size_t looks_a_face = 12;
 };
 

@@ -6,6 +6,7 @@
 
 #include "sim/base/worker_team.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -33,6 +34,7 @@ constexpr double most_badness_left = 0.98;
 Candidate tried_out(
     const Candidate& before,
     const Try& one,
+    const Yardstick& yardstick,
     const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Revise& revise,
@@ -41,6 +43,10 @@ Candidate tried_out(
     how.fits_slivers = before.fits_slivers;
     how.slivers_too = true;
     how.avoided_m = one.part * before.fault.off_m;
+    // Where the mean has to become less, the largest distance may be as large as is wanted.
+    if (one.split_by == SplitBy::Squares && yardstick.is_better_in_the_mean_than(before.fault)) {
+        how.avoided_m = std::max(how.avoided_m, yardstick.wanted_off_m());
+    }
     Simplified other = before.result;
     const double splits = one.splits * static_cast<double>(other.mesh.triangles.size());
     other.mesh = revise(
@@ -56,6 +62,7 @@ Candidate tried_out(
 Candidate revised(
     Candidate best,
     const Yardstick& yardstick,
+    double most_badness,
     const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Revise& revise) {
@@ -67,7 +74,7 @@ Candidate revised(
         };
         std::array<Candidate, tries.size()> tried;
         share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
-            tried[i] = tried_out(best, tries[i], original, options, revise, is_hopeless);
+            tried[i] = tried_out(best, tries[i], yardstick, original, options, revise, is_hopeless);
         });
         const double before = yardstick.badness(best.fault);
         for (Candidate& other : tried) {
@@ -75,7 +82,8 @@ Candidate revised(
                 best = std::move(other);
             }
         }
-        is_better = yardstick.badness(best.fault) < most_badness_left * before;
+        const double after = yardstick.badness(best.fault);
+        is_better = after < most_badness_left * before && after <= most_badness;
     }
     return best;
 }

@@ -26,10 +26,12 @@ using Revise = std::function<TriangleMesh(
     const Revision& revision)>;
 
 /// Tries to improve a result, which has the original given, by revisions, side by side, as long as
-/// one of them is better and turns no more over than most_turned.
+/// one of them is better and turns no more over than most_turned. It is given up where the first
+/// time leaves more badness than given.
 Candidate revised(
     Candidate best,
     const Yardstick& yardstick,
+    double most_badness,
     const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Revise& revise);

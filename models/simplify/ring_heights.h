@@ -47,7 +47,8 @@ struct HeightLimits {
 class RingHeights {
 public:
     /// `spacing` is about the distance between samples. 0 means a grid on each triangle, border
-    /// included, with as many samples as the target has triangles for each one of the surface.
+    /// included, with as many samples as the target has triangles for each one of the surface, and
+    /// more where these are few.
     RingHeights(
         const WorkingSurface& surface,
         TrackedPoints& points,

@@ -39,6 +39,7 @@ std::size_t least_points(std::size_t triangles, bool coloured) {
 /// How many times the wanted error collapses go by their own estimate: the polish may bring the
 /// error back.
 constexpr double beyond_goal = 2.0;
+
 /// The rounds of the polish before and after the collapses of a revision, whose surface is polished
 /// already.
 constexpr int revision_rounds = 4;
@@ -58,6 +59,8 @@ PolishOptions polish_options(
     const SimplifyOptions& options) {
     constexpr std::size_t many = 9;    // Triangles of the target for each one of the surface.
     constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
+    // Of a target whose results are revised, and so polished again (best_of_passes).
+    constexpr std::size_t soon_revised = 30'000;
     PolishOptions polish;
     polish.threads = options.threads;
     polish.slivers_too = options.fits_slivers;
@@ -70,7 +73,8 @@ PolishOptions polish_options(
         polish.fields = 4;
     }
     if (options.quality == Quality::Surface && surface.mesh.face_count() <= few) {
-        polish.rounds = 12;
+        const bool is_revised = !surface.coloured() && target.face_count() <= soon_revised;
+        polish.rounds = is_revised ? 8 : 12;
     }
     return polish;
 }
@@ -189,13 +193,21 @@ TrackedPoints points_of(
     return points;
 }
 
+/// The weights of edges that suit what chooses the collapses.
+EdgeWeights weights_for(Chooser chooser) {
+    if (measures_distances(chooser)) {
+        return {};
+    }
+    return chooser == Chooser::Planes ? alike_weights : cost_weights;
+}
+
 /// Simplifies to a goal of vertices or faces in one pass (OnePass).
 Simplified
 simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     WorkingSurface surface(original, units);
     const bool measures = measures_distances(chosen_by);
-    CollapsingSurface collapsing(surface, units, measures ? EdgeWeights{} : cost_weights);
+    CollapsingSurface collapsing(surface, units, weights_for(chosen_by));
     begin_in_rounds(collapsing, chosen_by, options);
     std::optional<TrackedPoints> points;
     if (measures) {
@@ -254,7 +266,7 @@ TriangleMesh resplit(
     list_nearer(surface, points, options.threads);
     measure_lists(surface, points);
     const bool measures = measures_distances(revision.chooser);
-    CollapsingSurface collapsing(surface, units, measures ? EdgeWeights{} : cost_weights);
+    CollapsingSurface collapsing(surface, units, weights_for(revision.chooser));
     CollapseRun(collapsing, revision.chooser, measures ? &points : nullptr, &bvh, options)
         .run(options.goal, {});
     if (!measures) {

@@ -32,13 +32,19 @@ enum class Quality {
 enum class Chooser {
     Distances, ///< By distances to the original surface, both ways.
     Peaks,     ///< By the same, where a distance far above the usual one counts for all around it.
-    Quadrics,  ///< By the sums of squared distances to the original planes.
+    Quadrics,  ///< By the sums of squared distances to the original planes, weighted by area.
+    Planes,    ///< By the same, where each plane counts as much as any other.
     Volumes    ///< By the volumes that triangles sweep, without memory of the original.
 };
 
 /// Whether it measures distances to the original surface at each step.
 constexpr bool measures_distances(Chooser chooser) {
     return chooser == Chooser::Distances || chooser == Chooser::Peaks;
+}
+
+/// Whether it takes what quadrics remember for the cost.
+constexpr bool sums_planes(Chooser chooser) {
+    return chooser == Chooser::Quadrics || chooser == Chooser::Planes;
 }
 
 /// How a mesh is simplified.

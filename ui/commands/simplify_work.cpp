@@ -62,6 +62,8 @@ std::string name_of(simplify::Chooser chooser) {
         return "peaks";
     case simplify::Chooser::Quadrics:
         return "quadrics";
+    case simplify::Chooser::Planes:
+        return "planes";
     case simplify::Chooser::Volumes:
         break;
     }

@@ -45,7 +45,7 @@ TEST_CASE("what plain ways beat in one value is worse than what they beat in non
     Yardstick yardstick;
     yardstick.add({1.0, 0.5, 0.001});
     yardstick.add({2.0, 0.1, 0.003});
-    const Fault balanced{0.9, 0.08, 0.0};
+    const Fault balanced{0.85, 0.079, 0.0};
     const Fault far_off{1.5, 0.03, 0.0};
     const Fault far_in_the_mean{0.4, 0.15, 0.0};
     CHECK(yardstick.is_beaten_by(balanced));
@@ -56,6 +56,19 @@ TEST_CASE("what plain ways beat in one value is worse than what they beat in non
     CHECK_FALSE(yardstick.is_beaten_by(far_in_the_mean));
     CHECK(yardstick.badness(balanced) < yardstick.badness(far_off));
     CHECK(yardstick.badness(balanced) < yardstick.badness(far_in_the_mean));
+}
+
+TEST_CASE("a start for revisions is judged by the mean distance first, and by turned area") {
+    Yardstick yardstick;
+    yardstick.add({1.0, 1.0, 0.001});
+    const Fault near_in_the_mean{1.3, 0.9, 0.0};
+    const Fault near_at_most{0.9, 1.1, 0.0};
+    CHECK(yardstick.hopelessness(near_in_the_mean) < yardstick.hopelessness(near_at_most));
+    CHECK(yardstick.hopelessness({1.3, 0.9, 0.003}) > yardstick.hopelessness(near_at_most));
+    CHECK(yardstick.is_better_in_the_mean_than(near_in_the_mean));
+    CHECK_FALSE(yardstick.is_better_in_the_mean_than({5.0, 0.7, 0.0}));
+    INFO("without a yardstick nothing is better");
+    CHECK_FALSE(Yardstick().is_better_in_the_mean_than(near_in_the_mean));
 }
 
 TEST_CASE("what turns more over than plain ways is no better for being nearer") {

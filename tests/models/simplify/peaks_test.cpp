@@ -1,6 +1,7 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/peak_heights.h"
 #include "models/simplify/peaks.h"
+#include "models/simplify/ring_heights.h"
 #include "models/simplify/triangle_samples.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
@@ -8,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::simplify;
@@ -53,4 +55,19 @@ TEST_CASE("a vertex that stands out is drawn back to the surface") {
     surface.places[inner].z += 0.05;
     lower_peaks(surface, points, {target, bvh}, {});
     CHECK(std::abs(surface.places[inner].z) < 0.02);
+}
+
+TEST_CASE("large triangles are looked at closely") {
+    const TriangleMesh fine = strip(8, 8);
+    const TriangleMesh coarse = strip(1, 1);
+    const WorkingUnits units = WorkingUnits::of(fine, 0.1);
+    const TargetMesh target(fine, units);
+    const WorkingSurface surface(coarse, units);
+    TrackedPoints points(target, 1000);
+    points.assign_all(std::vector<std::uint32_t>(points.size(), 0), surface.mesh.face_slots());
+    const measure::TriangleBvh bvh(target.places, fine.triangles);
+    RingHeights around(surface, points, {target, bvh});
+    around.take_face(0);
+    around.seen({});
+    CHECK(around.samples().size() == sample_grid(16).size());
 }
