@@ -36,7 +36,7 @@ std::shared_ptr<const models::heights::RunwayStrip> askew() {
     return std::make_shared<const models::heights::RunwayStrip>(strip);
 }
 
-/// A runway on cells of 40 m that do not run along it.
+/// A runway on cells of 40 m that do not run along it, all of it in view.
 struct PaintedRunway {
     scene::Camera camera;
     std::shared_ptr<const models::heights::RunwayStrip> strip = askew();
@@ -46,12 +46,13 @@ struct PaintedRunway {
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
         : camera(scene::camera_looking_at(eye_m, {0.0, 0.0, 0.0})) {
+        camera.vertical_fov_rad = rad_from_deg(150.0);
         landscape::GroundCounts counts;
         ground = mesher->triangles({camera, 1.0, 1000}, counts);
         painter.paint(ground, *mesher, view(), false, most);
     }
 
-    FrameView view() const { return frame_view(camera, {640, 480}, 0.0); }
+    FrameView view() const { return frame_view(camera, {6400, 4800}, 0.0); }
 
     std::span<const glm::dvec3> corners(const GroundPaint& paint) const {
         return painter.paints().corners.subspan(paint.first, paint.count);
