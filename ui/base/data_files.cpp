@@ -92,7 +92,7 @@ fs::path path_file(const std::string& name_or_file, const std::string& aircraft)
         return name_or_file;
     }
     throw Error(fmt::format(
-        "path: expected {}, a .toml, .csv or .acmi file, got '{}'",
+        "path: expected {}, a .toml, .csv, .igc, .gpx or .acmi file, got '{}'",
         fmt::join(built_in_paths, ", "),
         printable(name_or_file)));
 }

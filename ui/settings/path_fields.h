@@ -21,7 +21,7 @@ inline constexpr std::tuple path_rows{
          listing<
              "path: ",
              base::built_in_paths,
-             ", a .toml, a recorded or logged .csv or a Tacview tape (.acmi)">},
+             ", a .toml, a recorded or logged .csv, .igc or .gpx, or a Tacview tape (.acmi)">},
         {.group = SettingGroup::Path,
          .change = SettingsChange::Flight,
          .known = base::built_in_paths}),
