@@ -36,7 +36,7 @@ std::shared_ptr<const models::heights::RunwayStrip> askew() {
     return std::make_shared<const models::heights::RunwayStrip>(strip);
 }
 
-/// A runway on cells of 40 m that do not run along it, all of it in view.
+/// A runway on cells of 40 m that do not run along it.
 struct PaintedRunway {
     scene::Camera camera;
     std::shared_ptr<const models::heights::RunwayStrip> strip = askew();
@@ -46,13 +46,19 @@ struct PaintedRunway {
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
         : camera(scene::camera_looking_at(eye_m, {0.0, 0.0, 0.0})) {
-        camera.vertical_fov_rad = rad_from_deg(150.0);
         landscape::GroundCounts counts;
         ground = mesher->triangles({camera, 1.0, 1000}, counts);
         painter.paint(ground, *mesher, view(), false, most);
     }
 
-    FrameView view() const { return frame_view(camera, {6400, 4800}, 0.0); }
+    FrameView narrow_view() const { return frame_view(camera, {640, 480}, 0.0); }
+
+    /// All of the ground is in it.
+    FrameView view() const {
+        FrameView all = narrow_view();
+        all.frustum = {};
+        return all;
+    }
 
     std::span<const glm::dvec3> corners(const GroundPaint& paint) const {
         return painter.paints().corners.subspan(paint.first, paint.count);
@@ -216,6 +222,33 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     CHECK(few.painter.triangles() < all.painter.triangles());
     CHECK(few.painter.most_triangles(eye_m, 20000) >= most);
     CHECK(few.painter.most_triangles({0.0, 0.0, 20000.0}, 20000) < most);
+}
+
+TEST_CASE("a runway is painted on triangles that may be in view and on no others") {
+    PaintedRunway world({-900.0, -300.0, 60.0});
+    const auto painted = [&] {
+        std::set<std::uint32_t> triangles;
+        for (const GroundPaint& paint : world.painter.paints().paints) {
+            triangles.insert(paint.triangle);
+        }
+        return triangles;
+    };
+    const std::set<std::uint32_t> all = painted();
+    const FrameView view = world.narrow_view();
+    world.painter.paint(world.ground, *world.mesher, view, false, plenty);
+    const std::set<std::uint32_t> seen = painted();
+    CHECK(seen.size() > 20);
+    CHECK(seen.size() < all.size());
+    for (const std::uint32_t triangle : all) {
+        SightPolygon corners;
+        place_triangle(world.ground, triangle, corners);
+        const bool is_beyond = std::ranges::any_of(view.frustum, [&](const glm::dvec3& inwards) {
+            return std::ranges::all_of(corners, [&](const SightCorner& corner) {
+                return glm::dot(inwards, corner.at_m) < 0.0;
+            });
+        });
+        CHECK((seen.contains(triangle) || is_beyond));
+    }
 }
 
 TEST_CASE("what looks narrow takes the surface's colour before it is left out") {
