@@ -52,7 +52,7 @@ public:
         const PeakOptions& options)
         : surface_(surface)
         , is_plain_(!surface.coloured() && surface.materials.empty())
-        , around_(surface, points, target)
+        , around_(surface, points, target, {.of_all = options.samples})
         , heights_(surface.mesh.face_slots())
         , tried_vertices_(surface.mesh.vertex_slots(), false)
         , tried_edges_(surface.mesh.face_slots() * 3, false) {
@@ -74,6 +74,9 @@ public:
         // The sum of squares counts both directions, each over the area, hence the factor 2.
         tall2_ = area > 0.0 ? tall * tall * squares / (2.0 * area) : everything;
     }
+
+    /// Whether there are peaks more than twice as high as isolated ones have to be.
+    bool is_very_tall() const { return most2() > 4.0 * tall2_; }
 
     double most2() const { return std::ranges::max(heights_, {}, &Heights::most2).most2; }
 
@@ -284,7 +287,13 @@ void lower_peaks(
     TrackedPoints& points,
     const PolishTarget& target,
     const PeakOptions& options) {
-    PeakLowering lowering(surface, points, target, options);
+    PeakOptions how = options;
+    how.samples = 0;
+    // High peaks are lowered at a price, and closer looks find more of them to pay for.
+    if (!PeakLowering(surface, points, target, how).is_very_tall()) {
+        how.samples = options.samples;
+    }
+    PeakLowering lowering(surface, points, target, how);
     for (int round = 0; round < options.rounds && lowering.most2() > peak_rounding2; ++round) {
         const double before2 = lowering.most2();
         lowering.round();

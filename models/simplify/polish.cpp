@@ -10,7 +10,6 @@
 
 #include "models/simplify/aims.h"
 #include "models/simplify/collapse_guard.h"
-#include "models/simplify/peaks.h"
 #include "models/simplify/point_lists.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/turned_faces.h"
@@ -220,7 +219,7 @@ void polish(
         return;
     }
     polishing.list_again();
-    lower_peaks(surface, points, target, {});
+    lower_peaks(surface, points, target, options.peaks);
     polishing.list_again();
     turn_back(surface, points, target, {});
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/simplify/peaks.h"
 #include "models/simplify/polish_target.h"
 #include "models/simplify/tracked_points.h"
 #include "models/simplify/working_surface.h"
@@ -13,6 +14,7 @@ struct PolishOptions {
     int rounds = 7;
     int fields = 3;       ///< The number of grid fields along a triangle's side, for samples.
     bool extremes = true; ///< Calls lower_peaks and turn_back at the end.
+    PeakOptions peaks;    ///< For lower_peaks.
     /// Vertices of an uncoloured surface may move to where triangles become slivers: along
     /// cylinders and rims those lie best.
     bool slivers_too = false;

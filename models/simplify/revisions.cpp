@@ -37,8 +37,7 @@ Candidate tried_out(
     const Yardstick& yardstick,
     const measure::TargetSurface& original,
     const SimplifyOptions& options,
-    const Revise& revise,
-    const IsHopeless& is_hopeless) {
+    const Revise& revise) {
     SimplifyOptions how = options;
     how.fits_slivers = before.fits_slivers;
     how.slivers_too = true;
@@ -54,7 +53,9 @@ Candidate tried_out(
         original.mesh(),
         how,
         {one.split_by, 1 + static_cast<std::size_t>(splits), one.chooser});
-    return judged(std::move(other), original, how, is_hopeless);
+    return judged(std::move(other), original, how, [&](const Fault& least) {
+        return !before.is_worse_than(least, yardstick);
+    });
 }
 
 } // namespace
@@ -69,12 +70,9 @@ Candidate revised(
     const double most = most_turned(best, yardstick);
     bool is_better = !best.misses && best.fault.off_m > 0.0;
     for (int time = 0; time < most_times && is_better; ++time) {
-        const auto is_hopeless = [&](const Fault& least) {
-            return !best.is_worse_than(least, yardstick);
-        };
         std::array<Candidate, tries.size()> tried;
         share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
-            tried[i] = tried_out(best, tries[i], yardstick, original, options, revise, is_hopeless);
+            tried[i] = tried_out(best, tries[i], yardstick, original, options, revise);
         });
         const double before = yardstick.badness(best.fault);
         for (Candidate& other : tried) {

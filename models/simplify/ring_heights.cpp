@@ -14,21 +14,13 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// About so many samples of all triangles together are taken where they are few and large: between
-/// samples the distance was up to half as much again as at them.
-constexpr std::size_t samples_of_all = 40'000;
-
 /// The number of fields along a triangle's side so that there are as many samples as triangles of
-/// the target for each one of the surface, within 4 and 8; without borders of colours and
-/// materials, which what lowers distances does not look at, also enough of all, up to 16.
-int grid_fields(const WorkingSurface& surface, std::size_t target_faces) {
+/// the target for each one of the surface, within 4 and 8, and so many of all, up to 16.
+int grid_fields(const WorkingSurface& surface, std::size_t target_faces, std::size_t of_all) {
     const auto faces = static_cast<double>(std::max<std::size_t>(surface.mesh.face_count(), 1));
     const int each = static_cast<int>(std::sqrt(static_cast<double>(target_faces) / faces));
-    if (surface.coloured() || !surface.materials.empty()) {
-        return std::clamp(each, 4, 8);
-    }
-    const int enough = static_cast<int>(std::sqrt(2.0 * samples_of_all / faces));
-    return std::clamp(std::max(each, enough), 4, 16);
+    const int least = static_cast<int>(std::sqrt(2.0 * static_cast<double>(of_all) / faces));
+    return std::clamp(std::clamp(each, 4, 8), std::min(least, 16), 16);
 }
 
 /// Bounds of the number of samples on a triangle when there is a spacing.
@@ -44,18 +36,18 @@ RingHeights::RingHeights(
     const WorkingSurface& surface,
     TrackedPoints& points,
     const PolishTarget& target,
-    double spacing)
+    const SampleDensity& density)
     : surface_(surface)
     , points_(points)
     , target_(target)
     , in_turn_(target)
-    , spacing_(spacing) {
-    if (spacing > 0.0) {
+    , spacing_(density.spacing) {
+    if (spacing_ > 0.0) {
         for (std::size_t i = 0; i < most_ring_samples; ++i) {
             samples_on_.push_back({spread_weights(i), 0.0});
         }
     } else {
-        samples_on_ = sample_grid(grid_fields(surface, target.mesh.face_count()));
+        samples_on_ = sample_grid(grid_fields(surface, target.mesh.face_count(), density.of_all));
     }
 }
 

@@ -41,19 +41,25 @@ struct HeightLimits {
     }
 };
 
+/// How many samples there are on triangles.
+struct SampleDensity {
+    /// About the distance between samples. 0 means a grid on each triangle, border included, with
+    /// as many samples as the target has triangles for each one of the surface.
+    double spacing = 0.0;
+    /// Of all triangles together the grids have at least about so many.
+    std::size_t of_all = 0;
+};
+
 /// Measures how far some triangles of a surface are from the target, both ways, as they are and as
 /// they would be after a change: by the tracked points in their lists, and by samples on each of
 /// them.
 class RingHeights {
 public:
-    /// `spacing` is about the distance between samples. 0 means a grid on each triangle, border
-    /// included, with as many samples as the target has triangles for each one of the surface, and
-    /// more where these are few.
     RingHeights(
         const WorkingSurface& surface,
         TrackedPoints& points,
         const PolishTarget& target,
-        double spacing = 0.0);
+        const SampleDensity& density = {});
 
     /// Loads what is looked at: one triangle ...
     void take_face(std::uint32_t face);

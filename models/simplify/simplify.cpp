@@ -43,6 +43,8 @@ constexpr double beyond_goal = 2.0;
 /// The rounds of the polish before and after the collapses of a revision, whose surface is polished
 /// already.
 constexpr int revision_rounds = 4;
+/// How the largest distance is lowered by looking closely, where triangles are few and large.
+constexpr PeakOptions close_peaks{.least_looks = 110'000, .samples = 40'000};
 
 /// Whether each triangle that is left of a large mesh stands for many.
 bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
@@ -64,6 +66,10 @@ PolishOptions polish_options(
     PolishOptions polish;
     polish.threads = options.threads;
     polish.slivers_too = options.fits_slivers;
+    // Borders of colours and materials would not be looked at.
+    if (!surface.coloured() && surface.materials.empty()) {
+        polish.peaks = close_peaks;
+    }
     polish.avoided2 = std::pow(options.avoided_m / diagonal_m, 2.0);
     if (options.quality == Quality::Fast) {
         polish.rounds = stands_for_many(target, surface.mesh.face_count()) ? 2 : 1;

@@ -56,7 +56,7 @@ public:
               surface,
               points,
               target,
-              std::sqrt(area_of(surface) / static_cast<double>(options.samples)))
+              {.spacing = std::sqrt(area_of(surface) / static_cast<double>(options.samples))})
         , heights_(surface.mesh.face_slots())
         , tried_vertices_(surface.mesh.vertex_slots(), false) {
         Heights all;

@@ -60,10 +60,11 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     const double fov_rad = glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach);
     Camera camera = camera_looking_at(tower.eye_m, aircraft_m);
     // Where no ground is in the picture its samples do not hold the lens wide.
-    const double ground_rad =
-        std::min(tower.least_fov_rad, fov_for_share(radius_m, distance_m, least_share));
+    const double known_rad = fov_for_share(radius_m, distance_m, least_share);
+    const double lens_rad = std::min(narrowest_fov_rad, known_rad);
+    const double ground_rad = std::min(tower.least_fov_rad, known_rad);
     const double without_ground = glm::smoothstep(aircraft_off + 0.5, 1.1, above_rad / ground_rad);
-    camera.vertical_fov_rad = std::max(fov_rad, (1.0 - without_ground) * ground_rad);
+    camera.vertical_fov_rad = std::max(fov_rad, glm::mix(ground_rad, lens_rad, without_ground));
     const double most_rad = aircraft_off * camera.vertical_fov_rad;
     const double tilt_rad = reach * std::clamp(0.5 * above_rad, -most_rad, most_rad);
     camera.view_to_world =

@@ -12,13 +12,16 @@
 
 namespace octant::visuals::scene {
 
+/// The narrowest field of view of the tower's lens.
+inline constexpr double narrowest_fov_rad = 0.0122;
+
 /// Where the tower's camera stands, and what it knows of the land around it.
 struct Tower {
     glm::dvec3 eye_m{0.0};
     /// Elevation of the skyline at even steps of heading from north; empty: level all around.
     std::vector<float> skyline_rad;
     /// A narrower field of view would show single samples of the ground.
-    double least_fov_rad = 0.0122;
+    double least_fov_rad = narrowest_fov_rad;
 };
 
 /// Elevation of the skyline at a heading, radians.

@@ -103,7 +103,7 @@ std::size_t stride_for(std::size_t count, std::size_t most) {
 
 /// The narrowest field of view that spans many samples of ground so far off.
 double fov_for_samples(double distance_m, const TowerWish& wish) {
-    return std::max(many_samples * wish.spacing_m / distance_m, Tower().least_fov_rad);
+    return std::max(many_samples * wish.spacing_m / distance_m, narrowest_fov_rad);
 }
 
 /// How well the aircraft is seen in one state, 0..1.
@@ -229,7 +229,7 @@ double finest_fov_rad(const glm::dvec3& eye_m, const TowerWish& wish, const Grou
         behind_m.push_back(std::min(look.behind_m, look.skyline_m));
     }
     if (behind_m.empty()) {
-        return Tower().least_fov_rad;
+        return narrowest_fov_rad;
     }
     const auto middle = behind_m.begin() + static_cast<std::ptrdiff_t>(behind_m.size() / 2);
     std::nth_element(behind_m.begin(), middle, behind_m.end());

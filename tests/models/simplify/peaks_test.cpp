@@ -66,8 +66,12 @@ TEST_CASE("large triangles are looked at closely") {
     TrackedPoints points(target, 1000);
     points.assign_all(std::vector<std::uint32_t>(points.size(), 0), surface.mesh.face_slots());
     const measure::TriangleBvh bvh(target.places, fine.triangles);
-    RingHeights around(surface, points, {target, bvh});
+    RingHeights around(surface, points, {target, bvh}, {.of_all = 1'000});
     around.take_face(0);
     around.seen({});
     CHECK(around.samples().size() == sample_grid(16).size());
+    RingHeights loosely(surface, points, {target, bvh});
+    loosely.take_face(0);
+    loosely.seen({});
+    CHECK(loosely.samples().size() == sample_grid(8).size());
 }
