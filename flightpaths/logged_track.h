@@ -33,12 +33,12 @@ struct LoggedTrack {
 };
 
 /// Reads another program's log of a flight (log_columns.h), whose lines are less regular than those
-/// of a recording: lines without time, place or height, of a moment that has been, or that only a jump
-/// faster than 3000 m/s leads to are left out and counted in the notes. Times begin at 0. Attitudes
-/// are the log's where it has roll and pitch in every line, with its true heading or else that of
-/// the motion; otherwise they are made from the motion. Throws Error with file and line for what is
-/// neither empty nor a number where there must be one, a place that is on no earth, more than a
-/// day, and fewer than 2 samples.
+/// of a recording: lines without time, place or height, of a moment that has been, or that only a
+/// jump faster than 3000 m/s leads to are left out and counted in the notes. Times begin at 0.
+/// Attitudes are the log's where it has roll and pitch in every line, with its true heading or else
+/// that of the motion; otherwise they are made from the motion. Throws Error with file and line for
+/// what is neither empty nor a number where there must be one, a place that is on no earth, more
+/// than a day, and fewer than 2 samples.
 LoggedTrack logged_track(const LogLines& log, const LogColumns& columns);
 
 } // namespace octant::flightpaths
