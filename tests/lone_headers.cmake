@@ -4,11 +4,20 @@
 file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/sim/*.cpp ${PROJECT_SOURCE_DIR}/flightpaths/*.cpp
   ${PROJECT_SOURCE_DIR}/models/*.cpp ${PROJECT_SOURCE_DIR}/visuals/*.cpp ${PROJECT_SOURCE_DIR}/ui/*.cpp
   ${PROJECT_SOURCE_DIR}/tests/*.cpp)
+# The first header that a source includes stands alone there, and so does the first that this one
+# includes, and so on.
 set(included_first "")
 foreach(source ${sources})
-  file(STRINGS ${source} line REGEX "^#include" LIMIT_COUNT 1)
-  string(REGEX REPLACE "^#include [<\"]([^>\"]+)[>\"].*" "\\1" header "${line}")
-  list(APPEND included_first ${header})
+  set(header ${source})
+  while(header)
+    file(STRINGS ${header} line REGEX "^#include" LIMIT_COUNT 1)
+    string(REGEX REPLACE "^#include [<\"]([^>\"]+)[>\"].*" "\\1" name "${line}")
+    set(header "")
+    if(name AND NOT name IN_LIST included_first AND EXISTS ${PROJECT_SOURCE_DIR}/${name})
+      list(APPEND included_first ${name})
+      set(header ${PROJECT_SOURCE_DIR}/${name})
+    endif()
+  endwhile()
 endforeach()
 
 get_property(rooms GLOBAL PROPERTY octant_rooms)

@@ -2,6 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/flight/small_ground.h"
 
@@ -172,6 +173,10 @@ CommandLine shortened(CommandLine line) {
     if (command == "fly" && !has(line, "--terrain") && !has(line, "--settings") &&
         !has(line, "--replay")) {
         line.insert(line.end(), {"--terrain", small_ground()});
+    }
+    // Of one aircraft many lines fly: its order is found once.
+    if (command == "fly" && !has(line, "--order-cache") && !has(line, "--replay")) {
+        line.insert(line.end(), {"--order-cache", (scratch_folder() / "orders").string()});
     }
     if (has(line, "--check")) {
         set_option(line, "--rays", "1000");
