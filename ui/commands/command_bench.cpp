@@ -161,8 +161,7 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "--features",
             "a table of costs: each scene without features, with each one alone (near detail, "
             "scenery, sky, ...), with an airfield, with the defaults and with all, frame by frame "
-            "in "
-            "turn",
+            "in turn",
             options.features),
         flag(
             "--growth",

@@ -35,9 +35,6 @@ void print_summary(
                 .c_str(),
             stdout);
     }
-    if (end.statistics.frames == 0) {
-        std::fputs("no frame was timed: statistics leave out the first (--warm-up)\n", stdout);
-    }
     std::fputs(
         fmt::format(
             "{:<28} {:016x}\n{:<28} {:016x}\n",
