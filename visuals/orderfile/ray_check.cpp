@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace octant::visuals::orderfile {
 
@@ -25,13 +26,26 @@ using draworder::DrawOrder;
 /// The distance of a polygon that a ray misses.
 constexpr double missed = std::numeric_limits<double>::infinity();
 
-/// A polygon with its plane, for ray tests.
+/// A polygon with its plane and a ball that holds it, for ray tests.
 struct Facet {
     glm::dvec3 normal{0.0};
     glm::dvec3 point_m{0.0};
+    glm::dvec3 middle_m{0.0};
+    double radius2_m2 = 0.0;
     bool two_sided = false;
     std::vector<glm::dvec3> corners_m;
 };
+
+/// Puts the ball about the corners' mean, a little larger than rounding asks for.
+void set_ball(Facet& facet) {
+    for (const glm::dvec3& corner_m : facet.corners_m) {
+        facet.middle_m += corner_m / static_cast<double>(facet.corners_m.size());
+    }
+    for (const glm::dvec3& corner_m : facet.corners_m) {
+        const glm::dvec3 away_m = corner_m - facet.middle_m;
+        facet.radius2_m2 = std::max(facet.radius2_m2, 1.001 * glm::dot(away_m, away_m));
+    }
+}
 
 /// The facet of a polygon when its part has turned by an angle.
 Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon, double turn_rad) {
@@ -50,14 +64,25 @@ Facet facet_of(const models::polygons::PolygonModel& model, std::size_t polygon,
         facet.normal = models::polygons::turned(turn, facet.normal, turn_rad);
     }
     facet.point_m = facet.corners_m[0];
+    set_ball(facet);
     return facet;
 }
 
-/// The distance along a ray to the front of a facet, or `missed`.
-double front_hit(const Facet& facet, const glm::dvec3& eye_m, const glm::dvec3& ray) {
-    const double slope = glm::dot(ray, facet.normal);
+/// How high an eye lies above a facet; nothing for one that sees only its back, or its edge.
+std::optional<double> height_above_m(const Facet& facet, const glm::dvec3& eye_m) {
     const double height_m = glm::dot(eye_m - facet.point_m, facet.normal);
-    if (slope * height_m >= 0.0 || (height_m <= 0.0 && !facet.two_sided)) {
+    const bool is_seen = height_m > 0.0 || (height_m < 0.0 && facet.two_sided);
+    return is_seen ? std::optional(height_m) : std::nullopt;
+}
+
+/// The distance along a ray of unit length to a facet that its eye sees from a height, or `missed`.
+double hit_m(const Facet& facet, double height_m, const glm::dvec3& eye_m, const glm::dvec3& ray) {
+    const glm::dvec3 past = glm::cross(facet.middle_m - eye_m, ray);
+    if (glm::dot(past, past) > facet.radius2_m2) {
+        return missed;
+    }
+    const double slope = glm::dot(ray, facet.normal);
+    if (slope * height_m >= 0.0) {
         return missed;
     }
     const double at = -height_m / slope;
@@ -133,33 +158,53 @@ public:
     void look(const glm::dvec3& eye_m, std::span<const std::uint32_t> painted, RayCount& count) {
         const glm::dvec3 from_middle_m = eye_m - ball_.middle_m;
         const double away_m = glm::length(from_middle_m);
+        find_seen(eye_m);
         for (int i = 0; i < samples_.rays_per_eye; ++i) {
             const glm::dvec3 ray =
                 away_m < ball_.radius_m
                     ? dice_.direction()
                     : glm::normalize(
                           target_on_disc(dice_, from_middle_m, ball_.radius_m) - from_middle_m);
-            std::ranges::transform(
-                facets_, hit_.begin(), [&](const Facet& f) { return front_hit(f, eye_m, ray); });
-            const double nearest = *std::ranges::min_element(hit_);
+            double nearest = missed;
+            for (const auto& [polygon, height_m] : seen_) {
+                hit_[polygon] = hit_m(facets_[polygon], height_m, eye_m, ray);
+                nearest = std::min(nearest, hit_[polygon]);
+            }
             if (nearest == missed) {
                 continue;
             }
-            double seen = missed;
-            for (const std::uint32_t polygon : painted) {
-                seen = hit_[polygon] == missed ? seen : hit_[polygon];
-            }
+            const auto last = std::find_if(painted.rbegin(), painted.rend(), [&](std::uint32_t p) {
+                return hit_[p] != missed;
+            });
+            const double seen = last == painted.rend() ? missed : hit_[*last];
             ++count.hits;
             count.wrong += seen - nearest > 1e-9 * std::max(away_m, ball_.radius_m) ? 1 : 0;
         }
     }
 
 private:
+    /// Finds the facets that an eye sees.
+    void find_seen(const glm::dvec3& eye_m) {
+        seen_.clear();
+        std::ranges::fill(hit_, missed);
+        for (std::uint32_t i = 0; i < facets_.size(); ++i) {
+            if (const auto height_m = height_above_m(facets_[i], eye_m)) {
+                seen_.push_back({i, *height_m});
+            }
+        }
+    }
+
+    struct Seen {
+        std::uint32_t polygon = 0;
+        double height_m = 0.0;
+    };
+
     EyeSamples samples_;
     Ball ball_;
     Dice dice_;
     std::vector<Facet> facets_;
-    std::vector<double> hit_;
+    std::vector<Seen> seen_;  ///< By the eye that looks.
+    std::vector<double> hit_; ///< By polygon, along the ray that is looked along.
 };
 
 } // namespace

@@ -1,10 +1,9 @@
 #include "visuals/separation/linear_programme.h"
 
-#include <Clp_C_Interface.h>
+#include <ClpSimplex.hpp>
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace octant::visuals::separation {
@@ -20,7 +19,19 @@ constexpr int no_perturbation = 100;
 constexpr int no_scaling = 0;
 constexpr double maximise = -1.0;
 
-using Solver = std::unique_ptr<Clp_Simplex, decltype(&Clp_deleteModel)>;
+/// A solver without a programme, as every one begins. CLP makes the words of all its messages for a
+/// new model, which takes longer than a small programme; a copied model gets them in one piece.
+ClpSimplex fresh_solver() {
+    ClpSimplex solver;
+    solver.setLogLevel(0);
+    solver.setOptimizationDirection(maximise);
+    solver.setPrimalTolerance(tolerance);
+    solver.setDualTolerance(tolerance);
+    solver.setMaximumIterations(most_iterations);
+    solver.scaling(no_scaling);
+    solver.setPerturbation(no_perturbation);
+    return solver;
+}
 
 /// The bound as CLP takes it: the largest finite number and its negative stand for none.
 double clp_bound(double bound) {
@@ -63,9 +74,8 @@ Columns columns_of(const LinearProgramme& programme) {
     return columns;
 }
 
-void load(Clp_Simplex* solver, const Columns& columns) {
-    Clp_loadProblem(
-        solver,
+void load(ClpSimplex& solver, const Columns& columns) {
+    solver.loadProblem(
         static_cast<int>(columns.weights.size()),
         static_cast<int>(columns.row_least.size()),
         columns.starts.data(),
@@ -80,24 +90,18 @@ void load(Clp_Simplex* solver, const Columns& columns) {
 
 } // namespace
 
-// Clp_primal works on its own model alone: unlike CLP's drivers it sets no signal handlers, and
+// primal() works on its own model alone: unlike CLP's drivers it sets no signal handlers, and
 // without perturbation it draws no random numbers. So threads may solve side by side, and the same
 // programme always gives the same values.
 std::optional<std::vector<double>> optimum(const LinearProgramme& programme) {
-    const Solver solver(Clp_newModel(), &Clp_deleteModel);
-    Clp_setLogLevel(solver.get(), 0);
-    load(solver.get(), columns_of(programme));
-    Clp_setOptimizationDirection(solver.get(), maximise);
-    Clp_setPrimalTolerance(solver.get(), tolerance);
-    Clp_setDualTolerance(solver.get(), tolerance);
-    Clp_setMaximumIterations(solver.get(), most_iterations);
-    Clp_scaling(solver.get(), no_scaling);
-    Clp_setPerturbation(solver.get(), no_perturbation);
-    Clp_primal(solver.get(), 0);
-    if (Clp_status(solver.get()) != optimal) {
+    static const ClpSimplex fresh = fresh_solver();
+    ClpSimplex solver(fresh);
+    load(solver, columns_of(programme));
+    solver.primal();
+    if (solver.status() != optimal) {
         return std::nullopt;
     }
-    const double* values = Clp_getColSolution(solver.get());
+    const double* values = solver.getColSolution();
     return std::vector<double>(values, values + programme.variables.size());
 }
 
