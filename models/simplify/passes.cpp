@@ -138,7 +138,8 @@ std::size_t beside_plain(
     }
     const double most = most_turned(tried[best], yardstick);
     std::vector<std::size_t> again = starts(tried, yardstick);
-    std::ranges::stable_partition(again, [](std::size_t i) { return i == 0; }); // The usual one.
+    std::stable_partition(
+        again.begin(), again.end(), [](std::size_t i) { return i == 0; }); // The usual one.
     again.resize(std::min(again.size(), most_again));
     const std::size_t passes = tried.size();
     tried.resize(passes + again.size());

@@ -20,11 +20,10 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Whether a sine is negative by more than rounding, given its product with a length and the square
-/// of that length.
-bool is_negative(double product, double square) {
-    return product < 0.0 && square > rounding * rounding &&
-           product * product > rounding * rounding * square;
+/// Whether the sine of the angle from one vector to another, which make a negative cross product,
+/// is so by more than rounding, given the square of the length of one of them; the other is a unit.
+bool is_clear(double product, double square) {
+    return square > rounding * rounding && product * product > rounding * rounding * square;
 }
 
 /// An angular sector of at most half a turn, counter-clockwise from `low` to `high`.
@@ -36,9 +35,14 @@ public:
 
     /// Widens the sector to contain a direction; false when it would exceed half a turn.
     bool take(const glm::dvec2& direction) {
+        const double past_low = cross(low_, direction);
+        const double past_high = cross(direction, high_);
+        if (past_low >= 0.0 && past_high >= 0.0) {
+            return true;
+        }
         const double square = glm::dot(direction, direction);
-        const bool below = is_negative(cross(low_, direction), square);
-        const bool above = is_negative(cross(direction, high_), square);
+        const bool below = past_low < 0.0 && is_clear(past_low, square);
+        const bool above = past_high < 0.0 && is_clear(past_high, square);
         if (below && above) {
             return false;
         }

@@ -90,7 +90,8 @@ private:
         const glm::dvec3 eye_m = targets_.in_model_m(eye);
         if (length > hair && is_looked_from(eye_m)) {
             paint_from(eye_m);
-            look_along(eye, -way / length, trial);
+            targets_.look_from(eye);
+            look_along(-way / length, trial);
         }
     }
 
@@ -150,17 +151,18 @@ private:
 
     void look_from(const glm::dvec3& eye, const glm::dvec3& eye_m, Trial& trial) {
         paint_from(eye_m);
+        targets_.look_from(eye);
         for (std::size_t i = 0; i < rays_an_eye; ++i) {
             const glm::dvec3 towards = point_of(any_target()) - eye;
             const double length = glm::length(towards);
             if (length > 0.0) {
-                look_along(eye, towards / length, trial);
+                look_along(towards / length, trial);
             }
         }
     }
 
-    void look_along(const glm::dvec3& eye, const glm::dvec3& ray, Trial& trial) {
-        targets_.meet(eye, ray, met_);
+    void look_along(const glm::dvec3& ray, Trial& trial) {
+        targets_.meet(ray, met_);
         TrialHit nearest{.away = std::numeric_limits<double>::infinity()};
         TrialHit seen = nearest;
         std::uint32_t last = 0;

@@ -36,11 +36,11 @@ bool complete(TrialTarget& target) {
     return std::isfinite(target.normal.x);
 }
 
+/// Where a ray meets a target above which its eye lies.
 std::optional<TrialHit>
-meet_one(const TrialTarget& target, const glm::dvec3& eye, const glm::dvec3& ray) {
+meet_one(const TrialTarget& target, const glm::dvec3& eye, double height, const glm::dvec3& ray) {
     const double slope = glm::dot(ray, target.normal);
-    const double height = glm::dot(eye - target.middle, target.normal);
-    if (height <= 0.0 || slope >= 0.0) {
+    if (slope >= 0.0) {
         return std::nullopt;
     }
     const double away = -height / slope;
@@ -73,7 +73,8 @@ TrialTargets::TrialTargets(const models::polygons::PolygonModel& model)
 
 void TrialTargets::turn(double turn_rad, bool turning_parts) {
     all_.clear();
-    balls_.clear();
+    ball2_.clear();
+    faced_.clear();
     for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
         const auto pivot = models::polygons::pivot_of(model_, i);
         if (pivot && !turning_parts) {
@@ -90,7 +91,7 @@ void TrialTargets::turn(double turn_rad, bool turning_parts) {
         }
         if (complete(target)) {
             const double size = target.radius * (1.0 + more_of_ball) + more_of_model;
-            balls_.push_back({target.middle, size * size});
+            ball2_.push_back(size * size);
             all_.push_back(std::move(target));
         }
     }
@@ -101,17 +102,28 @@ const TrialTarget* TrialTargets::of(std::uint32_t polygon) const {
     return found != all_.end() ? &*found : nullptr;
 }
 
-void TrialTargets::meet(
-    const glm::dvec3& eye, const glm::dvec3& ray, std::vector<TrialHit>& hits) const {
+void TrialTargets::look_from(const glm::dvec3& eye) {
+    eye_ = eye;
+    faced_.clear();
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        const glm::dvec3 to_middle = all_[i].middle - eye;
+        const double height = -glm::dot(to_middle, all_[i].normal);
+        if (height > 0.0) {
+            const double least_along2 = glm::dot(to_middle, to_middle) - ball2_[i];
+            faced_.push_back({i, height, to_middle, least_along2});
+        }
+    }
+}
+
+void TrialTargets::meet(const glm::dvec3& ray, std::vector<TrialHit>& hits) const {
     hits.clear();
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-        const glm::dvec3 to_middle = balls_[i].middle - eye;
-        const double along = glm::dot(to_middle, ray);
-        if (glm::dot(to_middle, to_middle) - along * along > balls_[i].square) {
+    for (const Faced& faced : faced_) {
+        const double along = glm::dot(faced.to_middle, ray);
+        if (along * along < faced.least_along2) {
             continue;
         }
-        if (std::optional<TrialHit> hit = meet_one(all_[i], eye, ray)) {
-            hit->target = i;
+        if (std::optional<TrialHit> hit = meet_one(all_[faced.target], eye_, faced.height, ray)) {
+            hit->target = faced.target;
             hits.push_back(*hit);
         }
     }

@@ -52,21 +52,31 @@ public:
 
     double radius_m() const { return radius_m_; }
 
-    /// Replaces `hits` by all targets whose fronts a ray of unit length meets, in their order.
-    void meet(const glm::dvec3& eye, const glm::dvec3& ray, std::vector<TrialHit>& hits) const;
+    /// Sets the eye of the rays that follow, until the parts are turned.
+    void look_from(const glm::dvec3& eye);
+
+    /// Replaces `hits` by all targets whose fronts a ray of unit length from the eye meets, in
+    /// their order.
+    void meet(const glm::dvec3& ray, std::vector<TrialHit>& hits) const;
 
 private:
-    /// Around a target, a little larger: most rays miss it, and it is found out without the target.
-    struct Ball {
-        glm::dvec3 middle{0.0};
-        double square = 0.0;
+    /// A target whose front the eye sees. Most rays miss the ball around it, which is found out
+    /// without the target: they do not pass its middle far enough along.
+    struct Faced {
+        std::size_t target = 0;
+        double height = 0.0; ///< Of the eye above the target's plane.
+        glm::dvec3 to_middle{0.0};
+        double least_along2 = 0.0;
     };
 
     const models::polygons::PolygonModel& model_;
     glm::dvec3 middle_m_{0.0};
     double radius_m_ = 1.0;
     std::vector<TrialTarget> all_;
-    std::vector<Ball> balls_;
+    std::vector<double>
+        ball2_; ///< Of a ball around each target, a little larger: its radius squared.
+    glm::dvec3 eye_{0.0};
+    std::vector<Faced> faced_;
 };
 
 } // namespace octant::visuals::draworder

@@ -49,7 +49,8 @@ TEST_CASE("rays of a trial meet all that they meet one by one, from far, near an
         const auto& aim = targets.all()[static_cast<std::size_t>(i) % targets.all().size()];
         const glm::dvec3 ray =
             glm::normalize(aim.middle + dice.direction() * (0.9 * aim.radius) - eye);
-        targets.meet(eye, ray, hits);
+        targets.look_from(eye);
+        targets.meet(ray, hits);
         auto hit = hits.begin();
         for (std::size_t k = 0; k < targets.all().size(); ++k) {
             const auto away = met_by_fan(targets.all()[k].corners, eye, ray);
