@@ -32,7 +32,8 @@ inline constexpr std::tuple surface_rows{
         {"order-cache",
          "DIR",
          "painting orders and meshes made ready to be refined are kept in this folder, and read "
-         "where the same model comes again [none are kept]"},
+         "where the same model comes again: user (octant/orders in the user's cache), none or a "
+         "folder"},
         {.group = SettingGroup::Surface, .change = SettingsChange::Recording}),
     setting<&RunSettings::surface, &visuals::scene::SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"},

@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
+#include "ui/settings/order_cache_name.h"
 #include "ui/settings/settings_fields.h"
 
 #include <algorithm>
@@ -76,9 +77,7 @@ void find_files_from(const fs::path& folder, RunSettings& settings) {
     if (settings.air.drape) {
         find_from(folder, none, *settings.air.drape);
     }
-    if (settings.surface.order_cache) {
-        find_from(folder, none, *settings.surface.order_cache);
-    }
+    find_from(folder, built_in_order_caches, settings.surface.order_cache);
 }
 
 } // namespace octant::ui::settings

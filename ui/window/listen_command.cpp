@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/base/user_folders.h"
 #include "ui/commands/listen.h"
 #include "ui/window/view_command.h"
 #include "ui/window/viewer.h"
@@ -38,7 +39,7 @@ void listen_in_window(ListenWork work) {
         throw Error("--video: expected --headless beside it, got none");
     }
     work.view.settings = work.listen.settings;
-    work.view.keeps_into = configuration_folder();
+    work.view.keeps_into = base::configuration_folder();
     work.view.listener = work.listen.listener;
     work.view.send = work.listen.send;
     work.view.record = work.listen.record.folder;

@@ -4,6 +4,7 @@
 #include "ui/base/figures_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
+#include "ui/base/user_folders.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/settings_options.h"
 #include "ui/window/viewer.h"
@@ -12,7 +13,6 @@
 #include "ui/world/near_ground_notes.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -24,15 +24,6 @@
 namespace octant::ui::window {
 
 namespace fs = std::filesystem;
-
-fs::path configuration_folder() {
-    const char* const own = std::getenv("XDG_CONFIG_HOME");
-    if (own != nullptr && fs::path(own).is_absolute()) {
-        return fs::path(own) / "octant";
-    }
-    const char* const home = std::getenv("HOME");
-    return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / ".config" / "octant";
-}
 
 namespace {
 
@@ -105,7 +96,7 @@ void view_or_bench(ViewWork work) {
     if (work.json && !work.bench) {
         throw Error("--json: expected --bench beside it, as a window prints no figures, got none");
     }
-    work.view.keeps_into = configuration_folder();
+    work.view.keeps_into = base::configuration_folder();
     work.view.settings = world::with_absolute_files(work.view.settings);
     if (work.bench) {
         const WindowBench bench = bench_window(work.view, *work.bench, work.quiet);

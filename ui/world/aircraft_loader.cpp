@@ -9,9 +9,11 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/settings/order_cache_name.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_aircraft.h"
 #include "ui/world/model_files.h"
+#include "ui/world/order_folder.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/cockpit_dials.h"
@@ -44,6 +46,8 @@ namespace {
 struct Found {
     std::vector<std::string> notes;
     std::vector<std::filesystem::path> order_files;
+    /// Where painting orders are kept.
+    std::optional<std::filesystem::path> order_folder;
 
     void note(const std::vector<std::string>& more) {
         notes.insert(notes.end(), more.begin(), more.end());
@@ -78,13 +82,15 @@ draworder::OrderedModel with_order(
     draworder::OrderOptions options;
     options.method = inputs.order_method;
     options.seconds = std::min(inputs.order_seconds, most.seconds);
-    if (!inputs.order_cache) {
+    if (!found.order_folder) {
         return draworder::ordered(std::move(model), options);
     }
     ordercache::CachedOrder cached =
-        ordercache::cached_order(*inputs.order_cache, std::move(model), options);
+        ordercache::cached_order(*found.order_folder, std::move(model), options);
     found.note(cached.notes);
-    found.order_files.push_back(cached.file);
+    if (settings::names_order_folder(inputs.order_cache)) {
+        found.order_files.push_back(cached.file);
+    }
     return std::move(cached.ordered);
 }
 
@@ -200,7 +206,7 @@ load_model(const std::string& name, const AircraftInputs& inputs, Found& found) 
             found);
     }
     MeshAircraft mesh =
-        read_mesh_aircraft(file, inputs.axes, inputs.order_cache.value_or(std::string()));
+        read_mesh_aircraft(file, inputs.axes, found.order_folder.value_or(std::filesystem::path()));
     found.note(mesh.notes);
     planning::AircraftModel model = far_model(mesh, inputs, found);
     add_meshes(model, mesh);
@@ -243,12 +249,10 @@ aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> 
 }
 
 LoadedAircraft load_aircraft(const AircraftInputs& inputs) {
-    if (inputs.order_cache) {
-        ordercache::make_cache_folder(*inputs.order_cache);
-    }
     LoadedAircraft loaded;
     loaded.inputs = inputs;
     Found told;
+    told.order_folder = order_folder(inputs.order_cache);
     const auto add = [&](planning::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };

@@ -27,7 +27,7 @@ struct AircraftInputs {
     visuals::scene::HiddenSurface hidden_surface{};
     visuals::draworder::Method order_method{};
     double order_seconds = 0.0;
-    std::optional<std::string> order_cache;
+    std::string order_cache;
 
     bool operator==(const AircraftInputs&) const = default;
 };
@@ -47,7 +47,7 @@ struct LoadedAircraft {
     visuals::overlay::InstrumentLayout dials;
     /// What a person should be told.
     std::vector<std::string> notes;
-    /// Kept painting orders that were used.
+    /// Painting orders kept in a folder that the run names.
     std::vector<std::filesystem::path> order_files;
 };
 

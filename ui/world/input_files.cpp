@@ -8,6 +8,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/flown_aircraft.h"
+#include "ui/settings/order_cache_name.h"
 #include "ui/settings/terrain_name.h"
 #include "ui/world/model_files.h"
 #include "visuals/groundfile/ground_file.h"
@@ -197,8 +198,8 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     if (settings.air.drape) {
         settings.air.drape = absolute(*settings.air.drape);
     }
-    if (settings.surface.order_cache) {
-        settings.surface.order_cache = absolute(*settings.surface.order_cache);
+    if (settings::names_order_folder(settings.surface.order_cache)) {
+        settings.surface.order_cache = absolute(settings.surface.order_cache);
     }
     return settings;
 }
@@ -277,7 +278,7 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
     if (renamed.air.drape) {
         rename(*renamed.air.drape);
     }
-    if (renamed.surface.order_cache) {
+    if (settings::names_order_folder(renamed.surface.order_cache)) {
         renamed.surface.order_cache = (fs::path(inputs_folder) / "orders").string();
     }
     return renamed;

@@ -77,8 +77,9 @@ struct SurfaceSettings {
     draworder::Method order_method = draworder::Method::Tree;
     /// About the most that the search for an order takes, on one core.
     double order_seconds = 20.0;
-    /// A folder where orders are kept; the pictures are the same without it.
-    std::optional<std::string> order_cache;
+    /// Where orders are kept: a folder, "user" for the user's own cache, or "none". The pictures are
+    /// the same.
+    std::string order_cache = "user";
     /// Whether aircraft cast shadows on the ground.
     bool shadows = true;
     /// Whether rotor discs, exhaust, afterburners and vapour are shown.

@@ -1,0 +1,75 @@
+#include "ui/world/order_folder.h"
+
+#include "sim/base/error.h"
+#include "ui/base/user_folders.h"
+#include "ui/settings/order_cache_name.h"
+#include "visuals/ordercache/order_cache.h"
+
+#include <algorithm>
+#include <functional>
+#include <system_error>
+#include <vector>
+
+namespace octant::ui::world {
+
+namespace fs = std::filesystem;
+namespace ordercache = visuals::ordercache;
+
+namespace {
+
+/// What is known of a kept file.
+struct KeptFile {
+    fs::file_time_type written;
+    fs::path path;
+    std::uintmax_t bytes = 0;
+};
+
+std::vector<KeptFile> files_of(const fs::path& folder) {
+    std::vector<KeptFile> files;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
+         entry.increment(ignored)) {
+        std::error_code gone;
+        const std::uintmax_t bytes = entry->file_size(gone);
+        const fs::file_time_type written = entry->last_write_time(gone);
+        if (!gone) {
+            files.push_back({written, entry->path(), bytes});
+        }
+    }
+    return files;
+}
+
+} // namespace
+
+void remove_oldest(const fs::path& folder, std::uintmax_t most_bytes) {
+    std::vector<KeptFile> files = files_of(folder);
+    std::ranges::sort(files, std::greater(), &KeptFile::written);
+    std::uintmax_t sum = 0;
+    for (const KeptFile& file : files) {
+        sum += file.bytes;
+        if (sum > most_bytes) {
+            std::error_code ignored;
+            fs::remove(file.path, ignored);
+        }
+    }
+}
+
+std::optional<fs::path> order_folder(const std::string& value) {
+    if (settings::names_order_folder(value)) {
+        ordercache::make_cache_folder(value);
+        return value;
+    }
+    const fs::path own = base::cache_folder();
+    if (value == settings::no_order_cache || own.empty()) {
+        return std::nullopt;
+    }
+    try {
+        ordercache::make_cache_folder(own / "orders");
+        remove_oldest(own / "orders", most_bytes_of_user_cache);
+        return own / "orders";
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+} // namespace octant::ui::world
