@@ -213,9 +213,9 @@ TEST_CASE("the same input gives the same bytes, on one thread and on three") {
         CHECK(one.sequence.collapses.size() == three.sequence.collapses.size());
     };
     check(two_coloured(ring(40, 24)), Quality::Fast);
-    check(two_coloured(ring(12, 8)), Quality::Surface);
+    check(two_coloured(ring(8, 6)), Quality::Surface);
     INFO("with passes that avoid far distances, and revisions");
-    check(ball(12), Quality::Surface);
+    check(ball(8), Quality::Surface);
 }
 
 TEST_CASE("a polish lessens the distance and turns nothing over") {
