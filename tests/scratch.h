@@ -29,4 +29,12 @@ inline std::filesystem::path scratch_folder() {
     return folder.path;
 }
 
+/// An empty folder for one test, removed and made anew.
+inline std::filesystem::path empty_folder(const std::string& name) {
+    const std::filesystem::path folder = scratch_folder() / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
 } // namespace octant::tests

@@ -8,6 +8,9 @@
 
 namespace octant::models::made {
 
+/// Raised whenever the same options give other heights: what was kept is then made anew.
+inline constexpr std::uint32_t made_version = 1;
+
 /// Size of made ground. The same options give the same heights bit for bit in every build; another
 /// size, spacing or seed gives other ground. Shapes have their size in metres: a field of a few
 /// hundred metres shows one slope. 1025 samples 20 m apart take about a second; memory is 4 bytes a

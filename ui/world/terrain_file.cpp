@@ -2,8 +2,8 @@
 
 #include "models/heights/height_field_import.h"
 #include "models/heights/map_inputs.h"
-#include "models/made/made_terrain.h"
 #include "sim/base/error.h"
+#include "ui/world/kept_ground.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace octant::ui::world {
 models::heights::HeightField
 load_height_field(const std::string& name_or_file, const models::heights::ImportOptions& options) {
     models::heights::check_system(options);
-    if (auto made = models::made::made_terrain(name_or_file, {})) {
+    if (auto made = built_in_ground(name_or_file)) {
         return std::move(*made);
     }
     std::error_code ignored;

@@ -63,6 +63,7 @@ noise_at(const Fractal& noise, const std::vector<double>& x_m, const std::vector
 } // namespace
 
 TEST_CASE("made ground is the same in every build: the hash of its heights is fixed") {
+    INFO("other heights need another made_version");
     CHECK(hash_of(made_hills({129, 40.0, 1})) == 0x425f6c75ad33e670ULL);
     CHECK(hash_of(made_hills({129, 40.0, 2})) == 0xe629b9233d911a32ULL);
     CHECK(hash_of(made_canyon({129, 40.0, 1})) == 0x9790aa8e9904017fULL);

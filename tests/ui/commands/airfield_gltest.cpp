@@ -1,4 +1,5 @@
 #include "models/heights/runway_strip.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"

@@ -1,5 +1,6 @@
 #include "sim/base/text_file.h"
 #include "sim/links/udp_port.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/flight/small_ground.h"
 #include "ui/report/frame_csv.h"

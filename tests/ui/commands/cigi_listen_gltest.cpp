@@ -5,6 +5,7 @@
 #include "sim/links/cigi_begin.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/cigi_bench.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"

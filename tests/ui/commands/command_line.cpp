@@ -72,13 +72,6 @@ int run_octant_and_signal(
     return wait_for(child);
 }
 
-std::filesystem::path empty_folder(const std::string& name) {
-    const auto folder = scratch_folder() / name;
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    return folder;
-}
-
 int lines_in(const std::string& text) {
     return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }

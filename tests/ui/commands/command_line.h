@@ -21,9 +21,6 @@ ProgramRun run_octant(const std::vector<std::string>& arguments);
 int run_octant_and_signal(
     const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal);
 
-/// An empty folder for one test, removed and made anew.
-std::filesystem::path empty_folder(const std::string& name);
-
 /// Number of lines in a text.
 int lines_in(const std::string& text);
 

@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/documented_lines.h"
 #include "ui/commands/command_line.h"

@@ -1,4 +1,5 @@
 #include "sim/base/text_file.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/printed_json.h"
 

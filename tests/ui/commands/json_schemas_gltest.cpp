@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"

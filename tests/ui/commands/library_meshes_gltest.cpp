@@ -1,4 +1,5 @@
 #include "sim/base/output_file.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 

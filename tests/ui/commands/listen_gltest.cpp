@@ -2,6 +2,7 @@
 #include "sim/base/units.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
 

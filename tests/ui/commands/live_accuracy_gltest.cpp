@@ -5,6 +5,7 @@
 #include "sim/base/transverse_mercator.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/flight/packet_file.h"
 #include "ui/report/frame_csv.h"

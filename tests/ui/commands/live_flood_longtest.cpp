@@ -2,6 +2,7 @@
 
 #include "sim/links/dis_entity.h"
 #include "sim/links/udp_port.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/report/frame_csv.h"
 

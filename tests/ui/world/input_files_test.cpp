@@ -16,12 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path empty_folder(const std::string& name) {
-    const fs::path folder = tests::scratch_folder() / name;
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
+using tests::empty_folder;
 
 std::string model(const std::string& materials) {
     return "mtllib " + materials + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -1,13 +1,12 @@
-#include "ui/world/order_folder.h"
-
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
+#include "tests/ui/world/user_cache.h"
+#include "ui/world/order_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -15,32 +14,9 @@ using namespace octant;
 namespace fs = std::filesystem;
 namespace world = octant::ui::world;
 
-namespace {
-
-/// Sets the user's cache as long as this lives.
-class UserCache {
-public:
-    explicit UserCache(const fs::path& folder)
-        : before_(std::getenv("XDG_CACHE_HOME") != nullptr ? std::getenv("XDG_CACHE_HOME") : "") {
-        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
-    }
-
-    ~UserCache() { ::setenv("XDG_CACHE_HOME", before_.c_str(), 1); }
-
-    UserCache(const UserCache&) = delete;
-    UserCache& operator=(const UserCache&) = delete;
-    UserCache(UserCache&&) = delete;
-    UserCache& operator=(UserCache&&) = delete;
-
-private:
-    std::string before_;
-};
-
-} // namespace
-
 TEST_CASE("orders are kept in the user's cache, in a named folder or not at all") {
     const fs::path folder = tests::empty_folder("order-folder");
-    const UserCache cache(folder);
+    const tests::UserCache cache(folder);
     CHECK(world::order_folder("user") == folder / "octant" / "orders");
     CHECK(fs::is_directory(folder / "octant" / "orders"));
     CHECK(world::order_folder((folder / "mine").string()) == folder / "mine");
@@ -51,7 +27,7 @@ TEST_CASE("orders are kept in the user's cache, in a named folder or not at all"
 TEST_CASE("a user's cache that cannot be made is done without, a named folder is refused") {
     const fs::path folder = tests::empty_folder("order-folder-in-the-way");
     write_file(folder / "octant", "a file where the folder would be");
-    const UserCache cache(folder);
+    const tests::UserCache cache(folder);
     CHECK_FALSE(world::order_folder("user").has_value());
     CHECK_THROWS_AS(world::order_folder((folder / "octant" / "orders").string()), Error);
 }

@@ -37,12 +37,7 @@ namespace fs = std::filesystem;
 
 const OrderOptions by_bsp{.method = Method::Bsp, .paper = {}};
 
-fs::path empty_folder(const std::string& name) {
-    const fs::path folder = tests::scratch_folder() / name;
-    fs::remove_all(folder);
-    make_cache_folder(folder);
-    return folder;
-}
+using octant::tests::empty_folder;
 
 std::size_t files_in(const fs::path& folder) {
     return static_cast<std::size_t>(
