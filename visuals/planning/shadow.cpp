@@ -274,13 +274,11 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
 
 /// The shadows on a triangle once more, cut to what is painted on it and darker than that.
 void ShadowCaster::add_on_paint(std::uint32_t triangle) {
-    const auto own =
-        std::ranges::equal_range(paints_by_triangle_, triangle, {}, [&](std::uint32_t paint) {
-            return paints_.paints[paint].triangle;
-        });
+    const auto triangle_of = [&](std::uint32_t paint) { return paints_.paints[paint].triangle; };
+    auto own = std::ranges::lower_bound(paints_by_triangle_, triangle, {}, triangle_of);
     const std::size_t first = indices_.size();
-    for (const std::uint32_t number : own) {
-        const GroundPaint& paint = paints_.paints[number];
+    for (; own != paints_by_triangle_.end() && triangle_of(*own) == triangle; ++own) {
+        const GroundPaint& paint = paints_.paints[*own];
         const auto corners = paints_.corners.subspan(paint.first, paint.count);
         std::size_t begin = 0;
         for (const std::size_t end : shadow_ends_) {
