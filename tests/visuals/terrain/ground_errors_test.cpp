@@ -31,8 +31,8 @@ public:
         : field_(field)
         , meaning_(meaning)
         , factor_(factor)
-        , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge)
-        , codes_{std::vector<std::uint8_t>(index(root_edge_, root_edge_) + 1), codes_[0]} {
+        , root_edge_(GroundLayout(field.columns(), field.rows()).level(0).edge) {
+        codes_.fill(std::vector<std::uint8_t>(index(root_edge_, root_edge_) + 1));
         for (int half = 1; half < root_edge_; half *= 2) {
             for_each(half, false);
             for_each(half, true);
