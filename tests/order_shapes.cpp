@@ -102,7 +102,8 @@ Body body_of_kind(int kind, Dice& dice) {
 }
 
 glm::dquat random_attitude(Dice& dice) {
-    return glm::angleAxis(dice.between(0.0, 2.0 * pi), dice.direction());
+    const glm::dvec3 axis = dice.direction(); // Compilers differ in which argument comes first.
+    return glm::angleAxis(dice.between(0.0, 2.0 * pi), axis);
 }
 
 void turn(Points& points, const glm::dquat& attitude) {
