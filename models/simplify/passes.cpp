@@ -4,6 +4,7 @@
 
 #include "models/simplify/candidate.h"
 #include "models/simplify/fault.h"
+#include "models/simplify/material_borders.h"
 #include "models/simplify/shells.h"
 #include "sim/base/worker_team.h"
 
@@ -37,12 +38,9 @@ constexpr std::size_t most_starts = 2;
 /// A later one is given up where it stays more than so many times as bad as the best.
 constexpr double most_behind = 1.25;
 
-/// Whether a mesh shows nothing but its shape. Distances do not tell where borders of colours and
-/// materials should be, and revisions know them only as the result has them.
+/// Whether a mesh shows nothing but its shape.
 bool is_plain(const TriangleMesh& mesh) {
-    return mesh.colours.empty() &&
-           std::ranges::adjacent_find(mesh.triangle_materials, std::ranges::not_equal_to()) ==
-               mesh.triangle_materials.end();
+    return mesh.colours.empty() && !has_material_borders(mesh);
 }
 
 /// What chooses the collapses of each pass that is tried; the usual one first.
@@ -173,8 +171,13 @@ Simplified improved(
         best = beside_plain(tried, best, yardstick, original, options, ways.one_pass);
     }
     if (!plain) {
-        Candidate& one = tried[best];
-        return lowered(std::move(one), Yardstick(), 3, original, options, ways.one_pass).result;
+        Candidate one =
+            lowered(std::move(tried[best]), Yardstick(), 3, original, options, ways.one_pass);
+        constexpr double all = std::numeric_limits<double>::infinity();
+        if (original.mesh().colours.empty()) {
+            one = revised(std::move(one), yardstick, all, original, options, ways.revise);
+        } // Distances do not tell where colours should end.
+        return std::move(one.result);
     }
     const std::vector<std::size_t> from = starts(tried, yardstick);
     Candidate found = tried[best];

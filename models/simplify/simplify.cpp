@@ -267,6 +267,7 @@ TriangleMesh resplit(
             mesh, split_needs(surface, points, {target, bvh}, revision.split_by), revision.splits);
     }
     WorkingSurface surface(split, units);
+    surface.holds_borders = true; // They would move a little each time.
     TrackedPoints points = points_on(surface, target, wanted);
     PolishOptions how = polish_options(surface, target, units.diagonal_m, options);
     how.rounds = revision_rounds;
