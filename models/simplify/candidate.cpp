@@ -37,6 +37,10 @@ Candidate judged(
     } else if (!result.sequence.collapses.empty()) {
         FaultOptions how;
         how.threads = options.threads;
+        if (options.quality == Quality::Fast) {
+            how.tightness = 1.05;
+            how.most_samples = 15'000;
+        }
         how.is_hopeless = is_hopeless;
         fault = fault_of(result.mesh, original, how);
     }
@@ -44,10 +48,10 @@ Candidate judged(
 }
 
 Yardstick yardstick_of(
+    Yardstick yardstick,
     std::span<const Candidate> tried,
     const measure::TargetSurface& original,
     const SimplifyOptions& options) {
-    Yardstick yardstick;
     for (const Candidate& one : tried) {
         const CollapseSequence& sequence = one.result.sequence;
         if (measures_distances(one.result.chosen_by) || one.misses || sequence.collapses.empty()) {

@@ -35,9 +35,10 @@ Candidate judged(
     const SimplifyOptions& options,
     const IsHopeless& is_hopeless = {});
 
-/// What the plain ones of the passes reached before their polish. Nothing is known where none was
-/// tried.
+/// The yardstick with what the plain ones of the passes reached before their polish. Nothing more
+/// is known where none was tried.
 Yardstick yardstick_of(
+    Yardstick yardstick,
     std::span<const Candidate> tried,
     const measure::TargetSurface& original,
     const SimplifyOptions& options);

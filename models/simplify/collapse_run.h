@@ -43,6 +43,7 @@ private:
     void fill();
     void fill_again();
     bool next_edge(HalfEdge& h);
+    HalfEdge taking_one(HalfEdge h);
     void update_cost(HalfEdge edge);
     double length_cost(HalfEdge edge, const Placement& placement) const;
     double surface_increase(HalfEdge h, const Placement& placement);

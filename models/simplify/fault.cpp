@@ -17,19 +17,13 @@ namespace {
 /// With one percent of its area turned over a result counts as twice as far off.
 constexpr double price_of_turned = 100.0;
 
-/// A result should be less than these shares of the best plain value: other ones of the same kind
-/// are somewhat better than ours now and then.
-constexpr double wanted_off = 0.86;
-constexpr double wanted_rms = 0.8;
-
 /// A smaller share of turned area is a few samples.
 constexpr double noise = 3e-4;
 /// By no more than this what turns more over than plain ways counts as worse.
 constexpr double most_for_turned = 4.0;
 
-/// Twenty a triangle of the original tell two results apart, between these numbers.
+/// Twenty a triangle of the original tell two results apart, but no fewer than these.
 constexpr std::size_t fewest_samples = 10'000;
-constexpr std::size_t most_samples = 50'000;
 /// Distances below this share of the diagonal need not be told apart.
 constexpr double negligible = 1e-6;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -57,7 +51,7 @@ Fault fault_of(
     limits.threads = options.threads;
     const double negligible_m = limits.negligible_m;
     const std::size_t samples =
-        std::clamp(20 * original.mesh().triangles.size(), fewest_samples, most_samples);
+        std::clamp(20 * original.mesh().triangles.size(), fewest_samples, options.most_samples);
     measure::SampleOptions how{.samples = samples, .threads = options.threads};
     const measure::TargetSurface surface(mesh);
     const measure::HausdorffBounds there =
@@ -94,16 +88,16 @@ double Yardstick::allowed_turned() const {
 }
 
 double Yardstick::wanted_off_m() const {
-    return wanted_off * off_m_;
+    return wanted_off_ * off_m_;
 }
 
 bool Yardstick::is_beaten_by(const Fault& fault) const {
-    return fault.off_m <= wanted_off_m() && fault.rms_m <= wanted_rms * rms_m_ &&
+    return fault.off_m <= wanted_off_m() && fault.rms_m <= wanted_rms_ * rms_m_ &&
            fault.turned <= allowed_turned();
 }
 
 bool Yardstick::is_better_in_the_mean_than(const Fault& fault) const {
-    return std::isfinite(off_m_) && fault.rms_m > wanted_rms * rms_m_;
+    return std::isfinite(off_m_) && fault.rms_m > wanted_rms_ * rms_m_;
 }
 
 double Yardstick::hopelessness(const Fault& fault) const {
@@ -119,7 +113,7 @@ double Yardstick::badness(const Fault& fault) const {
     const double turned = std::min(beyond(fault.turned, allowed_turned()), most_for_turned);
     return product * turned *
            fourth_power(
-               beyond(fault.off_m, wanted_off_m()) * beyond(fault.rms_m, wanted_rms * rms_m_));
+               beyond(fault.off_m, wanted_off_m()) * beyond(fault.rms_m, wanted_rms_ * rms_m_));
 }
 
 } // namespace octant::models::simplify

@@ -3,6 +3,7 @@
 #include "models/measure/target_surface.h"
 #include "models/triangle_mesh.h"
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 
@@ -25,7 +26,8 @@ using IsHopeless = std::function<bool(const Fault& least)>;
 struct FaultOptions {
     /// The upper bound of the distance is at most this times the lower one.
     double tightness = 1.02;
-    int threads = 1; ///< The number of threads; it does not change the result.
+    std::size_t most_samples = 50'000; ///< For the mean; fewer where the original is small.
+    int threads = 1;                   ///< The number of threads; it does not change the result.
     /// Asked when half is measured; may be empty. Where it is true all values are infinite.
     IsHopeless is_hopeless;
 };
@@ -40,6 +42,13 @@ Fault fault_of(
 /// by the best one for it. Infinite where none was tried.
 class Yardstick {
 public:
+    Yardstick() = default;
+
+    /// With the shares of the best plain values below which a result should be.
+    Yardstick(double wanted_off, double wanted_rms)
+        : wanted_off_(wanted_off)
+        , wanted_rms_(wanted_rms) {}
+
     void add(const TriangleMesh& plain, const measure::TargetSurface& original, int threads);
     void add(const Fault& plain);
 
@@ -72,6 +81,9 @@ public:
     double badness(const Fault& fault) const;
 
 private:
+    /// Other ones of the same kind are somewhat better than ours now and then.
+    double wanted_off_ = 0.86;
+    double wanted_rms_ = 0.8;
     double off_m_ = std::numeric_limits<double>::infinity();
     double rms_m_ = std::numeric_limits<double>::infinity();
     double turned_ = std::numeric_limits<double>::infinity();

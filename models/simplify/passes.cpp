@@ -4,6 +4,7 @@
 
 #include "models/simplify/candidate.h"
 #include "models/simplify/fault.h"
+#include "models/simplify/material_borders.h"
 #include "models/simplify/shells.h"
 #include "sim/base/worker_team.h"
 
@@ -37,12 +38,9 @@ constexpr std::size_t most_starts = 2;
 /// A later one is given up where it stays more than so many times as bad as the best.
 constexpr double most_behind = 1.25;
 
-/// Whether a mesh shows nothing but its shape. Distances do not tell where borders of colours and
-/// materials should be, and revisions know them only as the result has them.
+/// Whether a mesh shows nothing but its shape.
 bool is_plain(const TriangleMesh& mesh) {
-    return mesh.colours.empty() &&
-           std::ranges::adjacent_find(mesh.triangle_materials, std::ranges::not_equal_to()) ==
-               mesh.triangle_materials.end();
+    return mesh.colours.empty() && !has_material_borders(mesh);
 }
 
 /// What chooses the collapses of each pass that is tried; the usual one first.
@@ -60,7 +58,7 @@ std::vector<Chooser> choosers_for(const TriangleMesh& original, const SimplifyOp
         choosers.push_back(Chooser::Quadrics);
     }
     if (original.colours.empty() && has_plain) {
-        if (!is_fast && before <= small && is_plain(original)) {
+        if (before <= small && is_plain(original)) {
             choosers.push_back(Chooser::Planes);
         }
         choosers.push_back(Chooser::Volumes);
@@ -168,14 +166,19 @@ Simplified improved(
     const measure::TargetSurface& original,
     const SimplifyOptions& options,
     const Ways& ways) {
-    const Yardstick yardstick = yardstick_of(tried, original, options);
+    const Yardstick yardstick = yardstick_of({}, tried, original, options);
     const bool plain = is_plain(original.mesh());
     if (plain || yardstick.is_better_than(tried[best].fault)) {
         best = beside_plain(tried, best, yardstick, original, options, ways.one_pass);
     }
     if (!plain) {
-        Candidate& one = tried[best];
-        return lowered(std::move(one), Yardstick(), 3, original, options, ways.one_pass).result;
+        Candidate one =
+            lowered(std::move(tried[best]), Yardstick(), 3, original, options, ways.one_pass);
+        constexpr double all = std::numeric_limits<double>::infinity();
+        if (original.mesh().colours.empty()) {
+            one = revised(std::move(one), yardstick, all, original, options, ways.revise);
+        } // Distances do not tell where colours should end.
+        return std::move(one.result);
     }
     const std::vector<std::size_t> from = starts(tried, yardstick);
     Candidate found = tried[best];
@@ -199,6 +202,48 @@ Simplified improved(
     return std::move(found.result);
 }
 
+/// The number of the best candidate, the first one where none is clearly better.
+std::size_t best_of(std::span<const Candidate> tried, const Yardstick& yardstick) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < tried.size(); ++i) {
+        best = tried[i].is_better_than(tried[best], yardstick) ? i : best;
+    }
+    return best;
+}
+
+/// The best result of Quality::Fast. Where the pass after Garland and Heckbert is no farther off
+/// before its polish, or hardly, the best pass and then the others run again with a polish that
+/// lowers the largest distance.
+Simplified best_fast(
+    std::vector<Candidate> tried,
+    const measure::TargetSurface& original,
+    const SimplifyOptions& options,
+    const OnePass& one_pass) {
+    const auto printed = std::ranges::find(
+        tried, Chooser::Planes, [](const Candidate& one) { return one.result.chosen_by; });
+    if (printed == tried.end()) {
+        return std::move(tried[best_of(tried, Yardstick())].result);
+    }
+    constexpr double nearly = 0.95; // Other ones of the same kind are somewhat better now and then.
+    const Yardstick yardstick =
+        yardstick_of(Yardstick(nearly, nearly), {printed, 1}, original, options);
+    std::size_t best = best_of(tried, yardstick);
+    SimplifyOptions how = options;
+    how.lowers_peaks = true;
+    for (const std::size_t i : starts(tried, yardstick)) {
+        if (tried[best].misses || yardstick.is_beaten_by(tried[best].fault)) {
+            break;
+        }
+        tried.push_back(judged(
+            one_pass(original.mesh(), how, tried[i].result.chosen_by),
+            original,
+            how,
+            [&](const Fault& least) { return !tried[best].is_worse_than(least, yardstick); }));
+        best = best_of(tried, yardstick);
+    }
+    return std::move(tried[best].result);
+}
+
 /// Tries the passes side by side and returns the best result, the first one where none is clearly
 /// better.
 Simplified best_pass(TriangleMesh original, const SimplifyOptions& options, const Ways& ways) {
@@ -218,13 +263,12 @@ Simplified best_pass(TriangleMesh original, const SimplifyOptions& options, cons
     share_out(tried.size(), options.threads, [&](std::size_t i, std::size_t) {
         tried[i] = judged(std::move(tried[i].result), surface, quiet);
     });
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < tried.size(); ++i) {
-        best = tried[i].is_better_than(tried[best], Yardstick()) ? i : best;
-    }
-    const bool is_small = original.triangles.size() <= small;
-    if (options.quality == Quality::Fast || !is_small) {
+    const std::size_t best = best_of(tried, Yardstick());
+    if (original.triangles.size() > small) {
         return std::move(tried[best].result);
+    }
+    if (options.quality == Quality::Fast) {
+        return best_fast(std::move(tried), surface, quiet, one_pass);
     }
     return improved(std::move(tried), best, surface, quiet, ways);
 }

@@ -20,9 +20,10 @@ struct Ways {
 
 /// The best of several passes: with Quality::Surface plain ones by quadrics and volumes are tried
 /// too, where few faces are to be left and they cost little, and with Quality::Fast the one by
-/// volumes, where the mesh is small. On small meshes Quality::Surface then tries passes that fit
-/// slivers, where a plain one is better than the best in one value, passes that avoid the largest
-/// distance of the best, and revisions, where the mesh has no borders of colours or materials.
+/// volumes, where the mesh is small, and on small meshes the one by planes, which the result should
+/// not be beaten by. On small meshes Quality::Surface then tries passes that fit slivers, where a
+/// plain one is better than the best in one value, passes that avoid the largest distance of the
+/// best, and revisions, where the mesh has no colours; borders of materials stay where they are.
 /// Where a goal is out of reach the smallest shells go first, unless the options keep them.
 Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options, const Ways& ways);
 

@@ -8,7 +8,6 @@
 #include "models/simplify/peaks.h"
 
 #include "models/simplify/collapse_guard.h"
-#include "models/simplify/peak_heights.h"
 #include "models/simplify/ring_heights.h"
 #include "models/simplify/vertex_fit.h"
 
@@ -217,7 +216,7 @@ void PeakLowering::lower_at(std::uint32_t vertex) {
     const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
     around_.set_ring(place, colour);
     const Heights before = around_.seen({});
-    const glm::dvec3 way = fitted().way();
+    const glm::dvec3 way = surface_.along_borders(vertex, fitted().way());
     const glm::dvec3 way_of_worst = is_plain_ ? way_of_worst_sample() : way;
     for (const Strictness strictness : {Strictness::Normal, Strictness::Loose}) {
         for (const double step : {1.0, 0.5, 0.2, 0.1}) {

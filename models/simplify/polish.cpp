@@ -121,7 +121,7 @@ void Polishing::fit(std::uint32_t vertex) {
     }
     const double most2 = std::max(most2_, avoided2_);
     const VertexFit fit = fitted();
-    const glm::dvec3 way = fit.way();
+    const glm::dvec3 way = surface_.along_borders(vertex, fit.way());
     const glm::dvec3 colour_change = fit.colour_change();
     for (const double step : {1.0, 0.4}) {
         const glm::dvec3 there = place + step * way;

@@ -4,6 +4,7 @@
 // and the cheapest others collapse, several numbers of them side by side.
 #include "models/simplify/revisions.h"
 
+#include "models/simplify/material_borders.h"
 #include "sim/base/worker_team.h"
 
 #include <algorithm>
@@ -68,6 +69,7 @@ Candidate revised(
     const SimplifyOptions& options,
     const Revise& revise) {
     const double most = most_turned(best, yardstick);
+    const BorderDistance borders = material_border_distance(best.result.mesh, original.mesh());
     bool is_better = !best.misses && best.fault.off_m > 0.0;
     for (int time = 0; time < most_times && is_better; ++time) {
         std::array<Candidate, tries.size()> tried;
@@ -76,7 +78,8 @@ Candidate revised(
         });
         const double before = yardstick.badness(best.fault);
         for (Candidate& other : tried) {
-            if (other.fault.turned <= most && other.is_better_than(best, yardstick)) {
+            if (other.fault.turned <= most && other.is_better_than(best, yardstick) &&
+                material_border_distance(other.result.mesh, original.mesh()).keeps(borders)) {
                 best = std::move(other);
             }
         }

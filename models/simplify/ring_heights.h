@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/simplify/peak_heights.h"
+#include "models/simplify/peaks.h"
 #include "models/simplify/polish_target.h"
 #include "models/simplify/surface_cost.h"
 #include "models/simplify/tracked_points.h"

@@ -70,6 +70,8 @@ struct SimplifyOptions {
     bool slivers_too = false;
     /// The polish may make slivers of uncoloured triangles; best_of_passes tries it out.
     bool fits_slivers = false;
+    /// Quality::Fast: the polish lowers the largest distance, too; best_of_passes tries it out.
+    bool lowers_peaks = false;
     int threads = 1;            ///< The number of threads; it does not change the result.
     ShowProgress show_progress; ///< May be empty.
 };

@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace octant::models::simplify {
 
@@ -47,6 +50,39 @@ WorkingSurface::WorkingSurface(const TriangleMesh& from, const WorkingUnits& uni
     , places(units.places_of(from))
     , colours(units.colours_of(from))
     , materials(from.triangle_materials) {}
+
+glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3& way) const {
+    if (materials.empty() || !holds_borders) {
+        return way;
+    }
+    constexpr double straight = -0.5; // The cosine between two borders that go on as one.
+    glm::dvec3 normal(0.0);
+    std::array<glm::dvec3, 2> borders;
+    std::size_t count = 0;
+    mesh.edges_around(vertex, [&](HalfEdge h) {
+        normal += area_vector(corner_places(face_of(h)));
+        if (is_material_border(h)) {
+            const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
+            const glm::dvec3 border = places[other] - places[vertex];
+            const double length = glm::length(border);
+            borders[count % 2] = length > 0.0 ? border / length : border;
+            ++count;
+        }
+    });
+    const double length = glm::length(normal);
+    if (count == 0 || !(length > 0.0)) {
+        return way;
+    }
+    normal /= length;
+    const glm::dvec3 up = glm::dot(way, normal) * normal;
+    if (count != 2 || !(glm::dot(borders[0], borders[1]) < straight)) {
+        return up; // Corners of borders stay.
+    }
+    const glm::dvec3 along = borders[1] - borders[0];
+    const glm::dvec3 flat = along - glm::dot(along, normal) * normal;
+    const double flat2 = glm::dot(flat, flat);
+    return flat2 > 0.0 ? up + glm::dot(way, flat) / flat2 * flat : up;
+}
 
 KeptSlots WorkingSurface::compact() {
     KeptSlots kept = mesh.compact();

@@ -45,6 +45,8 @@ struct WorkingSurface {
     std::vector<glm::dvec3> colours;      ///< One for each vertex slot; empty = no colours.
     std::vector<std::uint32_t> materials; ///< One for each triangle slot; empty = no materials.
 
+    bool holds_borders = false; ///< Of materials, where vertices are moved.
+
     bool coloured() const { return !colours.empty(); }
 
     std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
@@ -57,6 +59,10 @@ struct WorkingSurface {
         return !materials.empty() && mesh.twin(h) != none &&
                materials[face_of(h)] != materials[face_of(mesh.twin(h))];
     }
+
+    /// The part of a move of a vertex that leaves a border of materials through it where it is:
+    /// across the surface and along the border; all of it where there is none or it is not held.
+    glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
     /// Gives the slots of what is gone back.
     KeptSlots compact();

@@ -95,7 +95,9 @@ void make_folder(const std::filesystem::path& path) {
     if (code || !std::filesystem::is_directory(path, code)) {
         error_in(
             path,
-            fmt::format("cannot be made a folder: {}", code ? code.message() : "a file is there"));
+            fmt::format(
+                "expected a folder or a place for one, got: {}",
+                code ? code.message() : "a file is there"));
     }
 }
 

@@ -112,7 +112,7 @@ public:
         const fs::path place = fs::temp_directory_path(ignored);
         std::string name = ((place.empty() ? "/tmp" : place) / "octant-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
-            error_in(name, fmt::format("cannot be made a folder: {}", std::strerror(errno)));
+            error_in(name, fmt::format("expected a place for a folder, got: {}", std::strerror(errno)));
         }
         path_ = name;
     }

@@ -1,5 +1,4 @@
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/peak_heights.h"
 #include "models/simplify/peaks.h"
 #include "models/simplify/ring_heights.h"
 #include "models/simplify/triangle_samples.h"

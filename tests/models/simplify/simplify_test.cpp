@@ -125,6 +125,18 @@ TEST_CASE("goals of vertices and of faces are kept") {
     CHECK(same_bytes(simplified(fine, to_faces(100'000)).mesh, fine));
 }
 
+TEST_CASE("where a surface has a border, odd and even goals of faces are met exactly") {
+    TriangleMesh open = strip(12, 12);
+    for (glm::dvec3& place_m : open.vertices_m) {
+        place_m.z = 0.1 * std::sin(5.0 * place_m.x) * std::cos(4.0 * place_m.y);
+    }
+    for (const Quality quality : both) {
+        for (std::size_t faces = 60; faces < 64; ++faces) {
+            CHECK(simplified(open, to_faces(faces, quality)).mesh.triangles.size() == faces);
+        }
+    }
+}
+
 TEST_CASE("an error goal is kept by the certified distance, and not by staying fine") {
     const TriangleMesh fine = ball(40);
     for (const Quality quality : both) {
