@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace octant::visuals::nature {
 
@@ -16,6 +19,32 @@ bool is_nearer(const std::array<glm::vec3, 3>& triangle_m, float reach_m) {
     const glm::vec3 nearest = glm::clamp(glm::vec3(0.0F), least, most);
     return glm::dot(nearest, nearest) < reach_m * reach_m;
 }
+
+/// The triangles of a mesh from near to far.
+struct NearToFar {
+    std::span<const std::uint32_t> indices;
+    bool far_first; ///< in the mesh
+    std::size_t count = indices.size() / 3;
+
+    std::size_t triangle(std::size_t step) const { return far_first ? count - 1 - step : step; }
+
+    /// Where the number is kept of what was made before a step's triangle.
+    std::size_t place(std::size_t step) const { return far_first ? count - step : step; }
+
+    /// Appends those of some steps as they are.
+    void append(
+        std::size_t step,
+        std::size_t end,
+        std::vector<std::uint32_t>& to,
+        std::vector<std::uint32_t>& first_of) const {
+        std::size_t made = to.size() / 3;
+        to.resize(to.size() + 3 * (end - step));
+        for (; step < end; ++step, ++made) {
+            first_of[place(step)] = static_cast<std::uint32_t>(made);
+            std::copy_n(&indices[3 * triangle(step)], 3, &to[3 * made]);
+        }
+    }
+};
 
 void reverse_triangles(std::vector<std::uint32_t>& indices) {
     for (std::size_t low = 0, high = indices.size(); low + 3 < high; low += 3) {
@@ -45,40 +74,44 @@ NearGround::Triangles NearGround::made(
     fine_.begin(view, mesh.vertices, detail.scenery ? &scenery_ : nullptr, colour);
     scenery_.begin(view);
     const bool far_first = view.order == terrain::PaintOrder::BackToFront;
+    const NearToFar walk{mesh.indices, far_first};
+    const std::size_t count = walk.count;
     const auto reach_m = static_cast<float>(detail.scenery ? scenery_.reach_m() : 0.0);
-    const std::size_t count = mesh.indices.size() / 3;
     frame.indices.clear();
     frame.indices.reserve(mesh.indices.size());
     first_of_.resize(count + 1);
-    const auto bears = [&](std::size_t triangle) {
+    const auto corners_m = [&](std::size_t triangle) {
         const std::uint32_t* const corners = &mesh.indices[3 * triangle];
-        return reach_m > 0.0F && is_nearer(
-                                     {mesh.vertices[corners[0]].position_m,
-                                      mesh.vertices[corners[1]].position_m,
-                                      mesh.vertices[corners[2]].position_m},
-                                     reach_m);
+        return std::array{
+            mesh.vertices[corners[0]].position_m,
+            mesh.vertices[corners[1]].position_m,
+            mesh.vertices[corners[2]].position_m};
+    };
+    const auto bears = [&](std::size_t triangle) {
+        return reach_m > 0.0F && is_nearer(corners_m(triangle), reach_m);
+    };
+    const auto is_near = [&](std::size_t triangle) {
+        return detail.fine_ground && survey_.is_near(triangle);
     };
     for (std::size_t step = 0; step < count; ++step) {
-        const std::size_t triangle = far_first ? count - 1 - step : step;
-        const std::uint32_t* const corners = &mesh.indices[3 * triangle];
-        first_of_[far_first ? triangle + 1 : triangle] =
-            static_cast<std::uint32_t>(frame.indices.size() / 3);
-        const bool is_near = detail.fine_ground && survey_.is_near(triangle);
-        const bool is_bearing = bears(triangle);
-        if (is_near) {
-            fine_.add(corners, is_bearing, frame.indices);
-            continue;
+        // Most triangles stay as they are.
+        const std::size_t first = step;
+        while (step < count && !is_near(walk.triangle(step)) && !bears(walk.triangle(step))) {
+            ++step;
         }
-        if (is_bearing) {
-            scenery_.add(
-                {mesh.vertices[corners[0]].position_m,
-                 mesh.vertices[corners[1]].position_m,
-                 mesh.vertices[corners[2]].position_m},
-                fine_.vertices(),
-                frame.indices);
+        walk.append(first, step, frame.indices, first_of_);
+        if (step == count) {
+            break;
         }
-        for (std::size_t k = 0; k < 3; ++k) {
-            frame.indices.push_back(corners[k]);
+        const std::size_t triangle = walk.triangle(step);
+        if (is_near(triangle)) {
+            first_of_[walk.place(step)] = static_cast<std::uint32_t>(frame.indices.size() / 3);
+            fine_.add(&mesh.indices[3 * triangle], bears(triangle), frame.indices);
+        } else {
+            const auto before = static_cast<std::uint32_t>(frame.indices.size() / 3);
+            scenery_.add(corners_m(triangle), fine_.vertices(), frame.indices);
+            walk.append(step, step + 1, frame.indices, first_of_);
+            first_of_[walk.place(step)] = before;
         }
     }
     const auto all = static_cast<std::uint32_t>(frame.indices.size() / 3);

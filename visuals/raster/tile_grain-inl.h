@@ -106,13 +106,17 @@ HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
         return;
     }
     const TileLook look(job, nearness);
-    GrainWalk walk(job, nearness, buffer);
     std::array<GrainOfRow, 2> places;
-    GrainRow even;
-    std::array<GrainRow, 2> odd; ///< the one before `even`, and the one behind it
+    std::array<GrainRow, tile_height / 2 + 1> seen;
     GrainOfRow* above = &places[0];
     GrainOfRow* below = &places[1];
     const int last = job.size_px.y / 2;
+    const auto look_up = [&](int row) HWY_ATTR {
+        if (nearness.has_ground(row)) {
+            look.look(
+                row, *above, row % 2 == 0 ? *above : *below, seen[static_cast<std::size_t>(row)]);
+        }
+    };
     // Places are written a while before they are read.
     for (int row = 0; row < last + 2; row += 2) {
         if (row <= last && nearness.has_ground(row)) {
@@ -121,23 +125,18 @@ HWY_NOINLINE void add_grain(const TileJob& job, TileBuffer& buffer) {
             below->clear();
         }
         if (row > 0) {
-            if (nearness.has_ground(row - 2)) {
-                look.look(row - 2, *above, *above, even);
-            }
-            if (nearness.has_ground(row - 1)) {
-                look.look(row - 1, *above, *below, odd[1]);
-            }
-            walk.change(row - 2, odd[0], even);
-            walk.change(row - 1, even, odd[1]);
-            odd[0] = odd[1];
+            look_up(row - 2);
+            look_up(row - 1);
         }
         std::swap(above, below);
     }
     if (last % 2 == 0) {
-        if (nearness.has_ground(last)) {
-            look.look(last, *above, *above, even);
-        }
-        walk.change(last, odd[0], even);
+        look_up(last);
+    }
+    GrainWalk walk(job, nearness, buffer);
+    for (int row = 0; row <= last; ++row) {
+        const auto at = static_cast<std::size_t>(row);
+        walk.change(row, seen[row == 0 ? 0 : at - 1], seen[at]);
     }
 }
 
