@@ -23,12 +23,27 @@ constexpr rlim_t most_file_bytes = rlim_t{2} << 30U;
 constexpr rlim_t most_cpu_s = 25;
 constexpr unsigned most_s = 60;
 
+// The address sanitizer reserves terabytes of addresses, which no limit may stand in the way of.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool limits_memory = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool limits_memory = false;
+#else
+constexpr bool limits_memory = true;
+#endif
+#else
+constexpr bool limits_memory = true;
+#endif
+
 void limit() {
     const rlimit memory{most_bytes, most_bytes};
     const rlimit cpu{most_cpu_s, most_cpu_s};
     const rlimit core{0, 0};
     const rlimit file{most_file_bytes, most_file_bytes};
-    setrlimit(RLIMIT_AS, &memory);
+    if (limits_memory) {
+        setrlimit(RLIMIT_AS, &memory);
+    }
     setrlimit(RLIMIT_CPU, &cpu);
     setrlimit(RLIMIT_CORE, &core);
     setrlimit(RLIMIT_FSIZE, &file);
