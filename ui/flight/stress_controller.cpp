@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace octant::ui::flight {
 
@@ -65,7 +66,8 @@ StressSettings stress_settings(const visuals::scene::Settings& settings, double 
     StressSettings settings_of_run;
     settings_of_run.share_ms = 1000.0 / rate_hz;
     settings_of_run.lowest = std::max(budget / 8, 1);
-    settings_of_run.highest = 4 * budget;
+    constexpr int most = std::numeric_limits<int>::max();
+    settings_of_run.highest = budget > most / 4 ? most : 4 * budget;
     return settings_of_run;
 }
 

@@ -79,10 +79,11 @@ void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::sp
         const int to_share = left;
         for (std::size_t i = 0; i < aircraft.size() && weight > 0.0; ++i) {
             const int room = aircraft[i].polygons - given[i];
-            const auto part = static_cast<int>(to_share * (aircraft[i].weight / weight));
+            const double part = to_share * (aircraft[i].weight / weight);
             filled = filled || (room > 0 && part >= room);
-            given[i] += std::min(room, part);
-            left -= std::min(room, part);
+            const int more = static_cast<int>(std::min<double>(room, part));
+            given[i] += more;
+            left -= more;
         }
     }
     for (std::size_t i = 0; i < aircraft.size() && left > 0; ++i) { // what rounding left over

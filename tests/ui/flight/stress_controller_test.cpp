@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 using namespace octant;
@@ -61,6 +62,14 @@ double stress_of(const Machine& machine, const StressSettings& settings, const S
 }
 
 } // namespace
+
+TEST_CASE("a target lies between an eighth of the budget and four times, however large that is") {
+    CHECK(settings_at(60.0, 20'000).lowest == 2'500);
+    CHECK(settings_at(60.0, 20'000).highest == 80'000);
+    const StressSettings large = settings_at(60.0, 1'000'000'000);
+    CHECK(large.lowest == 125'000'000);
+    CHECK(large.highest == std::numeric_limits<int>::max());
+}
 
 TEST_CASE("an overload takes the budget into the band within some seconds, and it stays there") {
     for (const double rate_hz : {20.0, 60.0, 240.0}) {

@@ -49,6 +49,13 @@ struct Box {
 
 } // namespace
 
+TEST_CASE(
+    "an aircraft that has all it can take leaves the rest to one that weighs next to nothing") {
+    CHECK(
+        given({{.polygons = 5, .weight = 1e12}, {.polygons = 50, .weight = 1e-3}}, 30) ==
+        std::vector<int>{5, 25});
+}
+
 TEST_CASE("smooth polygons are shared out by weight, and what one cannot take others get") {
     CHECK(given({{100, 1.0}, {100, 1.0}}, 50) == std::vector<int>{25, 25});
     CHECK(given({{100, 3.0}, {100, 1.0}}, 80) == std::vector<int>{60, 20});
