@@ -1,10 +1,14 @@
 #include "models/simplify/material_borders.h"
 #include "models/simplify/simplify.h"
+#include "models/simplify/working_surface.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 using namespace octant::models;
 using namespace octant::models::simplify;
@@ -41,6 +45,25 @@ TEST_CASE("what moves a border of materials by more than little does not keep it
     CHECK(BorderDistance{1.01, 1.01}.keeps({1.0, 1.0}));
     CHECK_FALSE(BorderDistance{1.1, 1.0}.keeps({1.0, 1.0}));
     CHECK_FALSE(BorderDistance{0.5, 1.1}.keeps({1.0, 1.0}));
+}
+
+TEST_CASE("vertices move along a held border and across the surface, its ends across it alone") {
+    const TriangleMesh sheet = two_grounds(strip(4, 8), 1.0);
+    WorkingSurface surface(sheet, WorkingUnits::of(sheet, 0.1));
+    const auto moved = [&](const glm::dvec3& place_m) {
+        const auto found = std::ranges::find_if(sheet.vertices_m, [&](const glm::dvec3& v) {
+            return glm::distance(v, place_m) < 1e-9;
+        });
+        REQUIRE(found != sheet.vertices_m.end());
+        const auto vertex = static_cast<std::uint32_t>(found - sheet.vertices_m.begin());
+        return surface.along_borders(vertex, {1.0, 2.0, 3.0});
+    };
+    const glm::dvec3 whole(1.0, 2.0, 3.0);
+    CHECK(moved({1.0, 0.5, 0.0}) == whole); // not held
+    surface.holds_borders = true;
+    CHECK(moved({0.5, 0.5, 0.0}) == whole);
+    CHECK(glm::distance(moved({1.0, 0.5, 0.0}), {0.0, 2.0, 3.0}) < 1e-12);
+    CHECK(glm::distance(moved({1.0, 0.0, 0.0}), {0.0, 0.0, 3.0}) < 1e-12);
 }
 
 TEST_CASE("revisions of a bumpy sheet leave its border of materials in place") {
