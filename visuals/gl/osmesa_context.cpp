@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "sim/base/late_library.h"
 #include "visuals/gl/context.h"
 
 #include <GL/osmesa.h>
@@ -9,6 +10,17 @@
 
 namespace octant::visuals::gl {
 namespace {
+
+/// OSMesa is opened when the first context is made: it brings a compiler with it, which takes as
+/// long to load as everything else that a program does at its start.
+constinit LateLibrary osmesa_library(OCTANT_OSMESA_FILE);
+
+#define OCTANT_OSMESA(name) const LateFunction<decltype(::name)> name(osmesa_library, #name)
+OCTANT_OSMESA(OSMesaCreateContextAttribs);
+OCTANT_OSMESA(OSMesaDestroyContext);
+OCTANT_OSMESA(OSMesaGetProcAddress);
+OCTANT_OSMESA(OSMesaMakeCurrent);
+#undef OCTANT_OSMESA
 
 /// OSMesa wants a picture in memory; nothing is drawn there.
 constexpr int unused_px = 16;
