@@ -17,12 +17,12 @@ namespace {
 /// Shares of the picture's height that the aircraft's sphere fills: as a rule, where the view
 /// widens for the skyline, and at the least where the lens must stay wide for the ground.
 constexpr double close_share = 0.5;
-constexpr double wide_share = 0.16;
-constexpr double least_share = 0.14;
+constexpr double wide_share = 0.14;
+constexpr double least_share = 0.18;
 constexpr double widest_fov_rad = rad_from_deg(55.0);
 /// How far from the picture's middle, in heights, the aircraft may stand, and the skyline.
-constexpr double aircraft_off = 0.24;
-constexpr double skyline_off = 0.32;
+constexpr double aircraft_off = 0.28;
+constexpr double skyline_off = 0.38;
 
 double fov_for_share(double radius_m, double distance_m, double share) {
     return std::min(2.0 * std::atan(radius_m / share / distance_m), widest_fov_rad);

@@ -33,8 +33,11 @@ constexpr double hectic_radps = 1.1;
 constexpr double steep_rad = rad_from_deg(35.0);
 /// The elevation of a look that shows nothing but sky.
 constexpr double upright_rad = rad_from_deg(65.0);
-/// The room between a line of sight and the ground below it.
+/// The room between a line of sight and the ground below it; near the tower trees of that height
+/// may stand on it, which would fill a narrow lens.
 constexpr double spare_m = 1.0;
+constexpr double trees_m = 16.0;
+constexpr double near_trees_m = 250.0;
 
 /// How finely a line of sight is walked: each step is longer than the one before by this factor.
 constexpr double coarse_walk = 1.12;
@@ -42,7 +45,7 @@ constexpr double fine_walk = 1.03;
 
 /// Beside the flight, in radii of the aircraft, and above the ground, metres.
 constexpr std::array sideways_radii = {7.0, 14.0, 28.0, 56.0, 112.0, 224.0};
-constexpr std::array heights_m = {4.0, 25.0, 90.0};
+constexpr std::array heights_m = {20.0, 40.0, 90.0};
 /// The most places of the flight beside which spots are looked for.
 constexpr std::size_t most_stations = 24;
 /// The number of looks at the flight by which all spots are compared.
@@ -83,7 +86,8 @@ Look look_along(
         }
         const double rise = (*height_m - eye_m.z) / level_m;
         if (level_m < aircraft_m) {
-            look.free = look.free && *height_m + spare_m < eye_m.z + slope * level_m;
+            const double room_m = level_m < near_trees_m ? trees_m : spare_m;
+            look.free = look.free && *height_m + room_m < eye_m.z + slope * level_m;
         } else if (rise > slope && look.behind_m == farthest_m) {
             look.behind_m = level_m;
         }
