@@ -273,6 +273,32 @@ Simplified best_pass(TriangleMesh original, const SimplifyOptions& options, cons
     return improved(std::move(tried), best, surface, quiet, ways);
 }
 
+/// The shells with which alone a plain pass comes nearest to the whole.
+std::vector<bool> shells_to_stay(
+    const Shells& shells,
+    const CollapseSequence& exhausted,
+    const SimplifyOptions& options,
+    const OnePass& one_pass) {
+    const TriangleMesh& whole = exhausted.original;
+    std::vector<std::vector<bool>> sets =
+        shells_that_may_stay(shells, exhausted, wanted_faces(options.goal));
+    if (sets.size() == 1) {
+        return std::move(sets.front());
+    }
+    SimplifyOptions plain = options;
+    plain.quality = Quality::Fast;
+    plain.show_progress = nullptr;
+    const measure::TargetSurface surface(whole);
+    std::vector<Candidate> tried(sets.size());
+    share_out(sets.size(), options.threads, [&](std::size_t i, std::size_t) {
+        tried[i] = judged(
+            one_pass(only_shells(whole, shells, sets[i]), plain, Chooser::Quadrics),
+            surface,
+            plain);
+    });
+    return std::move(sets[best_of(tried, Yardstick())]);
+}
+
 } // namespace
 
 Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options, const Ways& ways) {
@@ -280,14 +306,14 @@ Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options,
     if (options.keep_shells || is_reached(best, options.goal)) {
         return best;
     }
-    const Shells shells = shells_of(best.sequence.original);
-    const std::vector<bool> stays =
-        shells_that_stay(shells, best.sequence, wanted_faces(options.goal));
+    const TriangleMesh& whole = best.sequence.original;
+    const Shells shells = shells_of(whole);
+    const std::vector<bool> stays = shells_to_stay(shells, best.sequence, options, ways.one_pass);
     const auto gone = static_cast<std::size_t>(std::ranges::count(stays, false));
     if (gone == 0) {
         return best;
     }
-    Simplified fewer = best_pass(only_shells(best.sequence.original, shells, stays), options, ways);
+    Simplified fewer = best_pass(only_shells(whole, shells, stays), options, ways);
     fewer.shells_gone = gone;
     return fewer;
 }

@@ -24,7 +24,8 @@ struct Ways {
 /// not be beaten by. On small meshes Quality::Surface then tries passes that fit slivers, where a
 /// plain one is better than the best in one value, passes that avoid the largest distance of the
 /// best, and revisions, where the mesh has no colours; borders of materials stay where they are.
-/// Where a goal is out of reach the smallest shells go first, unless the options keep them.
+/// Where a goal is out of reach shells go, unless the options keep them: the smallest ones or those
+/// nearest to others, by a plain pass each.
 Simplified best_of_passes(TriangleMesh original, const SimplifyOptions& options, const Ways& ways);
 
 } // namespace octant::models::simplify

@@ -1,9 +1,12 @@
 #include "models/simplify/shells.h"
 
+#include "models/measure/triangle_bvh.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -12,8 +15,11 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// The share of the wanted faces that shells may need at least.
+/// The shares of the wanted faces that shells may need at least.
 constexpr double filled = 0.8;
+constexpr std::array filled_by_farness = {0.95, 0.8, 0.65, 0.5};
+/// How many searches for a nearest point are worth while to choose shells.
+constexpr std::size_t most_searches = 2'000'000;
 
 std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t vertex) {
     while (parents[vertex] != vertex) {
@@ -22,6 +28,97 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t vertex)
     }
     return vertex;
 }
+
+/// The triangles that are left of each shell when nothing more collapses.
+std::vector<std::size_t> least_triangles(const Shells& shells, const CollapseSequence& exhausted) {
+    std::vector<std::size_t> least(shells.sizes_m.size(), 0);
+    for (const std::uint32_t shell : shells.of_triangle) {
+        ++least[shell];
+    }
+    for (const Collapse& collapse : exhausted.collapses) {
+        for (const std::uint32_t gone : {collapse.left, collapse.right}) {
+            if (gone != none) {
+                --least[shells.of_triangle[gone]];
+            }
+        }
+    }
+    return least;
+}
+
+std::uint32_t largest_of(const Shells& shells) {
+    const auto largest = std::ranges::max_element(shells.sizes_m);
+    return largest == shells.sizes_m.end()
+               ? none
+               : static_cast<std::uint32_t>(largest - shells.sizes_m.begin());
+}
+
+/// How far shells are, by their vertices, from those that stay.
+class Farness {
+public:
+    /// Not `is_measured`: shells come by their sizes.
+    Farness(const TriangleMesh& mesh, const Shells& shells, bool is_measured)
+        : mesh_(&mesh)
+        , triangles_(shells.sizes_m.size())
+        , vertices_(shells.sizes_m.size())
+        , far2_m2_(shells.sizes_m)
+        , is_open_(shells.sizes_m.size(), true)
+        , distance2_m2_(mesh.vertices_m.size(), std::numeric_limits<double>::infinity())
+        , is_measured_(is_measured) {
+        std::vector<bool> is_known(mesh.vertices_m.size(), false);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const std::uint32_t shell = shells.of_triangle[t];
+            triangles_[shell].push_back(mesh.triangles[t]);
+            for (const std::uint32_t vertex : mesh.triangles[t]) {
+                if (!is_known[vertex]) {
+                    is_known[vertex] = true;
+                    vertices_[shell].push_back(vertex);
+                }
+            }
+        }
+    }
+
+    /// Of those not settled; none: all are.
+    std::uint32_t farthest() const {
+        std::uint32_t found = none;
+        for (std::uint32_t shell = 0; shell < far2_m2_.size(); ++shell) {
+            if (is_open_[shell] && (found == none || far2_m2_[shell] > far2_m2_[found])) {
+                found = shell;
+            }
+        }
+        return found;
+    }
+
+    /// It is known whether that shell stays: the others may be nearer now.
+    void settle(std::uint32_t shell, bool stays) {
+        is_open_[shell] = false;
+        if (!stays || !is_measured_) {
+            return;
+        }
+        const measure::TriangleBvh surface(mesh_->vertices_m, triangles_[shell]);
+        for (std::uint32_t other = 0; other < far2_m2_.size(); ++other) {
+            if (!is_open_[other]) {
+                continue;
+            }
+            far2_m2_[other] = 0.0;
+            for (const std::uint32_t vertex : vertices_[other]) {
+                double& distance2 = distance2_m2_[vertex];
+                distance2 =
+                    std::min(distance2, surface.nearest(mesh_->vertices_m[vertex]).distance2);
+                far2_m2_[other] = std::max(far2_m2_[other], distance2);
+            }
+        }
+    }
+
+private:
+    const TriangleMesh* mesh_;
+    std::vector<std::vector<Triangle>> triangles_;
+    std::vector<std::vector<std::uint32_t>> vertices_;
+    /// Of each shell's farthest vertex; its size where that is not measured.
+    std::vector<double> far2_m2_;
+    std::vector<bool> is_open_;
+    std::vector<double> distance2_m2_; ///< of each vertex from shells that stay
+    bool is_measured_;
+};
 
 } // namespace
 
@@ -56,35 +153,34 @@ Shells shells_of(const TriangleMesh& mesh) {
     return shells;
 }
 
-std::vector<bool>
-shells_that_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces) {
-    std::vector<std::size_t> least(shells.sizes_m.size(), 0);
-    for (const std::uint32_t shell : shells.of_triangle) {
-        ++least[shell];
-    }
-    for (const Collapse& collapse : exhausted.collapses) {
-        for (const std::uint32_t gone : {collapse.left, collapse.right}) {
-            if (gone != none) {
-                --least[shells.of_triangle[gone]];
+std::vector<std::vector<bool>>
+shells_that_may_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces) {
+    const std::vector<std::size_t> least = least_triangles(shells, exhausted);
+    const auto chosen = [&](Farness order, double share) {
+        const auto room = static_cast<std::size_t>(share * static_cast<double>(faces));
+        std::vector<bool> stays(least.size(), false);
+        std::size_t needed = 0;
+        for (std::uint32_t shell = largest_of(shells); shell != none; shell = order.farthest()) {
+            const bool fits = needed == 0 || needed + least[shell] <= room;
+            if (fits) {
+                needed += least[shell];
+                stays[shell] = true;
+            }
+            order.settle(shell, fits);
+        }
+        return stays;
+    };
+    const TriangleMesh& mesh = exhausted.original;
+    std::vector<std::vector<bool>> ways{chosen(Farness(mesh, shells, false), filled)};
+    if (mesh.vertices_m.size() * least.size() <= most_searches) {
+        for (const double share : filled_by_farness) {
+            std::vector<bool> stays = chosen(Farness(mesh, shells, true), share);
+            if (!std::ranges::count(ways, stays)) {
+                ways.push_back(std::move(stays));
             }
         }
     }
-    std::vector<std::uint32_t> largest_first(least.size());
-    std::iota(largest_first.begin(), largest_first.end(), 0U);
-    std::ranges::stable_sort(largest_first, [&](std::uint32_t a, std::uint32_t b) {
-        return shells.sizes_m[a] > shells.sizes_m[b];
-    });
-    std::vector<bool> stays(least.size(), false);
-    std::size_t needed = 0;
-    for (const std::uint32_t shell : largest_first) {
-        needed += least[shell];
-        if (shell != largest_first.front() &&
-            static_cast<double>(needed) > filled * static_cast<double>(faces)) {
-            break;
-        }
-        stays[shell] = true;
-    }
-    return stays;
+    return ways;
 }
 
 TriangleMesh

@@ -17,11 +17,13 @@ struct Shells {
 
 Shells shells_of(const TriangleMesh& mesh);
 
-/// Which shells are to stay so that a mesh gets down to `faces`: the largest ones, as many as have
-/// room for the triangles that the collapses left of each, with some to spare, and at least one.
-/// `exhausted`: collapses of the mesh until none was possible any more.
-std::vector<bool>
-shells_that_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces);
+/// Which shells of a mesh may stay so that it gets down to `faces`, in some ways: the
+/// largest ones, or the largest and then whichever is farthest from those that stay, as long as
+/// there is room for the triangles that the collapses left of each, with less or more to spare.
+/// Of very many shells the largest ones alone. `exhausted`: collapses of the mesh until none was
+/// possible any more.
+std::vector<std::vector<bool>>
+shells_that_may_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces);
 
 /// The mesh with the triangles of some shells alone, in their order; vertices in the order of their
 /// first corners.

@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 using namespace octant;
 using namespace octant::models;
@@ -13,19 +15,23 @@ using namespace octant::tests;
 
 namespace {
 
+void add_ball(TriangleMesh& mesh, double scale, double x_m) {
+    const TriangleMesh one = ball(8);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+    for (const glm::dvec3& vertex_m : one.vertices_m) {
+        mesh.vertices_m.push_back(scale * vertex_m + glm::dvec3(x_m, 0.0, 0.0));
+    }
+    for (const auto& [a, b, c] : one.triangles) {
+        mesh.triangles.push_back({a + first, b + first, c + first});
+    }
+}
+
 /// Balls side by side, each half as large as the one before.
 TriangleMesh balls(int count) {
     TriangleMesh mesh;
     double scale = 1.0;
     for (int i = 0; i < count; ++i, scale *= 0.5) {
-        const TriangleMesh one = ball(8);
-        const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        for (const glm::dvec3& vertex_m : one.vertices_m) {
-            mesh.vertices_m.push_back(scale * vertex_m + glm::dvec3(4.0 * i, 0.0, 0.0));
-        }
-        for (const auto& [a, b, c] : one.triangles) {
-            mesh.triangles.push_back({a + first, b + first, c + first});
-        }
+        add_ball(mesh, scale, 4.0 * i);
     }
     return mesh;
 }
@@ -47,6 +53,19 @@ TEST_CASE("a goal that all shells cannot reach drops the smallest ones, unless t
     options.keep_shells = false;
     options.goal.faces = 200;
     CHECK(simplified(balls(4), options).shells_gone == 0);
+}
+
+TEST_CASE("of shells that must go those go that lie by others, small ones far off stay") {
+    TriangleMesh mesh;
+    add_ball(mesh, 1.0, 0.0);
+    add_ball(mesh, 0.97, 0.0); // within the first
+    add_ball(mesh, 0.3, 9.0);
+    SimplifyOptions options;
+    options.goal.faces = 10;
+    const Simplified fewer = simplified(mesh, options);
+    CHECK(fewer.shells_gone == 1);
+    CHECK(std::ranges::any_of(
+        fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
 }
 
 TEST_CASE("only triangles lower than what is negligible may turn over") {
