@@ -27,12 +27,6 @@ constexpr std::size_t head_bytes = 32;
 constexpr std::size_t largest_chain_bytes = std::size_t{1} << 31U;
 constexpr std::uint32_t most_levels = 1000;
 
-std::uint64_t hash_of(std::string_view bytes) {
-    Hash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    return hash.value();
-}
-
 double take_error_m(ByteReader& reader, double least_m) {
     const auto error_m = reader.number<double>("an error");
     if (!(error_m >= least_m && std::isfinite(error_m))) {
@@ -63,7 +57,7 @@ void check_head(ByteReader& reader, std::string_view bytes) {
             std::to_string(size));
     }
     const auto hash = reader.number<std::uint64_t>("a checksum");
-    const std::uint64_t own = hash_of(bytes.substr(head_bytes));
+    const std::uint64_t own = checksum_of(bytes.substr(head_bytes));
     if (hash != own) {
         reader.refuse_at(
             24, fmt::format("the checksum {:016x}", own), fmt::format("{:016x}", hash));
@@ -132,7 +126,7 @@ void write_chain(const std::filesystem::path& path, const LevelChain& chain) {
     append_number(bytes, version);
     append_number(bytes, std::uint32_t{0});
     append_number(bytes, static_cast<std::uint64_t>(body.size()));
-    append_number(bytes, hash_of(body));
+    append_number(bytes, checksum_of(body));
     write_file(path, bytes + body);
 }
 

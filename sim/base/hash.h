@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace octant {
 
@@ -42,5 +43,16 @@ public:
 private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
+
+/// Of all bytes, as files keep it to tell whether they are whole.
+inline std::uint64_t checksum_of(std::span<const std::byte> bytes) {
+    Hash hash;
+    hash.add(bytes);
+    return hash.value();
+}
+
+inline std::uint64_t checksum_of(std::string_view bytes) {
+    return checksum_of(std::as_bytes(std::span(bytes)));
+}
 
 } // namespace octant

@@ -36,12 +36,6 @@ constexpr std::array<std::string_view, 2> built_in{"hills", "canyon"};
 /// "octheigh" as a little-endian machine writes it; another machine's files read as another kind.
 constexpr std::uint64_t height_signature = 0x686769656874636fULL;
 
-std::uint64_t sum_of(std::string_view bytes) {
-    Hash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    return hash.value();
-}
-
 std::string height_bytes(const HeightField& field) {
     std::vector<float> heights_m;
     for (int row = 0; row < field.rows(); ++row) {
@@ -56,7 +50,7 @@ std::string height_bytes(const HeightField& field) {
     out.number(field.rows());
     out.number(field.spacing_m());
     out.array(heights_m);
-    out.number(sum_of(out.bytes()));
+    out.number(checksum_of(out.bytes()));
     return out.bytes();
 }
 
@@ -78,7 +72,7 @@ std::optional<HeightField> field_of(std::string_view bytes) {
         heights_m.size() / static_cast<std::size_t>(columns) == static_cast<std::size_t>(rows) &&
         heights_m.size() % static_cast<std::size_t>(columns) == 0 &&
         std::ranges::all_of(heights_m, [](float m) { return std::isfinite(m); });
-    if (sum != sum_of(summed) || in.bytes_left() > 0 || !is_field) {
+    if (sum != checksum_of(summed) || in.bytes_left() > 0 || !is_field) {
         return std::nullopt;
     }
     return HeightField(columns, rows, spacing_m, std::move(heights_m));

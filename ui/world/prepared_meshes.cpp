@@ -55,12 +55,6 @@ fs::path repairs_file(fs::path file) {
     return file.replace_extension(".repairs");
 }
 
-std::uint64_t checksum_of(std::string_view bytes) {
-    Hash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    return hash.value();
-}
-
 void write_repairs(const fs::path& file, const std::vector<std::string>& repairs) {
     ordercache::ByteWriter out;
     out.number(std::uint64_t{repairs.size()});

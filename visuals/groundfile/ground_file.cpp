@@ -47,8 +47,9 @@ void check_before_tiles(const path& path, const MappedFile& file, const GroundHe
                 plan.file_bytes,
                 file.bytes().size()));
     }
-    if (hash_of(file.bytes().subspan(plan.checksums)) != header.checksums ||
-        hash_of(memory_of(file, layout).first(layout.first_tile())) != checksum_at(file, plan, 0)) {
+    if (checksum_of(file.bytes().subspan(plan.checksums)) != header.checksums ||
+        checksum_of(memory_of(file, layout).first(layout.first_tile())) !=
+            checksum_at(file, plan, 0)) {
         error_in(path, "expected sound data before the tiles, got damage: import it again");
     }
 }
@@ -101,7 +102,7 @@ void verify_ground(const path& path, int threads) {
         share_out(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
             const auto bytes = memory_of(file, layout)
                                    .subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
-            if (hash_of(bytes) != checksum_at(file, plan, before + tile)) {
+            if (checksum_of(bytes) != checksum_at(file, plan, before + tile)) {
                 std::size_t known = first_bad;
                 while (tile < known && !first_bad.compare_exchange_weak(known, tile)) {
                 }

@@ -26,12 +26,13 @@ namespace {
 constexpr std::size_t checksum_bytes = 8;
 
 std::uint64_t own_checksum(const GroundHeader& header) {
-    return hash_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
+    return checksum_of(
+        std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
 }
 
 template <class Part>
-std::uint64_t checksum_of(const Part& part) {
-    return hash_of(std::as_bytes(std::span(&part, 1)));
+std::uint64_t part_checksum(const Part& part) {
+    return checksum_of(std::as_bytes(std::span(&part, 1)));
 }
 
 GroundSystem stored(const models::heights::MapSystem& system) {
@@ -118,12 +119,6 @@ GroundFilePlan::GroundFilePlan(const GroundLayout& layout) {
     file_bytes = checksums + checksum_bytes * (tiles + 1);
     const std::size_t page = GroundLayout::page_bytes;
     numbers = (file_bytes + page - 1) / page * page;
-}
-
-std::uint64_t hash_of(std::span<const std::byte> bytes) {
-    Hash hash;
-    hash.add(bytes);
-    return hash.value();
 }
 
 std::uint64_t hash_of(const GroundShape& shape) {
@@ -230,8 +225,8 @@ bool may_be_stored(const GroundShape& shape) {
 
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {
     header.checksum = own_checksum(header);
-    header.system_checksum = checksum_of(header.system);
-    header.deviation_checksum = checksum_of(header.deviation);
+    header.system_checksum = part_checksum(header.system);
+    header.deviation_checksum = part_checksum(header.deviation);
     std::array<std::byte, GroundHeader::bytes> page = {};
     std::memcpy(page.data(), &header, sizeof header);
     return page;
@@ -258,15 +253,15 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
     }
     if (header.version == GroundHeader::first_version) {
         header.system = {};
-        header.system_checksum = checksum_of(header.system);
+        header.system_checksum = part_checksum(header.system);
     }
     if (header.version <= GroundHeader::second_version) {
         header.deviation = {};
-        header.deviation_checksum = checksum_of(header.deviation);
+        header.deviation_checksum = part_checksum(header.deviation);
     }
     if (header.checksum != own_checksum(header) ||
-        header.system_checksum != checksum_of(header.system) ||
-        header.deviation_checksum != checksum_of(header.deviation) || !is_sound(header)) {
+        header.system_checksum != part_checksum(header.system) ||
+        header.deviation_checksum != part_checksum(header.deviation) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
     }
     if (header.layout != hash_of(shape_of(header))) {

@@ -100,8 +100,6 @@ struct GroundFilePlan {
     std::size_t numbers = 0;    ///< The offset of the field's rows while the file is being made.
 };
 
-std::uint64_t hash_of(std::span<const std::byte> bytes);
-
 /// The hash of the places of all numbers and of what error codes mean.
 std::uint64_t hash_of(const GroundShape& shape);
 

@@ -5,6 +5,7 @@
 
 #include "models/heights/height_source.h"
 #include "sim/base/error.h"
+#include "sim/base/hash.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/import_files.h"
@@ -290,7 +291,7 @@ void Import::build() {
         figures.highest_m,
         figures.mean_m};
     const auto put = [&](std::size_t index, std::size_t offset, std::span<const std::byte> tile) {
-        const std::uint64_t checksum = hash_of(tile);
+        const std::uint64_t checksum = checksum_of(tile);
         std::memcpy(table.data() + 8 * (index + 1), &checksum, 8);
         file_->write(GroundHeader::bytes + offset, tile);
     };
@@ -300,9 +301,9 @@ void Import::build() {
             ImportStage::Building,
             static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
     }
-    const std::uint64_t checksum = hash_of(memory.first(layout_.first_tile()));
+    const std::uint64_t checksum = checksum_of(memory.first(layout_.first_tile()));
     std::memcpy(table.data(), &checksum, 8);
-    checksums_ = hash_of(table);
+    checksums_ = checksum_of(table);
     const GroundTiles made(shape_, facts_, memory, nullptr);
     from_inputs([&] {
         facts_.deviation = source_.deviation_of(

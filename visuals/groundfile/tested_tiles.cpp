@@ -1,5 +1,6 @@
 #include "visuals/groundfile/tested_tiles.h"
 
+#include "sim/base/hash.h"
 #include "visuals/groundfile/damage_tally.h"
 #include "visuals/groundfile/tile_mender.h"
 
@@ -41,7 +42,7 @@ bool TestedTiles::is_sound(int level, std::size_t tile) const {
     std::uint64_t checksum = 0;
     const std::size_t place = checksums_ + 8 * (index + 1); // the first is of what lies before
     std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
-    return hash_of(tile_bytes(ground_, level, tile)) == checksum;
+    return checksum_of(tile_bytes(ground_, level, tile)) == checksum;
 }
 
 void TestedTiles::make_ready(int level, std::size_t tile) const {

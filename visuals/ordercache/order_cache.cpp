@@ -35,14 +35,8 @@ constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
 /// Larger orders are not kept, and larger files not read.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-std::uint64_t hash_of(std::string_view bytes) {
-    Hash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    return hash.value();
-}
-
 fs::path file_of_key(const fs::path& folder, std::string_view key) {
-    return folder / fmt::format("{:016x}.order", hash_of(key));
+    return folder / fmt::format("{:016x}.order", checksum_of(key));
 }
 
 std::string file_bytes(std::string_view key, const OrderedModel& ordered) {
@@ -51,7 +45,7 @@ std::string file_bytes(std::string_view key, const OrderedModel& ordered) {
     out.number(order_version);
     out.text(key);
     out.raw(order_bytes(ordered));
-    out.number(hash_of(out.bytes()));
+    out.number(checksum_of(out.bytes()));
     return out.bytes();
 }
 
@@ -70,9 +64,9 @@ from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel
     }
     const std::string_view summed = bytes.substr(0, bytes.size() - checksum_bytes);
     const auto checksum = ByteReader(bytes.substr(summed.size())).number<std::uint64_t>();
-    if (hash_of(summed) != checksum) {
+    if (checksum_of(summed) != checksum) {
         throw Error(fmt::format(
-            "expected bytes of checksum {:016x}, got {:016x}", checksum, hash_of(summed)));
+            "expected bytes of checksum {:016x}, got {:016x}", checksum, checksum_of(summed)));
     }
     if (head.text() != key) {
         throw Error("expected the order of this model, got that of another one");

@@ -119,9 +119,7 @@ private:
         file_.read(bytes.data(), static_cast<std::streamsize>(count));
         std::string sum(8, '\0');
         file_.read(sum.data(), 8);
-        Hash hash;
-        hash.add(std::as_bytes(std::span(bytes)));
-        if (!file_ || ByteReader(sum).take<std::uint64_t>() != hash.value()) {
+        if (!file_ || ByteReader(sum).take<std::uint64_t>() != checksum_of(bytes)) {
             refuse("expected a whole block, got a wrong checksum");
         }
         at_ += count + block_frame_bytes;

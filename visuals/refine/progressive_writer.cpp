@@ -49,13 +49,11 @@ public:
 
 private:
     void add_block(const std::string& bytes) {
-        Hash hash;
-        hash.add(std::as_bytes(std::span(bytes)));
         ByteWriter frame;
         frame.put(static_cast<std::uint32_t>(bytes.size()));
         text_ += frame.bytes() + bytes;
         frame.bytes().clear();
-        frame.put(hash.value());
+        frame.put(checksum_of(bytes));
         text_ += frame.bytes();
     }
 

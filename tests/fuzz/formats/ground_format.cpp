@@ -1,4 +1,5 @@
 #include "models/heights/height_field_export.h"
+#include "sim/base/hash.h"
 #include "tests/fuzz/formats/target.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
@@ -48,9 +49,9 @@ void seal(std::string& bytes) {
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
             const std::uint64_t before_tiles =
-                groundfile::hash_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
+                checksum_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
             std::memcpy(bytes.data() + plan.checksums, &before_tiles, sizeof before_tiles);
-            header.checksums = groundfile::hash_of(all.subspan(plan.checksums));
+            header.checksums = checksum_of(all.subspan(plan.checksums));
         }
     }
     const auto page = groundfile::page_of(header);

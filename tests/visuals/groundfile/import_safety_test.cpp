@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "sim/base/hash.h"
 #include "tests/rough_heights.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
@@ -103,13 +104,13 @@ void write_earlier_version(
         tile = assembly.build(tile, 1, [&](std::size_t index, std::size_t offset, auto made) {
             std::copy(
                 made.begin(), made.end(), memory.begin() + static_cast<std::ptrdiff_t>(offset));
-            put_checksum(index + 1, hash_of(made));
+            put_checksum(index + 1, checksum_of(made));
         });
     }
-    put_checksum(0, hash_of(memory.first(layout.first_tile())));
+    put_checksum(0, checksum_of(memory.first(layout.first_tile())));
     GroundHeader header = header_of(shape, facts);
     header.progress.stage = GroundProgress::Stage::Complete;
-    header.checksums = hash_of(checksums);
+    header.checksums = checksum_of(checksums);
     const auto page = page_of(header);
     std::copy(page.begin(), page.end(), bytes.begin());
     std::ofstream(file, std::ios::binary)
