@@ -13,7 +13,7 @@ echo "== configuring (build/release)"
 mkdir -p build
 cmake --preset release >build/configure.log 2>&1 || { cat build/configure.log >&2; fail "configuring failed, see above"; }
 echo "== building"
-cmake --build --preset release --target octant
+cmake --build --preset release --parallel "$(nproc)" --target octant
 
 octant=build/release/octant
 out=build/flights

@@ -12,7 +12,7 @@ echo "== configuring (build/ci)"
 mkdir -p build
 cmake --preset ci >build/configure.log 2>&1 || { cat build/configure.log >&2; fail "configuring failed, see above"; }
 echo "== building, every header by itself too"
-cmake --build --preset ci
+cmake --build --preset ci --parallel "$(nproc)"
 echo "== testing"
 ctest --preset ci -j $(($(nproc) + 1)) || fail "a test failed; its output is above, all of it in build/ci/Testing/Temporary/LastTest.log"
 echo "All tests passed. Next: ./demo.sh flies eight flights and writes a report."
