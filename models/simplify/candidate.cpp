@@ -34,7 +34,9 @@ Candidate judged(
     Fault fault;
     if (result.mesh.triangles.empty()) {
         fault = {infinite, infinite, 1.0};
-    } else if (!result.sequence.collapses.empty()) {
+    } else if (
+        !result.sequence.collapses.empty() ||
+        result.mesh.triangles.size() != original.mesh().triangles.size()) {
         FaultOptions how;
         how.threads = options.threads;
         if (options.quality == Quality::Fast) {

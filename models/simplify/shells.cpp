@@ -45,25 +45,49 @@ std::vector<std::size_t> least_triangles(const Shells& shells, const CollapseSeq
     return least;
 }
 
-std::uint32_t largest_of(const Shells& shells) {
-    const auto largest = std::ranges::max_element(shells.sizes_m);
-    return largest == shells.sizes_m.end()
-               ? none
-               : static_cast<std::uint32_t>(largest - shells.sizes_m.begin());
+std::vector<std::uint32_t> largest_first(const Shells& shells) {
+    std::vector<std::uint32_t> order(shells.sizes_m.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return shells.sizes_m[a] > shells.sizes_m[b];
+    });
+    return order;
 }
+
+/// Shells taken one after the other as long as the triangles that are left of them fit.
+class Filling {
+public:
+    Filling(const std::vector<std::size_t>& least, double room)
+        : least_(&least)
+        , room_(static_cast<std::size_t>(room))
+        , stays_(least.size(), false) {}
+
+    /// Whether it stays: the first one always does.
+    bool take(std::uint32_t shell) {
+        stays_[shell] = needed_ == 0 || needed_ + (*least_)[shell] <= room_;
+        needed_ += stays_[shell] ? (*least_)[shell] : 0;
+        return stays_[shell];
+    }
+
+    const std::vector<bool>& stays() const { return stays_; }
+
+private:
+    const std::vector<std::size_t>* least_;
+    std::size_t room_;
+    std::vector<bool> stays_;
+    std::size_t needed_ = 0;
+};
 
 /// How far shells are, by their vertices, from those that stay.
 class Farness {
 public:
-    /// Not `is_measured`: shells come by their sizes.
-    Farness(const TriangleMesh& mesh, const Shells& shells, bool is_measured)
+    Farness(const TriangleMesh& mesh, const Shells& shells)
         : mesh_(&mesh)
         , triangles_(shells.sizes_m.size())
         , vertices_(shells.sizes_m.size())
-        , far2_m2_(shells.sizes_m)
+        , far2_m2_(shells.sizes_m.size(), std::numeric_limits<double>::infinity())
         , is_open_(shells.sizes_m.size(), true)
-        , distance2_m2_(mesh.vertices_m.size(), std::numeric_limits<double>::infinity())
-        , is_measured_(is_measured) {
+        , distance2_m2_(mesh.vertices_m.size(), std::numeric_limits<double>::infinity()) {
         std::vector<bool> is_known(mesh.vertices_m.size(), false);
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             const std::uint32_t shell = shells.of_triangle[t];
@@ -91,7 +115,7 @@ public:
     /// It is known whether that shell stays: the others may be nearer now.
     void settle(std::uint32_t shell, bool stays) {
         is_open_[shell] = false;
-        if (!stays || !is_measured_) {
+        if (!stays) {
             return;
         }
         const measure::TriangleBvh surface(mesh_->vertices_m, triangles_[shell]);
@@ -113,11 +137,10 @@ private:
     const TriangleMesh* mesh_;
     std::vector<std::vector<Triangle>> triangles_;
     std::vector<std::vector<std::uint32_t>> vertices_;
-    /// Of each shell's farthest vertex; its size where that is not measured.
+    /// Of each shell's farthest vertex.
     std::vector<double> far2_m2_;
     std::vector<bool> is_open_;
     std::vector<double> distance2_m2_; ///< of each vertex from shells that stay
-    bool is_measured_;
 };
 
 } // namespace
@@ -156,28 +179,28 @@ Shells shells_of(const TriangleMesh& mesh) {
 std::vector<std::vector<bool>>
 shells_that_may_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces) {
     const std::vector<std::size_t> least = least_triangles(shells, exhausted);
-    const auto chosen = [&](Farness order, double share) {
-        const auto room = static_cast<std::size_t>(share * static_cast<double>(faces));
-        std::vector<bool> stays(least.size(), false);
-        std::size_t needed = 0;
-        for (std::uint32_t shell = largest_of(shells); shell != none; shell = order.farthest()) {
-            const bool fits = needed == 0 || needed + least[shell] <= room;
-            if (fits) {
-                needed += least[shell];
-                stays[shell] = true;
-            }
-            order.settle(shell, fits);
-        }
-        return stays;
-    };
+    const std::vector<std::uint32_t> by_size = largest_first(shells);
+    if (by_size.empty()) {
+        return {{}};
+    }
+    const auto wanted = static_cast<double>(faces);
+    Filling largest(least, filled * wanted);
+    for (const std::uint32_t shell : by_size) {
+        largest.take(shell);
+    }
+    std::vector<std::vector<bool>> ways{largest.stays()};
     const TriangleMesh& mesh = exhausted.original;
-    std::vector<std::vector<bool>> ways{chosen(Farness(mesh, shells, false), filled)};
-    if (mesh.vertices_m.size() * least.size() <= most_searches) {
-        for (const double share : filled_by_farness) {
-            std::vector<bool> stays = chosen(Farness(mesh, shells, true), share);
-            if (!std::ranges::count(ways, stays)) {
-                ways.push_back(std::move(stays));
-            }
+    if (mesh.vertices_m.size() * least.size() > most_searches) {
+        return ways;
+    }
+    for (const double share : filled_by_farness) {
+        Farness order(mesh, shells);
+        Filling farthest(least, share * wanted);
+        for (std::uint32_t shell = by_size.front(); shell != none; shell = order.farthest()) {
+            order.settle(shell, farthest.take(shell));
+        }
+        if (!std::ranges::count(ways, farthest.stays())) {
+            ways.push_back(farthest.stays());
         }
     }
     return ways;

@@ -41,18 +41,32 @@ int create(const std::filesystem::path& path) {
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
 }
 
+/// A new file beside `path`, whose name it puts into `target`; -1 and errno where there is none.
+/// Another program, in a container of its own perhaps, may have the same number.
+int create_beside(const std::filesystem::path& path, std::filesystem::path& target) {
+    static std::atomic<unsigned> files = 0; // threads may write the same file at once
+    constexpr int most_tries = 100;
+    int descriptor = -1;
+    for (int tries = 0; tries < most_tries; ++tries) {
+        target = path;
+        target.replace_filename(
+            fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
+        descriptor =
+            ::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (descriptor >= 0 || errno != EEXIST) {
+            break;
+        }
+    }
+    return descriptor;
+}
+
 } // namespace
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
     // A device or a pipe cannot be renamed over; it is written directly.
     const bool special = is_there(path) && !is_file(path);
-    std::filesystem::path target = path;
-    if (!special) {
-        static std::atomic<unsigned> files = 0; // threads may write the same file at once
-        target.replace_filename(
-            fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
-    }
-    const int descriptor = create(target);
+    std::filesystem::path target;
+    const int descriptor = special ? create(path) : create_beside(path, target);
     if (descriptor < 0) {
         cannot_write(path);
     }

@@ -67,11 +67,11 @@ std::optional<HeightField> field_of(std::string_view bytes) {
     std::vector<float> heights_m = in.array<float>();
     const std::string_view summed = bytes.substr(0, bytes.size() - in.bytes_left());
     const auto sum = in.number<std::uint64_t>();
-    const bool is_field =
-        columns >= 2 && rows >= 2 && spacing_m > 0.0 && std::isfinite(spacing_m) &&
-        heights_m.size() / static_cast<std::size_t>(columns) == static_cast<std::size_t>(rows) &&
-        heights_m.size() % static_cast<std::size_t>(columns) == 0 &&
-        std::ranges::all_of(heights_m, [](float m) { return std::isfinite(m); });
+    const models::made::MadeOptions usual;
+    const auto side = static_cast<std::size_t>(usual.size);
+    const bool is_field = columns == usual.size && rows == usual.size &&
+                          spacing_m == usual.spacing_m && heights_m.size() == side * side &&
+                          std::ranges::all_of(heights_m, [](float m) { return std::isfinite(m); });
     if (sum != checksum_of(summed) || in.bytes_left() > 0 || !is_field) {
         return std::nullopt;
     }

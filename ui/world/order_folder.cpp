@@ -6,6 +6,8 @@
 #include "visuals/ordercache/order_cache.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <functional>
 #include <system_error>
 #include <vector>
@@ -24,15 +26,26 @@ struct KeptFile {
     std::uintmax_t bytes = 0;
 };
 
+/// What caches keep, and nothing else that lies there. What another run is writing is left alone.
+const std::array<fs::path, 4> kept_kinds{".order", ".pm", ".repairs", ".part"};
+
 std::vector<KeptFile> files_of(const fs::path& folder) {
     std::vector<KeptFile> files;
     std::error_code ignored;
     for (fs::directory_iterator entry(folder, ignored), end; entry != end;
          entry.increment(ignored)) {
+        const fs::path kind = entry->path().extension();
         std::error_code gone;
+        std::error_code too;
+        if (std::ranges::find(kept_kinds, kind) == kept_kinds.end() ||
+            entry->symlink_status(gone).type() != fs::file_type::regular) {
+            continue;
+        }
         const std::uintmax_t bytes = entry->file_size(gone);
-        const fs::file_time_type written = entry->last_write_time(gone);
-        if (!gone) {
+        const fs::file_time_type written = entry->last_write_time(too);
+        const bool is_being_written =
+            kind == ".part" && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
+        if (!gone && !too && !is_being_written) {
             files.push_back({written, entry->path(), bytes});
         }
     }
@@ -46,10 +59,11 @@ void remove_oldest(const fs::path& folder, std::uintmax_t most_bytes) {
     std::ranges::sort(files, std::greater(), &KeptFile::written);
     std::uintmax_t sum = 0;
     for (const KeptFile& file : files) {
-        sum += file.bytes;
-        if (sum > most_bytes) {
+        if (file.bytes > most_bytes - sum) {
             std::error_code ignored;
             fs::remove(file.path, ignored);
+        } else {
+            sum += file.bytes;
         }
     }
 }

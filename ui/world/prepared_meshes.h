@@ -9,7 +9,7 @@ namespace octant::ui::world {
 
 /// Raised whenever made_refine_mesh() gives any mesh another hierarchy, or a .pm file another
 /// layout, or files beside it: what was kept before is then made anew.
-inline constexpr unsigned prepared_version = 2;
+inline constexpr unsigned prepared_version = 3;
 
 /// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that
 /// decides it: places, triangles, colours and materials.

@@ -68,11 +68,11 @@ from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel
         throw Error(fmt::format(
             "expected bytes of checksum {:016x}, got {:016x}", checksum, checksum_of(summed)));
     }
-    if (head.text() != key) {
+    ByteReader rest(summed.substr(bytes.size() - head.bytes_left()));
+    if (rest.text() != key) {
         throw Error("expected the order of this model, got that of another one");
     }
-    const std::size_t order_size = head.bytes_left() - checksum_bytes;
-    return order_from_bytes(summed.substr(summed.size() - order_size), given);
+    return order_from_bytes(summed.substr(summed.size() - rest.bytes_left()), given);
 }
 
 /// Throws Error "file: expected ..., got ...".

@@ -68,6 +68,31 @@ TEST_CASE("of shells that must go those go that lie by others, small ones far of
         fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
 }
 
+TEST_CASE("of very many shells that cannot collapse the goal's number stays, spread over all") {
+    TriangleMesh mesh; // of 200 tetrahedra in a row, each a little smaller than the one before
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const double size_m = 1.0 - 0.002 * i;
+        const glm::dvec3 at_m(4.0 * i, 0.0, 0.0);
+        const std::uint32_t first = 4 * i;
+        for (const glm::dvec3 corner :
+             {glm::dvec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
+            mesh.vertices_m.push_back(at_m + size_m * corner);
+        }
+        for (const auto& [a, b, c] : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+            mesh.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    SimplifyOptions options;
+    options.goal.faces = 80;
+    options.quality = Quality::Fast;
+    const Simplified fewer = simplified(mesh, options);
+    CHECK(fewer.mesh.triangles.size() <= 80);
+    CHECK(fewer.shells_gone >= 180);
+    // The largest ones all stand on one side.
+    CHECK(std::ranges::any_of(
+        fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 700.0; }));
+}
+
 TEST_CASE("only triangles lower than what is negligible may turn over") {
     const std::array<glm::dvec3, 3> low{
         glm::dvec3(0.0, 0.0, 0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.5, 0.01, 0.0)};

@@ -32,18 +32,32 @@ TEST_CASE("a user's cache that cannot be made is done without, a named folder is
     CHECK_THROWS_AS(world::order_folder((folder / "octant" / "orders").string()), Error);
 }
 
-TEST_CASE("what was written first goes until the rest is small enough") {
+TEST_CASE("what was written first goes until the rest is small enough, and nothing of others") {
     const fs::path folder = tests::empty_folder("order-folder-full");
     const auto now = fs::file_time_type::clock::now();
-    for (const int age : {3, 1, 2}) {
-        const fs::path file = folder / std::to_string(age);
-        write_file(file, std::string(100, 'x'));
-        fs::last_write_time(file, now - std::chrono::hours(age));
-    }
+    const auto put = [&](const std::string& name, std::size_t bytes, int age_hours) {
+        write_file(folder / name, std::string(bytes, 'x'));
+        fs::last_write_time(folder / name, now - std::chrono::hours(age_hours));
+    };
+    put("3.order", 100, 3);
+    put("1.order", 100, 1);
+    put("2.pm", 100, 2);
+    put("letter.txt", 1000, 9);       // not of the cache
+    put(".octant-1-0.part", 1000, 0); // another run is writing it
+    put(".octant-1-1.part", 10, 9);   // left by a run that was killed
+    fs::create_directory(folder / "folder.order");
     world::remove_oldest(folder, 250);
-    CHECK(fs::exists(folder / "1"));
-    CHECK(fs::exists(folder / "2"));
-    CHECK_FALSE(fs::exists(folder / "3"));
+    CHECK(fs::exists(folder / "1.order"));
+    CHECK(fs::exists(folder / "2.pm"));
+    CHECK_FALSE(fs::exists(folder / "3.order"));
+    world::remove_oldest(folder, 205);
+    CHECK(fs::exists(folder / "2.pm"));
+    CHECK_FALSE(fs::exists(folder / ".octant-1-1.part"));
+    put("0.pm", 300, 0); // alone is too large: the others stay
     world::remove_oldest(folder, 250);
-    CHECK(fs::exists(folder / "2"));
+    CHECK_FALSE(fs::exists(folder / "0.pm"));
+    CHECK(fs::exists(folder / "1.order"));
+    CHECK(fs::exists(folder / "letter.txt"));
+    CHECK(fs::exists(folder / ".octant-1-0.part"));
+    CHECK(fs::exists(folder / "folder.order"));
 }
