@@ -1,6 +1,7 @@
 #include "ui/world/order_folder.h"
 
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "ui/base/user_folders.h"
 #include "ui/settings/order_cache_name.h"
 #include "visuals/ordercache/order_cache.h"
@@ -27,7 +28,7 @@ struct KeptFile {
 };
 
 /// What caches keep, and nothing else that lies there. What another run is writing is left alone.
-const std::array<fs::path, 4> kept_kinds{".order", ".pm", ".repairs", ".part"};
+const std::array<fs::path, 3> kept_kinds{".order", ".pm", ".repairs"};
 
 std::vector<KeptFile> files_of(const fs::path& folder) {
     std::vector<KeptFile> files;
@@ -37,14 +38,15 @@ std::vector<KeptFile> files_of(const fs::path& folder) {
         const fs::path kind = entry->path().extension();
         std::error_code gone;
         std::error_code too;
-        if (std::ranges::find(kept_kinds, kind) == kept_kinds.end() ||
+        const bool is_rest = is_unfinished(entry->path());
+        if ((std::ranges::find(kept_kinds, kind) == kept_kinds.end() && !is_rest) ||
             entry->symlink_status(gone).type() != fs::file_type::regular) {
             continue;
         }
         const std::uintmax_t bytes = entry->file_size(gone);
         const fs::file_time_type written = entry->last_write_time(too);
         const bool is_being_written =
-            kind == ".part" && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
+            is_rest && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
         if (!gone && !too && !is_being_written) {
             files.push_back({written, entry->path(), bytes});
         }

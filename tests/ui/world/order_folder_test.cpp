@@ -42,6 +42,7 @@ TEST_CASE("what was written first goes until the rest is small enough, and nothi
     put("3.order", 100, 3);
     put("1.order", 100, 1);
     put("2.pm", 100, 2);
+    put("film.part", 1000, 9);
     put("letter.txt", 1000, 9);       // not of the cache
     put(".octant-1-0.part", 1000, 0); // another run is writing it
     put(".octant-1-1.part", 10, 9);   // left by a run that was killed
@@ -58,6 +59,7 @@ TEST_CASE("what was written first goes until the rest is small enough, and nothi
     CHECK_FALSE(fs::exists(folder / "0.pm"));
     CHECK(fs::exists(folder / "1.order"));
     CHECK(fs::exists(folder / "letter.txt"));
+    CHECK(fs::exists(folder / "film.part"));
     CHECK(fs::exists(folder / ".octant-1-0.part"));
     CHECK(fs::exists(folder / "folder.order"));
 }
