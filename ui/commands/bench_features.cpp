@@ -46,6 +46,7 @@ constexpr std::array features{
     feature<&RunSettings::surface, &SurfaceSettings::shadows>("aircraft's shadows"),
     feature<&RunSettings::ground, &GroundSettings::near_detail>("near detail"),
     feature<&RunSettings::ground, &GroundSettings::scenery>("scenery"),
+    feature<&RunSettings::ground, &GroundSettings::roads>("roads"),
     feature<&RunSettings::air, &AirSettings::clouds>("clouds", cloud_share),
     feature<&RunSettings::surface, &SurfaceSettings::effects>("effects"),
     feature<&RunSettings::view, &scene::ViewSettings::path_ribbon>("path ribbon")};

@@ -32,7 +32,7 @@ struct FrameRecord {
     int terrain_triangles = 0;
     int terrain_fans = 0;
     int fine_triangles = 0;    ///< of terrain_triangles: detail below the samples
-    int scenery_triangles = 0; ///< of terrain_triangles: what stands on it, and a runway
+    int scenery_triangles = 0; ///< of terrain_triangles: what stands on it, roads and a runway
     int aircraft_polygons = 0; ///< in the lists drawn, before back-face culling
     int draw_cell = 0;         ///< cell of the first aircraft's draw order
     double resolution_c = 0.0; ///< C of the terrain in this frame

@@ -87,6 +87,13 @@ inline constexpr std::tuple ground_rows{
          "screen-error: made-up trees and houses near the eye; none where a texture colours the "
          "ground"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::roads>(
+        {"roads",
+         "",
+         "screen-error: made-up roads along the valleys, with more houses beside them; none where "
+         "a "
+         "texture colours the ground"},
+        {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::airfield>(
         {"airfield",
          "",

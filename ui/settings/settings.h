@@ -92,6 +92,7 @@ inline RunSettings of_given_ground() {
     RunSettings settings;
     settings.ground.near_detail = false;
     settings.ground.scenery = false;
+    settings.ground.roads = false;
     return settings;
 }
 

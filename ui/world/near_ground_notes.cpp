@@ -35,6 +35,7 @@ std::vector<std::string> near_ground_notes(
     };
     note("--near-detail", settings.near_detail, why);
     note("--scenery", settings.scenery, why.empty() ? textured : why);
+    note("--roads", settings.roads, why.empty() ? textured : why);
     return notes;
 }
 

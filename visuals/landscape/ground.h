@@ -6,6 +6,8 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/nature/backdrop.h"
+#include "visuals/nature/relief_light.h"
+#include "visuals/roads/road_network.h"
 #include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
@@ -68,6 +70,13 @@ public:
     virtual float covers_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
         return 0.0F;
     }
+
+    /// What the relief leaves of the light at a place.
+    virtual nature::LightLeft light_left(double /*x_m*/, double /*y_m*/) const { return {}; }
+
+    /// The roads on it; null for ground that has none. Made when they are first asked for, which is
+    /// loading work.
+    virtual std::shared_ptr<const roads::RoadNetwork> road_network() const { return nullptr; }
 
     /// The land around the map; nothing for ground without samples. Made when it is first asked
     /// for, which is loading work.

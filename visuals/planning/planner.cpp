@@ -35,6 +35,7 @@ Planner::Planner(
     , overlay_(scene, settings)
     , painter_(plan_) {
     runway_.light_by(air_.daylight());
+    follow_roads();
     plan_.background = settings.air.background;
     plan_.mesh_look = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
@@ -45,10 +46,18 @@ FrameView Planner::view_of(const scene::Camera& camera) const {
     return frame_view(camera, settings_.view.size_px, mesher_->earth_radius_m());
 }
 
+/// There are none where a texture has colours of its own.
+void Planner::follow_roads() {
+    if (settings_.ground.roads && !scene_.ground_texture) {
+        roads_.follow(*scene_.ground, air_.daylight());
+    }
+}
+
 landscape::GroundRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
     const int asked = asked_triangles(triangle_target);
-    const int kept = runway_.most_triangles(camera.eye_m, asked);
+    const int kept =
+        runway_.most_triangles(camera.eye_m, asked) + roads_.most_triangles(camera.eye_m, asked);
     return {
         camera,
         view_of(camera).aspect,
@@ -79,6 +88,7 @@ bool Planner::relight() {
     air_.relight();
     shadows_ = ShadowCaster(air_.to_sun());
     runway_.light_by(air_.daylight());
+    follow_roads();
     veils_.light_by(air_.daylight());
     return mesher_.get() == before;
 }
@@ -93,7 +103,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
         {},
         {}};
     shadows_.begin(ground.all, plan_.ground_texture.has_value(), plan_.shadow_vertices);
-    paint_runway(request, view, ground, counts);
+    paint_ground(request, view, ground, counts);
     cast_shadows(view, ground);
     air_.write(view, plan_);
     veils_.make(view, {request.states, request.turned}, fleet_, plan_);
@@ -101,7 +111,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
         veils_.draw(), request.camera, request.states, veils_.has_ribbon(), request.words);
     count(choose_smooth(request.smooth), counts);
     counts.shadow_triangles =
-        static_cast<int>(ground.shadow_indices.size() / 3) - counts.runway_triangles;
+        static_cast<int>(ground.shadow_indices.size() / 3) - counts.painted_triangles;
     painter_.paint(
         {view, fleet_, smooth_, veils_, ground, *mesher_},
         settings_.surface.hidden_surface,
@@ -156,24 +166,24 @@ void Planner::begin_plan(const FrameView& view) {
     }
 }
 
-/// Within the triangles that are kept for it, which are those of what stands on the ground.
-void Planner::paint_runway(
+/// Lays roads and the runway within the triangles that are kept for them, which are those of what
+/// stands on the ground.
+void Planner::paint_ground(
     const PlanRequest& request,
     const FrameView& view,
     const GroundFrame& ground,
     PlanCounts& counts) {
-    const int most =
-        runway_.most_triangles(view.camera.eye_m, asked_triangles(request.triangle_target));
-    runway_.paint(
-        ground.all,
-        *mesher_,
-        view,
-        settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
-        most);
-    shadows_.lay(runway_.paints());
-    counts.runway_triangles = runway_.triangles();
-    counts.ground.triangles += counts.runway_triangles;
-    counts.ground.scenery_triangles += counts.runway_triangles;
+    const int asked = asked_triangles(request.triangle_target);
+    const bool nearest_first =
+        settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
+    const glm::dvec3& eye_m = view.camera.eye_m;
+    cutter_.begin(ground.all, view);
+    runway_.paint(*mesher_, view, nearest_first, runway_.most_triangles(eye_m, asked), cutter_);
+    roads_.paint(*mesher_, view, nearest_first, roads_.most_triangles(eye_m, asked), cutter_);
+    shadows_.lay(cutter_.paints());
+    counts.painted_triangles = cutter_.triangles();
+    counts.ground.triangles += counts.painted_triangles;
+    counts.ground.scenery_triangles += counts.painted_triangles;
 }
 
 void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {

@@ -8,7 +8,9 @@
 #include "visuals/planning/frame_veils.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
+#include "visuals/planning/paint_cutter.h"
 #include "visuals/planning/plan_counts.h"
+#include "visuals/planning/road_painter.h"
 #include "visuals/planning/runway_painter.h"
 #include "visuals/planning/scene.h"
 #include "visuals/planning/scene_painter.h"
@@ -109,7 +111,8 @@ private:
     void place_aircraft(const PlanRequest& request, const FrameView& view);
     SmoothChoice::Count choose_smooth(const SmoothWish& wish);
     void begin_plan(const FrameView& view);
-    void paint_runway(
+    void follow_roads();
+    void paint_ground(
         const PlanRequest& request,
         const FrameView& view,
         const GroundFrame& ground,
@@ -126,6 +129,8 @@ private:
     Fleet fleet_;
     SmoothChoice smooth_;
     RunwayPainter runway_;
+    RoadPainter roads_;
+    PaintCutter cutter_;
     ShadowCaster shadows_;
     FrameVeils veils_;
     FrameOverlay overlay_;

@@ -136,6 +136,8 @@ struct GroundSettings {
     bool near_detail = true;
     /// By screen error: trees and houses stand near the eye.
     bool scenery = true;
+    /// By screen error: roads run along the valleys.
+    bool roads = true;
     /// A runway where the path begins, on ground that is levelled for it.
     bool airfield = false;
     MeshLook show_mesh = MeshLook::None;

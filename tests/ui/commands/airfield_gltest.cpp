@@ -68,27 +68,16 @@ Seen seen(std::vector<std::string> options) {
     std::vector<std::string> arguments = flight();
     arguments.insert(arguments.begin(), "fly");
     arguments.insert(arguments.end(), options.begin(), options.end());
-    arguments.insert(
-        arguments.end(),
-        {"--view",
-         "free",
-         "--eye",
-         above(-150.0, 60.0),
-         "--look",
-         above(250.0, 0.0),
-         "--size",
-         "320x240",
-         "--samples",
-         "1",
-         "--visibility",
-         "0",
-         "--frames",
-         "1",
-         "--pictures",
-         "1",
-         "--quiet",
-         "--record",
-         folder.string()});
+    arguments.insert(arguments.end(), {"--view",       "free",
+                                       "--eye",        above(-150.0, 60.0),
+                                       "--look",       above(250.0, 0.0),
+                                       "--size",       "320x240",
+                                       "--samples",    "1",
+                                       "--visibility", "0",
+                                       "--frames",     "1",
+                                       "--pictures",   "1",
+                                       "--no-roads",   "--quiet",
+                                       "--record",     folder.string()});
     const tests::ProgramRun run = tests::run_octant(arguments);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);

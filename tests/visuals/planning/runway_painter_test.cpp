@@ -42,13 +42,19 @@ struct PaintedRunway {
     std::shared_ptr<const models::heights::RunwayStrip> strip = askew();
     std::unique_ptr<landscape::GroundMesher> mesher = cell_ground(60, 40.0, rolling)->mesher({});
     RunwayPainter painter{strip};
+    PaintCutter cutter;
     scene::TriangleDraw ground;
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
         : camera(scene::camera_looking_at(eye_m, {0.0, 0.0, 0.0})) {
         landscape::GroundCounts counts;
         ground = mesher->triangles({camera, 1.0, 1000}, counts);
-        painter.paint(ground, *mesher, view(), false, most);
+        paint(view(), most);
+    }
+
+    void paint(const FrameView& seen, int most) {
+        cutter.begin(ground, seen);
+        painter.paint(*mesher, seen, false, most, cutter);
     }
 
     FrameView narrow_view() const { return frame_view(camera, {640, 480}, 0.0); }
@@ -61,7 +67,7 @@ struct PaintedRunway {
     }
 
     std::span<const glm::dvec3> corners(const GroundPaint& paint) const {
-        return painter.paints().corners.subspan(paint.first, paint.count);
+        return cutter.paints().corners.subspan(paint.first, paint.count);
     }
 };
 
@@ -106,9 +112,9 @@ double area_m2(std::span<const glm::dvec3> corners) {
 TEST_CASE("each piece of a runway lies on its triangle, within it but for rounding, and faces up") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     const double pixel_rad = world.view().pixel_rad;
-    REQUIRE(world.painter.paints().paints.size() > 500);
+    REQUIRE(world.cutter.paints().paints.size() > 500);
     SightPolygon placed;
-    for (const GroundPaint& paint : world.painter.paints().paints) {
+    for (const GroundPaint& paint : world.cutter.paints().paints) {
         place_triangle(world.ground, paint.triangle, placed);
         const std::vector<glm::dvec3> under{placed[0].at_m, placed[1].at_m, placed[2].at_m};
         const glm::dvec3 up = glm::normalize(glm::cross(under[1] - under[0], under[2] - under[0]));
@@ -131,13 +137,13 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
                glm::all(glm::lessThan(on_m, glm::dvec2(patch.most_m) - 0.5));
     };
     const auto covers = [&](std::uint32_t triangle, bool marking, const glm::dvec3& sight) {
-        return std::ranges::any_of(world.painter.paints().paints, [&](const GroundPaint& paint) {
+        return std::ranges::any_of(world.cutter.paints().paints, [&](const GroundPaint& paint) {
             return paint.triangle == triangle && (paint.layer == GroundLayer::Marking) == marking &&
                    inside_rad(world.corners(paint), sight) > 0.0;
         });
     };
     std::set<std::uint32_t> triangles;
-    for (const GroundPaint& paint : world.painter.paints().paints) {
+    for (const GroundPaint& paint : world.cutter.paints().paints) {
         triangles.insert(paint.triangle);
     }
     int on_surface = 0;
@@ -168,7 +174,7 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     double surface_m2 = 0.0;
     double marked_m2 = 0.0;
-    for (const GroundPaint& paint : world.painter.paints().paints) {
+    for (const GroundPaint& paint : world.cutter.paints().paints) {
         (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) +=
             area_m2(world.corners(paint));
     }
@@ -190,7 +196,7 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
             return paint.layer == GroundLayer::Surface &&
                    inside_m(world.corners(paint), place) > -1e-6;
         };
-        REQUIRE(std::ranges::any_of(world.painter.paints().paints, covers));
+        REQUIRE(std::ranges::any_of(world.cutter.paints().paints, covers));
     }
 }
 
@@ -201,14 +207,14 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     const PaintedRunway few(eye_m, most);
     const auto surface_m2 = [](const PaintedRunway& world) {
         double sum_m2 = 0.0;
-        for (const GroundPaint& paint : world.painter.paints().paints) {
+        for (const GroundPaint& paint : world.cutter.paints().paints) {
             sum_m2 += paint.layer == GroundLayer::Surface ? area_m2(world.corners(paint)) : 0.0;
         }
         return sum_m2;
     };
     const auto farthest_marking_m = [](const PaintedRunway& world) {
         double farthest_m = 0.0;
-        for (const GroundPaint& paint : world.painter.paints().paints) {
+        for (const GroundPaint& paint : world.cutter.paints().paints) {
             if (paint.layer == GroundLayer::Marking) {
                 farthest_m = std::max(farthest_m, glm::length(world.corners(paint)[0]));
             }
@@ -219,7 +225,7 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     CHECK(farthest_marking_m(few) < 0.7 * farthest_marking_m(all));
     CHECK(surface_m2(few) == surface_m2(all));
     CHECK(surface_m2(few) > 0.8 * 1800.0 * 45.0); // slopes that face away are not painted
-    CHECK(few.painter.triangles() < all.painter.triangles());
+    CHECK(few.cutter.triangles() < all.cutter.triangles());
     CHECK(few.painter.most_triangles(eye_m, 20000) >= most);
     CHECK(few.painter.most_triangles({0.0, 0.0, 20000.0}, 20000) < most);
 }
@@ -228,14 +234,14 @@ TEST_CASE("a runway is painted on triangles that may be in view and on no others
     PaintedRunway world({-900.0, -300.0, 60.0});
     const auto painted = [&] {
         std::set<std::uint32_t> triangles;
-        for (const GroundPaint& paint : world.painter.paints().paints) {
+        for (const GroundPaint& paint : world.cutter.paints().paints) {
             triangles.insert(paint.triangle);
         }
         return triangles;
     };
     const std::set<std::uint32_t> all = painted();
     const FrameView view = world.narrow_view();
-    world.painter.paint(world.ground, *world.mesher, view, false, plenty);
+    world.paint(view, plenty);
     const std::set<std::uint32_t> seen = painted();
     CHECK(seen.size() > 20);
     CHECK(seen.size() < all.size());
@@ -255,7 +261,7 @@ TEST_CASE("what looks narrow takes the surface's colour before it is left out") 
     // Of pieces that begin nearer than this.
     const auto colours_of = [](const PaintedRunway& world, double nearer_m) {
         std::set<std::uint32_t> colours;
-        for (const GroundPaint& paint : world.painter.paints().paints) {
+        for (const GroundPaint& paint : world.cutter.paints().paints) {
             CHECK(paint.colour >> 24U == 0); // neither pattern nor texture
             if (glm::length(world.corners(paint)[0]) < nearer_m) {
                 colours.insert(paint.colour);

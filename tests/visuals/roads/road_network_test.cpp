@@ -1,0 +1,139 @@
+#include "models/made/made_terrain.h"
+#include "sim/base/dice.h"
+#include "visuals/roads/road_network.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "valley_fields.h"
+
+using namespace octant;
+using namespace octant::tests;
+using namespace octant::visuals::roads;
+using visuals::terrain::GroundSamples;
+
+namespace {
+
+double lakes(const glm::dvec2& at_m) {
+    return 40.0 + 70.0 * std::sin(at_m.x / 1100.0) * std::cos(at_m.y / 900.0) +
+           9.0 * std::sin(at_m.x / 130.0);
+}
+
+const RoadNetwork& lake_roads() {
+    static const RoadNetwork roads(
+        GroundSamples(field_of(1001, lakes)), RoadWish{0.0, 1500.0, nullptr});
+    return roads;
+}
+
+double length_m(const RoadNetwork& roads) {
+    double sum_m = 0.0;
+    for (const RoadPiece& piece : roads.pieces()) {
+        for (std::size_t i = 1; i < piece.levels[0].size(); ++i) {
+            sum_m += glm::distance(piece.levels[0][i - 1].at_m, piece.levels[0][i].at_m);
+        }
+    }
+    return sum_m;
+}
+
+/// By places a metre apart along all middle lines.
+double nearest_m(const RoadNetwork& roads, const glm::dvec2& place_m) {
+    double least_m = 1e9;
+    for (const RoadPiece& piece : roads.pieces()) {
+        for (std::size_t i = 1; i < piece.levels[0].size(); ++i) {
+            const glm::dvec2& from_m = piece.levels[0][i - 1].at_m;
+            const glm::dvec2& to_m = piece.levels[0][i].at_m;
+            const int steps = static_cast<int>(std::ceil(glm::distance(from_m, to_m)));
+            for (int step = 0; step <= steps; ++step) {
+                const glm::dvec2 on_m = glm::mix(from_m, to_m, static_cast<double>(step) / steps);
+                least_m = std::min(least_m, glm::distance(on_m, place_m));
+            }
+        }
+    }
+    return least_m;
+}
+
+} // namespace
+
+TEST_CASE("no road runs over water") {
+    REQUIRE(length_m(lake_roads()) > 30000.0);
+    for (const RoadPiece& piece : lake_roads().pieces()) {
+        for (const RoadPoint& point : piece.levels[0]) {
+            REQUIRE(lakes(point.at_m) > -0.5);
+        }
+    }
+}
+
+TEST_CASE("the index of roads misses no piece") {
+    const RoadNetwork& roads = lake_roads();
+    Dice dice(11);
+    std::vector<std::uint32_t> found;
+    int met = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double x_m = dice.between(-15000.0, 15000.0);
+        const double y_m = dice.between(-15000.0, 15000.0);
+        const double width_m = dice.between(1.0, 3000.0);
+        const double depth_m = dice.between(1.0, 3000.0);
+        const glm::dvec2 least_m(x_m, y_m);
+        const glm::dvec2 most_m = least_m + glm::dvec2(width_m, depth_m);
+        found.clear();
+        roads.pieces_by(least_m, most_m, found);
+        const std::set<std::uint32_t> all(found.begin(), found.end());
+        bool any = false;
+        for (std::uint32_t number = 0; number < roads.pieces().size(); ++number) {
+            const RoadPiece& piece = roads.pieces()[number];
+            const bool meets = piece.least_m.x <= most_m.x && piece.most_m.x >= least_m.x &&
+                               piece.least_m.y <= most_m.y && piece.most_m.y >= least_m.y;
+            any = any || meets;
+            REQUIRE(all.contains(number) == meets);
+        }
+        REQUIRE((!any || roads.may_meet(least_m, most_m)));
+        met += any ? 1 : 0;
+    }
+    CHECK(met > 100);
+    CHECK_FALSE(roads.may_meet({1e6, 1e6}, {2e6, 2e6}));
+    CHECK_FALSE(roads.may_meet({-2e6, -2e6}, {-1e6, -1e6}));
+}
+
+TEST_CASE("a place is near a road where its middle line is") {
+    const RoadNetwork& roads = lake_roads();
+    Dice dice(5);
+    int near = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double x_m = dice.between(-12000.0, 12000.0);
+        const glm::dvec2 place_m(x_m, dice.between(-12000.0, 12000.0));
+        const double own_m = nearest_m(roads, place_m);
+        near += own_m < 400.0 ? 1 : 0;
+        REQUIRE(roads.is_near(place_m, own_m + 1.0));
+        REQUIRE_FALSE(roads.is_near(place_m, own_m - 1.0));
+    }
+    CHECK(near > 4);
+}
+
+TEST_CASE("made grounds have roads, low in their valleys, and the same ones each time") {
+    for (const char* const kind : {"hills", "canyon"}) {
+        INFO(kind);
+        const models::heights::HeightField field = models::made::made_terrain(kind).value();
+        const GroundSamples ground(field);
+        const RoadWish wish{0.0, 3000.0, nullptr};
+        const RoadNetwork roads(ground, wish);
+        const RoadNetwork again(ground, wish);
+        REQUIRE(roads.pieces().size() == again.pieces().size());
+        for (std::size_t i = 0; i < roads.pieces().size(); ++i) {
+            REQUIRE(roads.pieces()[i].least_m == again.pieces()[i].least_m);
+            REQUIRE(roads.pieces()[i].most_m == again.pieces()[i].most_m);
+        }
+        CHECK(length_m(roads) > 20000.0);
+    }
+}
+
+TEST_CASE("ground that is too small has no roads, and asking for some is harmless") {
+    const RoadNetwork none(GroundSamples(field_of(9, lakes)), {});
+    CHECK(none.pieces().empty());
+    CHECK_FALSE(none.may_meet({-1e3, -1e3}, {1e3, 1e3}));
+    CHECK_FALSE(none.is_near({0.0, 0.0}, 1e6));
+}

@@ -1,0 +1,196 @@
+#include "visuals/planning/road_painter.h"
+
+#include "models/colour_vertex.h"
+#include "visuals/scene/settings.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::visuals::planning {
+
+namespace {
+
+constexpr glm::vec3 asphalt(0.44F, 0.43F, 0.41F); ///< display values under a light of 1
+constexpr double road_px = 1.0;                   ///< what looks as wide has its own colour ...
+constexpr double least_road_px = 0.5;             ///< ... and what looks narrower is not painted
+constexpr double level_error_px = 0.25;
+constexpr double road_reach_m = 12000.0; ///< roads within it may be seen
+constexpr int most_road_triangles = 1200;
+constexpr double most_road_share = 0.06; ///< of the triangles that are aimed at
+constexpr double ground_colour_m = 40.0; ///< its mean over so much shows where a road is narrow
+
+/// A unit vector upwards from the ground.
+glm::vec3 normal_of(const landscape::Ground& ground, const glm::dvec2& at_m) {
+    const double step_m = ground.spacing_m();
+    const double own_m = ground.height_at(at_m.x, at_m.y).value_or(0.0);
+    const auto height_m = [&](double x_m, double y_m) {
+        return ground.height_at(x_m, y_m).value_or(own_m);
+    };
+    return glm::vec3(glm::normalize(glm::dvec3(
+        height_m(at_m.x - step_m, at_m.y) - height_m(at_m.x + step_m, at_m.y),
+        height_m(at_m.x, at_m.y - step_m) - height_m(at_m.x, at_m.y + step_m),
+        2.0 * step_m)));
+}
+
+glm::vec3
+light_at(const landscape::Ground& ground, const nature::Daylight& day, const glm::dvec2& at_m) {
+    const nature::LightLeft left = ground.light_left(at_m.x, at_m.y);
+    const float towards =
+        std::max(glm::dot(normal_of(ground, at_m), glm::vec3(day.to_sun())), 0.0F);
+    return day.ambient() * left.sky + day.sunlight() * (towards * left.sun);
+}
+
+/// The stretch of a road from one point to the next, on the plan around the eye.
+PaintCutter::Patch
+patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dvec2& eye_m) {
+    const glm::dvec2 from_m = from.at_m - eye_m;
+    const glm::dvec2 to_m = to.at_m - eye_m;
+    return {from_m - from.left_m, to_m - to.left_m, to_m + to.left_m, from_m + from.left_m};
+}
+
+/// The coarsest level that looks right from so far.
+std::size_t level_from(double distance_m, double pixel_rad) {
+    const double allowed_m = level_error_px * distance_m * pixel_rad;
+    std::size_t level = 0;
+    while (level + 1 < roads::level_error_m.size() &&
+           roads::level_error_m[level + 1] <= allowed_m) {
+        ++level;
+    }
+    return level;
+}
+
+} // namespace
+
+void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight& day) {
+    network_ = ground.road_network();
+    looks_.clear();
+    if (!network_) {
+        return;
+    }
+    for (const roads::RoadPiece& piece : network_->pieces()) {
+        PieceLook& look = looks_.emplace_back();
+        const glm::dvec2 middle_m = 0.5 * (piece.least_m + piece.most_m);
+        look.middle_m =
+            glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
+        look.radius_m = 0.5 * glm::distance(piece.least_m, piece.most_m);
+        for (std::size_t level = 0; level < piece.levels.size(); ++level) {
+            const std::vector<roads::RoadPoint>& points = piece.levels[level];
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                const glm::dvec2 at_m = 0.5 * (points[i - 1].at_m + points[i].at_m);
+                look.levels[level].push_back(
+                    {asphalt * light_at(ground, day, at_m),
+                     ground.colour_at(at_m.x, at_m.y, ground_colour_m)});
+            }
+        }
+    }
+    chosen_.assign(looks_.size(), {});
+    frame_ = 0;
+}
+
+int RoadPainter::most_triangles(const glm::dvec3& eye_m, int triangle_target) const {
+    const glm::dvec2 at_m(eye_m);
+    if (!network_ || !network_->may_meet(at_m - road_reach_m, at_m + road_reach_m)) {
+        return 0;
+    }
+    return triangle_target >= scene::unlimited_triangles
+               ? scene::unlimited_triangles
+               : static_cast<int>(
+                     std::min<double>(most_road_triangles, most_road_share * triangle_target));
+}
+
+void RoadPainter::paint(
+    const landscape::GroundMesher& ground,
+    const FrameView& view,
+    bool nearest_first,
+    int most,
+    PaintCutter& cutter) {
+    if (most <= 0) {
+        return;
+    }
+    ++frame_;
+    seen_.clear();
+    const glm::dvec2 eye_m(view.camera.eye_m);
+    const glm::dvec2 from_m = eye_m - road_reach_m;
+    const glm::dvec2 to_m = eye_m + road_reach_m;
+    candidates_.clear();
+    ground.triangles_in(
+        [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
+            const glm::dvec2 first_m = glm::max(glm::dvec2(least_m), from_m);
+            const glm::dvec2 last_m = glm::min(glm::dvec2(most_m), to_m);
+            return first_m.x <= last_m.x && first_m.y <= last_m.y &&
+                   network_->may_meet(first_m, last_m);
+        },
+        candidates_);
+    if (!nearest_first) {
+        std::ranges::reverse(candidates_);
+    }
+    const int limit = cutter.triangles() + most - PaintCutter::most_triangles;
+    for (const std::uint32_t candidate : candidates_) {
+        if (cutter.triangles() > limit) {
+            break;
+        }
+        if (cutter.take(candidate) && !cutter.is_thing()) {
+            paint_triangle(view, limit, cutter);
+        }
+    }
+}
+
+void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& cutter) {
+    const auto& [a, b, c] = cutter.corners_m();
+    const glm::dvec2 least_m = glm::min(glm::min(a, b), c);
+    const glm::dvec2 most_m = glm::max(glm::max(a, b), c);
+    const glm::dvec2 eye_m(view.camera.eye_m);
+    numbers_.clear();
+    network_->pieces_by(least_m + eye_m, most_m + eye_m, numbers_);
+    std::ranges::sort(numbers_);
+    numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    for (const std::uint32_t number : numbers_) {
+        if (chosen_[number].frame != frame_) {
+            choose(number, view);
+        }
+        for (std::size_t i = chosen_[number].first; i < chosen_[number].end; ++i) {
+            const Seen& stretch = seen_[i];
+            if (stretch.least_m.x < most_m.x && stretch.most_m.x > least_m.x &&
+                stretch.least_m.y < most_m.y && stretch.most_m.y > least_m.y &&
+                cutter.triangles() <= limit) {
+                cutter.lay(stretch.patch, stretch.colour, GroundLayer::Surface, 1.0);
+            }
+        }
+    }
+}
+
+/// The stretches of a piece as this frame shows them, none where they look too narrow.
+void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
+    const PieceLook& look = looks_[number];
+    const double nearest_m =
+        std::max(glm::distance(look.middle_m, view.camera.eye_m) - look.radius_m, 1.0);
+    const std::size_t level = level_from(nearest_m, view.pixel_rad);
+    const std::vector<roads::RoadPoint>& points = network_->pieces()[number].levels[level];
+    Chosen& chosen = chosen_[number];
+    chosen = {frame_, seen_.size(), seen_.size()};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const glm::dvec2 at_m = 0.5 * (points[i - 1].at_m + points[i].at_m);
+        const double distance_m =
+            glm::distance(glm::dvec3(at_m, look.middle_m.z), view.camera.eye_m);
+        const double seen_px = 2.0 * roads::half_width_m / (distance_m * view.pixel_rad);
+        if (seen_px <= least_road_px) {
+            continue;
+        }
+        const auto own = static_cast<float>(
+            std::clamp((seen_px - least_road_px) / (road_px - least_road_px), 0.0, 1.0));
+        const Look& shown = look.levels[level][i - 1];
+        const PaintCutter::Patch patch =
+            patch_of(points[i - 1], points[i], glm::dvec2(view.camera.eye_m));
+        seen_.push_back(
+            {patch,
+             glm::min(glm::min(patch[0], patch[1]), glm::min(patch[2], patch[3])),
+             glm::max(glm::max(patch[0], patch[1]), glm::max(patch[2], patch[3])),
+             models::packed_colour(glm::mix(shown.ground, shown.road, own)) & 0x00ffffffU});
+    }
+    chosen.end = seen_.size();
+}
+
+} // namespace octant::visuals::planning

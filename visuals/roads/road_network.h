@@ -1,0 +1,58 @@
+#pragma once
+
+#include "visuals/roads/road_curve.h"
+#include "visuals/roads/road_ground.h"
+#include "visuals/terrain/ground_samples.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::roads {
+
+/// Made-up roads along the valleys of a ground. They follow from its heights alone, and from what
+/// they have to keep off.
+class RoadNetwork {
+public:
+    /// Loading work; the ground is needed by the constructor alone. Without roads where the ground
+    /// is too small, too coarse or too rough.
+    RoadNetwork(const terrain::GroundSamples& ground, const RoadWish& wish);
+
+    std::span<const RoadPiece> pieces() const { return pieces_; }
+
+    /// False only where no piece's box touches this one.
+    bool may_meet(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
+
+    /// Appends numbers of the pieces whose boxes may touch this one, some of them more than once.
+    void pieces_by(
+        const glm::dvec2& least_m,
+        const glm::dvec2& most_m,
+        std::vector<std::uint32_t>& numbers) const;
+
+    /// Whether a road's middle line is nearer than so much.
+    bool is_near(const glm::dvec2& place_m, double distance_m) const;
+
+private:
+    /// Squares of a grid over the ground.
+    struct Squares {
+        glm::ivec2 first;
+        glm::ivec2 last;
+    };
+
+    void lay(const terrain::GroundSamples& ground, const RoadWish& wish);
+    void index();
+    Squares squares(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
+    std::size_t square(int column, int row) const;
+
+    std::vector<RoadPiece> pieces_;
+    glm::dvec2 first_m_{0.0}; ///< of the squares
+    glm::ivec2 counts_{0};
+    std::vector<std::uint32_t> first_of_; ///< for each square, and the end, a place in by_square_
+    std::vector<std::uint32_t> by_square_;
+    /// How often a piece lies in a square south-west of here: (columns + 1) x (rows + 1).
+    std::vector<std::uint32_t> sums_;
+};
+
+} // namespace octant::visuals::roads
