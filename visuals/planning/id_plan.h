@@ -11,9 +11,9 @@ namespace octant::visuals::planning {
 
 /// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an
 /// aircraft (a split polygon counts as one, each aircraft for itself), which triangle of the
-/// ground or which colour of a road or a runway on it; 0 is nothing. The painting steps stay those of the
-/// plan, but for sky and overlay, so that a renderer draws both alike. For pictures with one sample
-/// a pixel, of plans without shadows.
+/// ground or which colour of a road or a runway on it; 0 is nothing. The painting steps stay those
+/// of the plan, but for sky and overlay, so that a renderer draws both alike. For pictures with one
+/// sample a pixel, of plans without shadows.
 class IdPlan {
 public:
     /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame:

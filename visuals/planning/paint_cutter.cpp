@@ -44,18 +44,19 @@ void PaintCutter::begin(const scene::TriangleDraw& triangles, const FrameView& v
     triangle_count_ = 0;
 }
 
-bool PaintCutter::take(std::uint32_t triangle) {
+void PaintCutter::take(std::uint32_t triangle) {
     number_ = triangle;
+    has_sides_ = false;
     place_triangle(triangles_, triangle, triangle_);
-    if (!may_be_in_view()) {
-        return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners_on_plan_m_[i] = glm::dvec2(triangle_[i].at_m);
     }
-    plane_ = plane_of(triangle_);
-    if (plane_.offset_m <= 0.0 || plane_.normal.z <= 0.0) {
-        return false;
-    }
-    place_sides();
-    return true;
+}
+
+bool PaintCutter::is_seen() const {
+    const glm::dvec3& a = triangle_[0].at_m;
+    const glm::dvec3 up = glm::cross(triangle_[1].at_m - a, triangle_[2].at_m - a);
+    return up.z > 0.0 && glm::dot(up, a) < 0.0 && may_be_in_view();
 }
 
 /// False only for a triangle of which nothing is in view, nor of what is painted a little beyond
@@ -63,7 +64,8 @@ bool PaintCutter::take(std::uint32_t triangle) {
 bool PaintCutter::may_be_in_view() const {
     return std::ranges::all_of(view_->frustum, [&](const glm::dvec3& inwards) {
         return std::ranges::any_of(triangle_, [&](const SightCorner& corner) {
-            return glm::dot(inwards, corner.at_m) >= -view_->pixel_rad * glm::length(corner.at_m);
+            const double inside_m = glm::dot(inwards, corner.at_m);
+            return inside_m >= 0.0 || inside_m >= -view_->pixel_rad * glm::length(corner.at_m);
         });
     });
 }
@@ -75,8 +77,11 @@ bool PaintCutter::is_thing() const {
     });
 }
 
-/// The sides of the triangle at hand, and how far each end moves outwards to overlap.
+/// The plane and the sides of the triangle at hand, and how far each end moves outwards to overlap:
+/// on most triangles nothing is laid.
 void PaintCutter::place_sides() {
+    has_sides_ = true;
+    plane_ = plane_of(triangle_);
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3& from_m = triangle_[i].at_m;
         const glm::dvec3& to_m = triangle_[(i + 1) % 3].at_m;
@@ -85,7 +90,6 @@ void PaintCutter::place_sides() {
         const glm::dvec3 across(out, -glm::dot(glm::dvec2(plane_.normal), out) / plane_.normal.z);
         const glm::dvec3 upright = glm::cross(from_m, to_m);
         const glm::dvec3 sideways = upright / std::max(glm::length(upright), 1e-9);
-        corners_on_plan_m_[i] = glm::dvec2(from_m);
         sides_[i] = {
             glm::dvec2(from_m),
             glm::dvec2(to_m),
@@ -113,29 +117,35 @@ void PaintCutter::cut(Piece& piece, const glm::dvec2& from, const glm::dvec2& to
     piece = kept;
 }
 
-/// How a patch lies to the triangle at hand: most do not touch it, and many lie within it.
-PaintCutter::Touch PaintCutter::touch_of(const Piece& patch) const {
-    Touch touch = Touch::Whole;
-    for (const Side& side : sides_) {
+/// Which sides of the triangle at hand cut a patch; nothing where it lies beyond one of them.
+std::optional<PaintCutter::SideSet> PaintCutter::sides_across(const Piece& patch) const {
+    SideSet across{};
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
         std::size_t inside = 0;
         for (std::size_t i = 0; i < patch.count; ++i) {
-            inside += area2(side.from_m, side.to_m, patch.corners[i]) >= 0.0 ? 1U : 0U;
+            const bool is_in =
+                area2(sides_[side].from_m, sides_[side].to_m, patch.corners[i]) >= 0.0;
+            inside += is_in ? 1U : 0U;
         }
         if (inside == 0) {
-            return Touch::None;
+            return std::nullopt;
         }
-        touch = inside < patch.count ? Touch::Part : touch;
+        across[side] = inside < patch.count;
     }
-    return touch;
+    return across;
 }
 
-/// A patch cut to the triangle at hand, whose sides move out by so many overlaps.
-PaintCutter::Piece PaintCutter::piece_of(const Piece& patch, double overlaps) const {
+/// A patch cut to some sides of the triangle at hand, which move out by so many overlaps.
+PaintCutter::Piece
+PaintCutter::piece_of(const Piece& patch, const SideSet& across, double overlaps) const {
     Piece piece = patch;
-    for (const Side& side : sides_) {
-        cut(piece,
-            side.from_m + side.out * (side.from_moved_m * overlaps),
-            side.to_m + side.out * (side.to_moved_m * overlaps));
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (across[i]) {
+            const Side& side = sides_[i];
+            cut(piece,
+                side.from_m + side.out * (side.from_moved_m * overlaps),
+                side.to_m + side.out * (side.to_moved_m * overlaps));
+        }
     }
     return piece;
 }
@@ -149,14 +159,16 @@ void PaintCutter::lay(
         }
         return sum_m2;
     };
+    if (!has_sides_) {
+        place_sides();
+    }
     Piece all{{}, patch.size()};
     std::ranges::copy(patch, all.corners.begin());
-    const Touch touch = touch_of(all);
-    if (touch == Touch::None ||
-        area_m2(touch == Touch::Whole ? all : piece_of(all, 0.0)) <= least_area_m2) {
+    const std::optional<SideSet> across = sides_across(all);
+    if (!across || area_m2(piece_of(all, *across, 0.0)) <= least_area_m2) {
         return;
     }
-    const Piece piece = touch == Touch::Whole ? all : piece_of(all, overlaps);
+    const Piece piece = piece_of(all, *across, overlaps);
     paints_.push_back(
         {number_,
          static_cast<std::uint32_t>(corners_m_.size()),

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace octant::visuals::planning {
@@ -30,11 +31,14 @@ public:
     /// must stay until the next call.
     void begin(const scene::TriangleDraw& triangles, const FrameView& view);
 
-    /// Takes a triangle to lay patches on. Returns false where the eye sees nothing of it.
-    bool take(std::uint32_t triangle);
+    /// Takes a triangle to lay patches on.
+    void take(std::uint32_t triangle);
 
     /// The triangle at hand: its corners on the plan, counter-clockwise.
     const std::array<glm::dvec2, 3>& corners_m() const { return corners_on_plan_m_; }
+
+    /// False where the eye sees nothing of the triangle at hand.
+    bool is_seen() const;
 
     /// Whether the triangle at hand stands on the ground and is no part of it.
     bool is_thing() const;
@@ -55,8 +59,7 @@ private:
         std::size_t count = 0;
     };
 
-    /// How much of a patch lies on a triangle.
-    enum class Touch : std::uint8_t { None, Part, Whole };
+    using SideSet = std::array<bool, 3>;
 
     /// A side of the triangle, a unit vector outwards, and how far its ends move along that for one
     /// overlap.
@@ -70,8 +73,8 @@ private:
 
     bool may_be_in_view() const;
     void place_sides();
-    Touch touch_of(const Piece& patch) const;
-    Piece piece_of(const Piece& patch, double overlaps) const;
+    std::optional<SideSet> sides_across(const Piece& patch) const;
+    Piece piece_of(const Piece& patch, const SideSet& across, double overlaps) const;
     static void cut(Piece& piece, const glm::dvec2& from, const glm::dvec2& to);
 
     scene::TriangleDraw triangles_;
@@ -83,6 +86,7 @@ private:
     // The triangle at hand.
     std::uint32_t number_ = 0;
     SightPolygon triangle_;
+    bool has_sides_ = false;
     Plane plane_;
     std::array<Side, 3> sides_;
     std::array<glm::dvec2, 3> corners_on_plan_m_;

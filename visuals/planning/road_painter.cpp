@@ -14,10 +14,10 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr glm::vec3 asphalt(0.44F, 0.43F, 0.41F); ///< display values under a light of 1
-constexpr double road_px = 1.0;                   ///< what looks as wide has its own colour ...
-constexpr double least_road_px = 0.5;             ///< ... and what looks narrower is not painted
+constexpr double road_px = 1.2;                   ///< what looks as wide has its own colour ...
+constexpr double least_road_px = 0.6;             ///< ... and what looks narrower is not painted
 constexpr double level_error_px = 0.25;
-constexpr double road_reach_m = 12000.0; ///< roads within it may be seen
+constexpr double road_reach_m = 10000.0; ///< roads within it may be seen
 constexpr int most_road_triangles = 1200;
 constexpr double most_road_share = 0.06; ///< of the triangles that are aimed at
 constexpr double ground_colour_m = 40.0; ///< its mean over so much shows where a road is narrow
@@ -132,9 +132,8 @@ void RoadPainter::paint(
         if (cutter.triangles() > limit) {
             break;
         }
-        if (cutter.take(candidate) && !cutter.is_thing()) {
-            paint_triangle(view, limit, cutter);
-        }
+        cutter.take(candidate);
+        paint_triangle(view, limit, cutter);
     }
 }
 
@@ -143,6 +142,10 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
     const glm::dvec2 least_m = glm::min(glm::min(a, b), c);
     const glm::dvec2 most_m = glm::max(glm::max(a, b), c);
     const glm::dvec2 eye_m(view.camera.eye_m);
+    if (!network_->may_meet(least_m + eye_m, most_m + eye_m) || !cutter.is_seen() ||
+        cutter.is_thing()) {
+        return;
+    }
     numbers_.clear();
     network_->pieces_by(least_m + eye_m, most_m + eye_m, numbers_);
     std::ranges::sort(numbers_);

@@ -19,8 +19,8 @@
 namespace octant::visuals::planning {
 
 /// Lays the roads of a ground on its triangles, to be painted right after them. Each piece of a
-/// road is shown by a level that looks at most a quarter of a pixel off; what looks narrower than a
-/// pixel takes the colour of the ground and is left out from half a pixel on. Keeps its memory.
+/// road is shown by a level that looks at most a quarter of a pixel off; what looks about
+/// as narrow as a pixel takes the colour of the ground before it is left out. Keeps its memory.
 class RoadPainter {
 public:
     /// Paints the roads of this ground under this light from the next frame on. Loading work.

@@ -75,7 +75,8 @@ void RunwayPainter::paint(
         std::ranges::reverse(candidates_);
     }
     for (const std::uint32_t candidate : candidates_) {
-        if (cutter.take(candidate)) {
+        cutter.take(candidate);
+        if (cutter.is_seen()) {
             paint_triangle(most, cutter);
         }
     }

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -13,7 +14,8 @@ namespace octant::visuals::roads {
 
 namespace {
 
-constexpr double square_m = 500.0;
+constexpr double least_square_m = 150.0;
+constexpr double most_squares = 700.0; ///< a side
 
 /// Height between samples; those of the border beyond it.
 double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m) {
@@ -63,9 +65,32 @@ RoadNetwork::squares(const glm::dvec2& least_m, const glm::dvec2& most_m) const 
     const glm::dvec2 end(counts_);
     const auto clamped = [&](const glm::dvec2& at_m) {
         return glm::ivec2(
-            glm::clamp(glm::floor((at_m - first_m_) / square_m), glm::dvec2(-1.0), end));
+            glm::clamp(glm::floor((at_m - first_m_) / square_m_), glm::dvec2(-1.0), end));
     };
     return {glm::max(clamped(least_m), glm::ivec2(0)), glm::min(clamped(most_m), counts_ - 1)};
+}
+
+/// The squares that a stretch of a piece may touch.
+void RoadNetwork::add_places(
+    const RoadPoint& from,
+    const RoadPoint& to,
+    std::uint32_t number,
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const {
+    const glm::dvec2 aside_m = glm::max(glm::abs(from.left_m), glm::abs(to.left_m));
+    const double length_m = glm::distance(from.at_m, to.at_m);
+    const int parts = std::max(static_cast<int>(std::ceil(length_m / square_m_)), 1);
+    for (int part = 0; part < parts; ++part) {
+        const glm::dvec2 first_m = glm::mix(from.at_m, to.at_m, static_cast<double>(part) / parts);
+        const glm::dvec2 last_m =
+            glm::mix(from.at_m, to.at_m, static_cast<double>(part + 1) / parts);
+        const Squares own =
+            squares(glm::min(first_m, last_m) - aside_m, glm::max(first_m, last_m) + aside_m);
+        for (int row = own.first.y; row <= own.last.y; ++row) {
+            for (int column = own.first.x; column <= own.last.x; ++column) {
+                places.emplace_back(static_cast<std::uint32_t>(square(column, row)), number);
+            }
+        }
+    }
 }
 
 void RoadNetwork::index() {
@@ -75,17 +100,19 @@ void RoadNetwork::index() {
         first_m_ = glm::min(first_m_, piece.least_m);
         most_m = glm::max(most_m, piece.most_m);
     }
-    counts_ = glm::ivec2(glm::floor((most_m - first_m_) / square_m)) + 1;
+    const glm::dvec2 extent_m = most_m - first_m_;
+    square_m_ = std::max(least_square_m, std::max(extent_m.x, extent_m.y) / most_squares);
+    counts_ = glm::ivec2(glm::floor(extent_m / square_m_)) + 1;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> places; // square, piece
     for (std::uint32_t number = 0; number < pieces_.size(); ++number) {
-        const Squares own = squares(pieces_[number].least_m, pieces_[number].most_m);
-        for (int row = own.first.y; row <= own.last.y; ++row) {
-            for (int column = own.first.x; column <= own.last.x; ++column) {
-                places.emplace_back(static_cast<std::uint32_t>(square(column, row)), number);
+        for (const std::vector<RoadPoint>& level : pieces_[number].levels) {
+            for (std::size_t i = 1; i < level.size(); ++i) {
+                add_places(level[i - 1], level[i], number, places);
             }
         }
     }
     std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     first_of_.assign(square(0, counts_.y) + 1, 0);
     for (const auto& [square, number] : places) {
         ++first_of_[square + 1];
@@ -136,11 +163,7 @@ void RoadNetwork::pieces_by(
         for (int column = in.first.x; column <= in.last.x; ++column) {
             const std::size_t own = square(column, row);
             for (std::uint32_t i = first_of_[own]; i < first_of_[own + 1]; ++i) {
-                const RoadPiece& piece = pieces_[by_square_[i]];
-                if (piece.least_m.x <= most_m.x && piece.most_m.x >= least_m.x &&
-                    piece.least_m.y <= most_m.y && piece.most_m.y >= least_m.y) {
-                    numbers.push_back(by_square_[i]);
-                }
+                numbers.push_back(by_square_[i]);
             }
         }
     }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::visuals::roads {
@@ -22,10 +23,10 @@ public:
 
     std::span<const RoadPiece> pieces() const { return pieces_; }
 
-    /// False only where no piece's box touches this one.
+    /// False only where no road touches this box.
     bool may_meet(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
 
-    /// Appends numbers of the pieces whose boxes may touch this one, some of them more than once.
+    /// Appends numbers of the pieces that may touch this box, some of them more than once.
     void pieces_by(
         const glm::dvec2& least_m,
         const glm::dvec2& most_m,
@@ -43,11 +44,17 @@ private:
 
     void lay(const terrain::GroundSamples& ground, const RoadWish& wish);
     void index();
+    void add_places(
+        const RoadPoint& from,
+        const RoadPoint& to,
+        std::uint32_t number,
+        std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const;
     Squares squares(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
     std::size_t square(int column, int row) const;
 
     std::vector<RoadPiece> pieces_;
     glm::dvec2 first_m_{0.0}; ///< of the squares
+    double square_m_ = 0.0;
     glm::ivec2 counts_{0};
     std::vector<std::uint32_t> first_of_; ///< for each square, and the end, a place in by_square_
     std::vector<std::uint32_t> by_square_;
