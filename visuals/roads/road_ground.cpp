@@ -23,7 +23,7 @@ constexpr double hard_above_valley_m = 120.0;
 
 /// How many samples lie from one cell to the next.
 int stride_of(const terrain::GroundSamples& ground) {
-    const int longest = std::max(ground.columns(), ground.rows());
+    const int longest = std::max(ground.columns(), ground.rows()) - 1;
     const int by_width = static_cast<int>(std::ceil(usual_cell_m / ground.spacing_m()));
     return std::max({by_width, (longest + most_cells - 1) / most_cells, 1});
 }

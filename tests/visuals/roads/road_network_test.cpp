@@ -43,6 +43,10 @@ double length_m(const RoadNetwork& roads) {
 
 /// Whether an edge of one of its levels has a place in a box, by places along them.
 bool touches(const RoadPiece& piece, const glm::dvec2& least_m, const glm::dvec2& most_m) {
+    if (glm::any(glm::greaterThan(piece.least_m, most_m)) ||
+        glm::any(glm::lessThan(piece.most_m, least_m))) {
+        return false;
+    }
     for (const std::vector<RoadPoint>& level : piece.levels) {
         for (std::size_t i = 1; i < level.size(); ++i) {
             for (int step = 0; step <= 8; ++step) {
