@@ -80,7 +80,8 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::heading_deg>(
         {"heading",
          "DEGREES",
-         "turns the whole path, clockwise [the heading of least relief]",
+         "turns the whole path, clockwise from the north of the map's grid [the heading of least "
+         "relief]",
          -360.0,
          360.0},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),

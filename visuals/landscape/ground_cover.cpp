@@ -25,6 +25,7 @@ constexpr std::array meadow_stops = {
     Stop{1100.0F, {0.36F, 0.43F, 0.23F}},
     Stop{1600.0F, {0.46F, 0.46F, 0.31F}},
     Stop{2000.0F, {0.52F, 0.50F, 0.45F}}};
+constexpr glm::vec3 heath(0.40F, 0.38F, 0.24F);
 constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
@@ -158,6 +159,12 @@ float single_trees(const Site& site) {
 
 } // namespace
 
+/// By the tree line: Koeppen's polar climates, whose summers are too cool for trees, have it at the
+/// sea; fields are hardly seen where it is below some 800 m.
+float summer_of(const nature::Climate& climate) {
+    return glm::smoothstep(500.0F, 1100.0F, climate.tree_line_m);
+}
+
 float height_of_cover_m(float height_m, const nature::Climate& climate) {
     if (height_m < climate.tree_line_m) {
         return height_m * tree_line_m / std::max(climate.tree_line_m, 1.0F);
@@ -189,10 +196,10 @@ Cover cover_of(const Site& site) {
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, height_of_line_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
     cover.farmed =
-        cover.below_trees * level *
+        site.summer * cover.below_trees * level *
         glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
-    const float growth =
-        site.patches + 0.5F * small_patches(site, 100.0F) + 5.0F * site.steepness - 0.12F;
+    const float growth = site.patches + 0.5F * small_patches(site, 100.0F) + 5.0F * site.steepness -
+                         0.12F - 0.55F * (1.0F - site.summer);
     cover.wooded = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_trees * (1.0F - cover.farmed);
     cover.bare = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patches);
     return cover;
@@ -226,7 +233,7 @@ glm::vec3 temperate(const Site& site) {
         level_cover(meadow_stops, height_of_line_m(site)),
         dry_grass,
         0.45F * dryness * cover.below_trees);
-    colour *= mottled(site, 75.0F, 0.10F);
+    colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer)) * mottled(site, 75.0F, 0.10F);
     colour = glm::mix(colour, field_crop(site), cover.farmed);
     const glm::vec3 canopy =
         forest * (1.0F + 0.15F * single_trees(site)) * mottled(site, 110.0F, 0.14F);

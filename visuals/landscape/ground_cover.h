@@ -23,6 +23,8 @@ struct Site {
     float footprint_m;
     /// Noise in [-1, 1] with features of some hundred metres.
     float patches;
+    /// Share of the summer that fields and woods need: 0 where only heath grows.
+    float summer = 1.0F;
 };
 
 /// What covers a place of temperate ground, shares 0..1.
@@ -37,6 +39,9 @@ struct Cover {
 float patch_noise(float east_m, float north_m, float cell_m);
 
 Site site_of(const GroundPoint& point, float footprint_m, float water_m);
+
+/// Site::summer of low ground in a climate.
+float summer_of(const nature::Climate& climate);
 
 /// The height at which temperate ground has what grows at a place's height in its climate.
 float height_of_cover_m(float height_m, const nature::Climate& climate);

@@ -83,6 +83,7 @@ glm::vec3 GroundPalette::own(const GroundPoint& point, float footprint_m) const 
         return glm::mix(arid(site), snow_colour, white);
     }
     site.height_m = height_of_cover_m(site.height_m, climate_);
+    site.summer = summer_of(climate_);
     return glm::mix(temperate(site), snow_colour, white);
 }
 
@@ -108,6 +109,7 @@ float GroundPalette::covers(const GroundPoint& point, float footprint_m) const {
         return glm::mix(arid_mixture(site), snow_number, white);
     }
     site.height_m = height_of_cover_m(site.height_m, climate_);
+    site.summer = summer_of(climate_);
     return glm::mix(temperate_mixture(site), snow_number, white);
 }
 
@@ -132,8 +134,10 @@ nature::Growth GroundPalette::growth(const GroundPoint& point, float footprint_m
         return growth;
     }
     site.height_m = height_of_cover_m(site.height_m, climate_);
+    site.summer = summer_of(climate_);
     const Cover cover = cover_of(site);
-    const float trees = 0.85F * cover.wooded + 0.02F * cover.below_trees * (1.0F - cover.farmed);
+    const float trees =
+        0.85F * cover.wooded + 0.02F * site.summer * cover.below_trees * (1.0F - cover.farmed);
     const float conifers = glm::smoothstep(500.0F, 1100.0F, site.height_m + 300.0F * site.patches);
     growth.conifers = trees * conifers;
     growth.broadleaves = trees * (1.0F - conifers);
