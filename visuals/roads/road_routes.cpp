@@ -19,8 +19,8 @@ namespace octant::visuals::roads {
 
 namespace {
 
-constexpr double least_block_m = 5000.0;
-constexpr int most_blocks = 16; ///< a side
+constexpr double least_block_m = 4000.0;
+constexpr int most_blocks = 20; ///< a side
 constexpr double most_town_slope = 0.1;
 constexpr double most_town_above_m = 90.0;
 constexpr double most_mean_cost = 9.0;  ///< of a road, over that of one on even ground
