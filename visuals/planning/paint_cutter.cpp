@@ -70,6 +70,16 @@ bool PaintCutter::may_be_in_view() const {
     });
 }
 
+glm::vec3 PaintCutter::colour() const {
+    const std::uint32_t* const corner = &triangles_.indices[std::size_t{3} * number_];
+    glm::vec3 sum(0.0F);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t packed = triangles_.vertices[corner[i]].colour;
+        sum += glm::vec3(packed & 0xffU, packed >> 8U & 0xffU, packed >> 16U & 0xffU);
+    }
+    return sum / (3.0F * 255.0F);
+}
+
 bool PaintCutter::is_thing() const {
     const std::uint32_t* const corner = &triangles_.indices[std::size_t{3} * number_];
     return std::all_of(corner, corner + 3, [&](std::uint32_t vertex) {

@@ -40,6 +40,9 @@ public:
     /// False where the eye sees nothing of the triangle at hand.
     bool is_seen() const;
 
+    /// Mean colour of its corners, display values.
+    glm::vec3 colour() const;
+
     /// Whether the triangle at hand stands on the ground and is no part of it.
     bool is_thing() const;
 

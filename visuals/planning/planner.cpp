@@ -56,11 +56,12 @@ void Planner::follow_roads() {
 landscape::GroundRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
     const int asked = asked_triangles(triangle_target);
+    const FrameView view = view_of(camera);
     const int kept =
-        runway_.most_triangles(camera.eye_m, asked) + roads_.most_triangles(camera.eye_m, asked);
+        runway_.most_triangles(camera.eye_m, asked) + roads_.most_triangles(view, asked);
     return {
         camera,
-        view_of(camera).aspect,
+        view.aspect,
         asked >= scene::unlimited_triangles ? asked : std::max(asked - kept, 1)};
 }
 
@@ -179,7 +180,7 @@ void Planner::paint_ground(
     const glm::dvec3& eye_m = view.camera.eye_m;
     cutter_.begin(ground.all, view);
     runway_.paint(*mesher_, view, nearest_first, runway_.most_triangles(eye_m, asked), cutter_);
-    roads_.paint(*mesher_, view, nearest_first, roads_.most_triangles(eye_m, asked), cutter_);
+    roads_.paint(*mesher_, view, nearest_first, roads_.most_triangles(view, asked), cutter_);
     shadows_.lay(cutter_.paints());
     counts.painted_triangles = cutter_.triangles();
     counts.ground.triangles += counts.painted_triangles;

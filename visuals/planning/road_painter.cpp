@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace octant::visuals::planning {
 
@@ -17,10 +19,10 @@ constexpr glm::vec3 asphalt(0.44F, 0.43F, 0.41F); ///< display values under a li
 constexpr double road_px = 1.2;                   ///< what looks as wide has its own colour ...
 constexpr double least_road_px = 0.6;             ///< ... and what looks narrower is not painted
 constexpr double level_error_px = 0.25;
-constexpr double road_reach_m = 10000.0; ///< roads within it may be seen
+constexpr double farthest_road_m = 40000.0; ///< roads beyond it are never painted
 constexpr int most_road_triangles = 1200;
 constexpr double most_road_share = 0.06; ///< of the triangles that are aimed at
-constexpr double ground_colour_m = 40.0; ///< its mean over so much shows where a road is narrow
+constexpr std::span<const roads::RoadPiece> no_pieces;
 
 /// A unit vector upwards from the ground.
 glm::vec3 normal_of(const landscape::Ground& ground, const glm::dvec2& at_m) {
@@ -51,6 +53,11 @@ patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dv
     return {from_m - from.left_m, to_m - to.left_m, to_m + to.left_m, from_m + from.left_m};
 }
 
+/// From farther off a road looks too narrow.
+double reach_of(const FrameView& view) {
+    return std::min(2.0 * roads::half_width_m / (least_road_px * view.pixel_rad), farthest_road_m);
+}
+
 /// The coarsest level that looks right from so far.
 std::size_t level_from(double distance_m, double pixel_rad) {
     const double allowed_m = level_error_px * distance_m * pixel_rad;
@@ -66,39 +73,39 @@ std::size_t level_from(double distance_m, double pixel_rad) {
 
 void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight& day) {
     network_ = ground.road_network();
-    looks_.clear();
-    if (!network_) {
-        return;
-    }
-    for (const roads::RoadPiece& piece : network_->pieces()) {
-        PieceLook& look = looks_.emplace_back();
+    ground_ = network_ ? ground.shared_from_this() : nullptr;
+    day_ = day;
+    pieces_.clear();
+    std::size_t stretches = 0;
+    lowest_m_ = std::numeric_limits<double>::infinity();
+    for (const roads::RoadPiece& piece : network_ ? network_->pieces() : no_pieces) {
+        Piece& own = pieces_.emplace_back();
         const glm::dvec2 middle_m = 0.5 * (piece.least_m + piece.most_m);
-        look.middle_m =
-            glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
-        look.radius_m = 0.5 * glm::distance(piece.least_m, piece.most_m);
+        own.middle_m = glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
+        own.radius_m = 0.5 * glm::distance(piece.least_m, piece.most_m);
+        lowest_m_ = std::min(lowest_m_, own.middle_m.z);
         for (std::size_t level = 0; level < piece.levels.size(); ++level) {
-            const std::vector<roads::RoadPoint>& points = piece.levels[level];
-            for (std::size_t i = 1; i < points.size(); ++i) {
-                const glm::dvec2 at_m = 0.5 * (points[i - 1].at_m + points[i].at_m);
-                look.levels[level].push_back(
-                    {asphalt * light_at(ground, day, at_m),
-                     ground.colour_at(at_m.x, at_m.y, ground_colour_m)});
-            }
+            own.first_light[level] = stretches;
+            stretches += piece.levels[level].size() - 1;
         }
     }
-    chosen_.assign(looks_.size(), {});
+    lights_.resize(stretches);
+    chosen_.assign(pieces_.size(), {});
     frame_ = 0;
 }
 
-int RoadPainter::most_triangles(const glm::dvec3& eye_m, int triangle_target) const {
-    const glm::dvec2 at_m(eye_m);
-    if (!network_ || !network_->may_meet(at_m - road_reach_m, at_m + road_reach_m)) {
+int RoadPainter::most_triangles(const FrameView& view, int triangle_target) const {
+    const double reach_m = reach_of(view);
+    const glm::dvec2 at_m(view.camera.eye_m);
+    const double over_m = view.camera.eye_m.z - lowest_m_;
+    if (!network_ || over_m >= reach_m || !network_->may_meet(at_m - reach_m, at_m + reach_m)) {
         return 0;
     }
-    return triangle_target >= scene::unlimited_triangles
-               ? scene::unlimited_triangles
-               : static_cast<int>(
-                     std::min<double>(most_road_triangles, most_road_share * triangle_target));
+    if (triangle_target >= scene::unlimited_triangles) {
+        return scene::unlimited_triangles;
+    }
+    const double most = std::min<double>(most_road_triangles, most_road_share * triangle_target);
+    return static_cast<int>(most * std::min(2.0 - 2.0 * over_m / reach_m, 1.0));
 }
 
 void RoadPainter::paint(
@@ -113,8 +120,9 @@ void RoadPainter::paint(
     ++frame_;
     seen_.clear();
     const glm::dvec2 eye_m(view.camera.eye_m);
-    const glm::dvec2 from_m = eye_m - road_reach_m;
-    const glm::dvec2 to_m = eye_m + road_reach_m;
+    const double reach_m = reach_of(view);
+    const glm::dvec2 from_m = eye_m - reach_m;
+    const glm::dvec2 to_m = eye_m + reach_m;
     candidates_.clear();
     ground.triangles_in(
         [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
@@ -150,6 +158,7 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
     network_->pieces_by(least_m + eye_m, most_m + eye_m, numbers_);
     std::ranges::sort(numbers_);
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    const glm::vec3 ground = cutter.colour();
     for (const std::uint32_t number : numbers_) {
         if (chosen_[number].frame != frame_) {
             choose(number, view);
@@ -159,39 +168,56 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
             if (stretch.least_m.x < most_m.x && stretch.most_m.x > least_m.x &&
                 stretch.least_m.y < most_m.y && stretch.most_m.y > least_m.y &&
                 cutter.triangles() <= limit) {
-                cutter.lay(stretch.patch, stretch.colour, GroundLayer::Surface, 1.0);
+                const glm::vec3 colour = glm::mix(ground, stretch.colour, stretch.own);
+                cutter.lay(
+                    stretch.patch,
+                    models::packed_colour(colour) & 0x00ffffffU,
+                    GroundLayer::Surface,
+                    1.0);
             }
         }
     }
 }
 
+void RoadPainter::light(std::uint32_t number, std::size_t level) {
+    const std::vector<roads::RoadPoint>& points = network_->pieces()[number].levels[level];
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        lights_[pieces_[number].first_light[level] + i - 1] =
+            light_at(*ground_, *day_, 0.5 * (points[i - 1].at_m + points[i].at_m));
+    }
+    pieces_[number].is_lit[level] = true;
+}
+
 /// The stretches of a piece as this frame shows them, none where they look too narrow.
 void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
-    const PieceLook& look = looks_[number];
+    const Piece& piece = pieces_[number];
     const double nearest_m =
-        std::max(glm::distance(look.middle_m, view.camera.eye_m) - look.radius_m, 1.0);
+        std::max(glm::distance(piece.middle_m, view.camera.eye_m) - piece.radius_m, 1.0);
     const std::size_t level = level_from(nearest_m, view.pixel_rad);
     const std::vector<roads::RoadPoint>& points = network_->pieces()[number].levels[level];
+    if (!piece.is_lit[level]) {
+        light(number, level);
+    }
     Chosen& chosen = chosen_[number];
     chosen = {frame_, seen_.size(), seen_.size()};
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec2 at_m = 0.5 * (points[i - 1].at_m + points[i].at_m);
         const double distance_m =
-            glm::distance(glm::dvec3(at_m, look.middle_m.z), view.camera.eye_m);
+            glm::distance(glm::dvec3(at_m, piece.middle_m.z), view.camera.eye_m);
         const double seen_px = 2.0 * roads::half_width_m / (distance_m * view.pixel_rad);
         if (seen_px <= least_road_px) {
             continue;
         }
         const auto own = static_cast<float>(
             std::clamp((seen_px - least_road_px) / (road_px - least_road_px), 0.0, 1.0));
-        const Look& shown = look.levels[level][i - 1];
         const PaintCutter::Patch patch =
             patch_of(points[i - 1], points[i], glm::dvec2(view.camera.eye_m));
         seen_.push_back(
             {patch,
              glm::min(glm::min(patch[0], patch[1]), glm::min(patch[2], patch[3])),
              glm::max(glm::max(patch[0], patch[1]), glm::max(patch[2], patch[3])),
-             models::packed_colour(glm::mix(shown.ground, shown.road, own)) & 0x00ffffffU});
+             asphalt * lights_[piece.first_light[level] + i - 1],
+             own});
     }
     chosen.end = seen_.size();
 }

@@ -14,20 +14,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace octant::visuals::planning {
 
 /// Lays the roads of a ground on its triangles, to be painted right after them. Each piece of a
-/// road is shown by a level that looks at most a quarter of a pixel off; what looks about
-/// as narrow as a pixel takes the colour of the ground before it is left out. Keeps its memory.
+/// road is shown by a level of detail; what looks about as narrow as a pixel takes the colour of
+/// the ground before it is left out. Keeps its memory.
 class RoadPainter {
 public:
     /// Paints the roads of this ground under this light from the next frame on. Loading work.
     void follow(const landscape::Ground& ground, const nature::Daylight& day);
 
-    /// The most triangles that it takes, of so many that are aimed at.
-    int most_triangles(const glm::dvec3& eye_m, int triangle_target) const;
+    /// The most triangles that it takes, of so many that are aimed at: none where no road can be
+    /// seen, fewer from high up.
+    int most_triangles(const FrameView& view, int triangle_target) const;
 
     /// Paints on the ground whose triangles the cutter has, the nearest first, at most so many
     /// triangles.
@@ -39,16 +41,12 @@ public:
         PaintCutter& cutter);
 
 private:
-    /// What stretches between the points of a level show, display values.
-    struct Look {
-        glm::vec3 road;
-        glm::vec3 ground;
-    };
-
-    struct PieceLook {
-        std::array<std::vector<Look>, roads::level_error_m.size()> levels;
+    struct Piece {
         glm::dvec3 middle_m{0.0};
         double radius_m = 0.0;
+        /// For each level where the light of its stretches lies in lights_.
+        std::array<std::size_t, roads::level_error_m.size()> first_light{};
+        std::array<bool, roads::level_error_m.size()> is_lit{};
     };
 
     /// A stretch as it is seen in this frame, on the plan of the cutter.
@@ -56,7 +54,9 @@ private:
         PaintCutter::Patch patch;
         glm::dvec2 least_m;
         glm::dvec2 most_m;
-        std::uint32_t colour = 0;
+        glm::vec3 colour;
+        /// Share of its own colour; the rest is the ground's.
+        float own = 1.0F;
     };
 
     /// Where the stretches of a piece lie in seen_, if they have been chosen in this frame.
@@ -66,12 +66,17 @@ private:
         std::size_t end = 0;
     };
 
+    void light(std::uint32_t number, std::size_t level);
     void choose(std::uint32_t number, const FrameView& view);
     void paint_triangle(const FrameView& view, int limit, PaintCutter& cutter);
 
+    std::shared_ptr<const landscape::Ground> ground_;
+    std::optional<nature::Daylight> day_;
     std::shared_ptr<const roads::RoadNetwork> network_;
-    std::vector<PieceLook> looks_; ///< of the network's pieces
-    std::vector<Chosen> chosen_;   ///< likewise
+    double lowest_m_ = 0.0;         ///< of the roads
+    std::vector<Piece> pieces_;     ///< of the network's
+    std::vector<glm::vec3> lights_; ///< of stretches, worked out when they are first seen
+    std::vector<Chosen> chosen_;    ///< one a piece
     std::vector<Seen> seen_;
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> numbers_;

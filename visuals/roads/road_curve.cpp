@@ -63,10 +63,11 @@ glm::dvec2 to_left_m(const glm::dvec2& before, const glm::dvec2& after) {
 /// The points of a level; at the ends edges go on as on the whole line.
 std::vector<RoadPoint> level_of(
     std::span<const glm::dvec2> piece_m,
-    double error_m,
+    std::size_t number,
     const glm::dvec2& first_left_m,
     const glm::dvec2& last_left_m) {
-    const std::vector<std::size_t> kept = enough_points(piece_m, error_m);
+    const std::vector<std::size_t> kept =
+        enough_points(piece_m, level_error_m[number], longest_stretch_m[number]);
     std::vector<RoadPoint> level;
     for (std::size_t i = 0; i < kept.size(); ++i) {
         const glm::dvec2& at_m = piece_m[kept[i]];
@@ -117,10 +118,15 @@ std::vector<glm::dvec2> rounded(
             return line_m;
         }
     }
-    return smoothed(straight_m, 1);
+    std::vector<glm::dvec2> nearly_straight_m = smoothed(straight_m, 1);
+    if (!std::ranges::all_of(nearly_straight_m, is_free)) {
+        nearly_straight_m.clear();
+    }
+    return nearly_straight_m;
 }
 
-std::vector<std::size_t> enough_points(std::span<const glm::dvec2> line_m, double error_m) {
+std::vector<std::size_t>
+enough_points(std::span<const glm::dvec2> line_m, double error_m, double apart_m) {
     std::vector<std::size_t> kept{0};
     std::vector<std::size_t> open{line_m.size() - 1}; // ends of stretches, the nearest last
     while (!open.empty()) {
@@ -134,6 +140,9 @@ std::vector<std::size_t> enough_points(std::span<const glm::dvec2> line_m, doubl
                 most_m = off_m;
                 farthest = i;
             }
+        }
+        if (farthest == last && glm::distance(line_m[first], line_m[last]) > apart_m) {
+            farthest = (first + last + 1) / 2; // the last one where there is none between
         }
         if (farthest == last) {
             kept.push_back(last);
@@ -162,8 +171,7 @@ void append_pieces(std::vector<glm::dvec2> line_m, std::vector<RoadPiece>& piece
         const std::span piece_m(&line_m[first], end - first + 1);
         RoadPiece& piece = pieces.emplace_back();
         for (std::size_t level = 0; level < piece.levels.size(); ++level) {
-            piece.levels[level] =
-                level_of(piece_m, level_error_m[level], left_m(first), left_m(end));
+            piece.levels[level] = level_of(piece_m, level, left_m(first), left_m(end));
         }
         measure(piece);
         first = end;

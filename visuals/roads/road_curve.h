@@ -21,6 +21,10 @@ struct RoadPoint {
 /// How far a level's middle line may lie off the finest one, metres.
 inline constexpr std::array<double, 4> level_error_m = {0.1, 0.5, 2.0, 8.0};
 
+/// No stretch of a level is longer, but for one step of the finest line: each has one light.
+inline constexpr std::array<double, level_error_m.size()> longest_stretch_m = {
+    25.0, 60.0, 150.0, 400.0};
+
 /// A piece of a road some hundred metres long, in levels of detail whose ends are the same. World
 /// axes.
 struct RoadPiece {
@@ -31,7 +35,7 @@ struct RoadPiece {
 
 /// The middle line through these places, rounded like a road, its ends where they are. Where
 /// rounding would lead it over a place that `is_free` denies it goes nearly straight from place to
-/// place.
+/// place; empty where that is denied, too.
 std::vector<glm::dvec2> rounded(
     std::span<const glm::dvec2> places_m,
     double cell_m,
@@ -42,8 +46,10 @@ double
 distance_from_stretch_m(const glm::dvec2& at_m, const glm::dvec2& from_m, const glm::dvec2& to_m);
 
 /// Which points of a line, the first and the last among them, are enough for it to lie nowhere
-/// farther off than so much (Douglas and Peucker 1973).
-std::vector<std::size_t> enough_points(std::span<const glm::dvec2> line_m, double error_m);
+/// farther off than so much (Douglas and Peucker 1973), and for no two to lie farther apart than
+/// `apart_m` where there are others between them.
+std::vector<std::size_t>
+enough_points(std::span<const glm::dvec2> line_m, double error_m, double apart_m);
 
 /// A line in pieces; a half width longer at both ends, so that roads that meet there leave no gap.
 void append_pieces(std::vector<glm::dvec2> line_m, std::vector<RoadPiece>& pieces);

@@ -10,12 +10,13 @@ namespace octant::visuals::roads {
 namespace {
 
 constexpr double usual_cell_m = 100.0;
-constexpr double widest_cell_m = 400.0;
+constexpr double widest_cell_m = 600.0;
 constexpr int most_cells = 512; ///< a side
 constexpr int least_cells = 12; ///< a side
 constexpr double valley_m = 1500.0;
-constexpr int looks = 4; ///< for water, along each side of a cell
+constexpr int least_looks = 8; ///< for water, along each side of a cell, if there are samples
 constexpr double clear_of_water_m = 0.5;
+constexpr double most_relief = 0.8; ///< of a cell that is no cliff, over its width
 // What doubles the cost of a road.
 constexpr double hard_climb = 0.08;
 constexpr double hard_slope = 0.18;
@@ -60,10 +61,11 @@ void RoadGround::read(const terrain::GroundSamples& ground, int stride, const Ro
     const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
     heights_m_.reserve(count);
     free_.reserve(count);
-    const int step = std::max(stride / looks, 1);
+    const int step = std::max(stride / least_looks, 1);
     for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
             double lowest_m = ground.height_m(column * stride, row * stride);
+            double highest_m = lowest_m;
             double sum_m = 0.0;
             int seen = 0;
             for (int north = 0; north <= stride; north += step) {
@@ -71,6 +73,7 @@ void RoadGround::read(const terrain::GroundSamples& ground, int stride, const Ro
                     const double height_m =
                         ground.height_m(column * stride + east, row * stride + north);
                     lowest_m = std::min(lowest_m, height_m);
+                    highest_m = std::max(highest_m, height_m);
                     sum_m += height_m;
                     ++seen;
                 }
@@ -78,7 +81,8 @@ void RoadGround::read(const terrain::GroundSamples& ground, int stride, const Ro
             heights_m_.push_back(sum_m / seen);
             const bool is_dry = lowest_m > wish.water_m + clear_of_water_m;
             const bool is_taken = wish.is_taken && wish.is_taken(place_m(free_.size()));
-            free_.push_back(is_dry && !is_taken ? 1 : 0);
+            const bool is_cliff = highest_m - lowest_m > most_relief * cell_m_;
+            free_.push_back(is_dry && !is_cliff && !is_taken ? 1 : 0);
         }
     }
 }

@@ -58,7 +58,7 @@ public:
     /// Metres up a metre, of the ground around it.
     double slope(std::size_t cell) const { return slopes_[cell]; }
 
-    /// Neither water nor taken.
+    /// Neither water, a cliff nor taken.
     bool is_free(std::size_t cell) const { return free_[cell] != 0; }
 
     /// Of a road between neighbouring free cells: its length on even ground in a valley, and more

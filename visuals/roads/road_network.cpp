@@ -30,6 +30,17 @@ double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m
     return glm::mix(along(cell.y), along(cell.y + 1), part.y);
 }
 
+/// Whether the middle line of a piece is nearer to a place than so much.
+bool is_nearer(const RoadPiece& piece, const glm::dvec2& place_m, double distance_m) {
+    const std::vector<RoadPoint>& line = piece.levels[0];
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (distance_from_stretch_m(place_m, line[i - 1].at_m, line[i].at_m) < distance_m) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 RoadNetwork::RoadNetwork(const terrain::GroundSamples& ground, const RoadWish& wish) {
@@ -51,7 +62,10 @@ void RoadNetwork::lay(const terrain::GroundSamples& ground, const RoadWish& wish
         for (const std::size_t cell : route) {
             places_m.push_back(cells.place_m(cell));
         }
-        append_pieces(rounded(places_m, cells.cell_m(), is_free), pieces_);
+        std::vector<glm::dvec2> line_m = rounded(places_m, cells.cell_m(), is_free);
+        if (!line_m.empty()) {
+            append_pieces(std::move(line_m), pieces_);
+        }
     }
 }
 
@@ -169,18 +183,22 @@ void RoadNetwork::pieces_by(
     }
 }
 
-bool RoadNetwork::is_near(const glm::dvec2& place_m, double within_m) const {
-    std::vector<std::uint32_t> numbers;
-    pieces_by(place_m - within_m, place_m + within_m, numbers);
-    return std::ranges::any_of(numbers, [&](std::uint32_t number) {
-        const std::vector<RoadPoint>& line = pieces_[number].levels[0];
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            if (distance_from_stretch_m(place_m, line[i - 1].at_m, line[i].at_m) < within_m) {
-                return true;
+bool RoadNetwork::is_near(const glm::dvec2& place_m, double distance_m) const {
+    if (pieces_.empty()) {
+        return false;
+    }
+    const Squares in = squares(place_m - distance_m, place_m + distance_m);
+    for (int row = in.first.y; row <= in.last.y; ++row) {
+        for (int column = in.first.x; column <= in.last.x; ++column) {
+            const std::size_t own = square(column, row);
+            for (std::uint32_t i = first_of_[own]; i < first_of_[own + 1]; ++i) {
+                if (is_nearer(pieces_[by_square_[i]], place_m, distance_m)) {
+                    return true;
+                }
             }
         }
-        return false;
-    });
+    }
+    return false;
 }
 
 } // namespace octant::visuals::roads

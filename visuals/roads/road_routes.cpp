@@ -23,6 +23,7 @@ constexpr double least_block_m = 4000.0;
 constexpr int most_blocks = 20; ///< a side
 constexpr double most_town_slope = 0.1;
 constexpr double most_town_above_m = 90.0;
+constexpr double most_climb = 0.25;     ///< from one cell of a road to the next
 constexpr double most_mean_cost = 9.0;  ///< of a road, over that of one on even ground
 constexpr double long_way_around = 2.2; ///< over the way by a road of its own
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
@@ -64,7 +65,9 @@ void for_each_next(const RoadGround& ground, std::size_t cell, const Visit& visi
             ground.is_free(to) &&
             (!is_knight || (ground.is_free(ground.cell(at.x + half.x, at.y + half.y)) &&
                             ground.is_free(ground.cell(next.x - half.x, next.y - half.y))));
-        if (is_free) {
+        const double climb_m = std::abs(ground.height_m(to) - ground.height_m(cell));
+        const double length_m = glm::distance(ground.place_m(cell), ground.place_m(to));
+        if (is_free && climb_m <= most_climb * length_m) {
             visit(to);
         }
     }

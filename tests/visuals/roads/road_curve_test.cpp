@@ -73,14 +73,18 @@ TEST_CASE("where rounding would cut a corner that is denied, it keeps to the pla
         {0.0, 0.0}, {100.0, 0.0}, {200.0, 0.0}, {200.0, 100.0}, {200.0, 200.0}};
     const auto on_places = [&](const glm::dvec2& at_m) { return off_line_m(at_m, corner_m) < 5.0; };
     CHECK_FALSE(std::ranges::all_of(rounded(corner_m, 100.0, anywhere), on_places));
-    CHECK(std::ranges::all_of(rounded(corner_m, 100.0, on_places), on_places));
+    const std::vector<glm::dvec2> kept_m = rounded(corner_m, 100.0, on_places);
+    CHECK_FALSE(kept_m.empty());
+    CHECK(std::ranges::all_of(kept_m, on_places));
+    const auto nowhere = [](const glm::dvec2&) { return false; };
+    CHECK(rounded(corner_m, 100.0, nowhere).empty());
 }
 
 TEST_CASE("enough points of a line leave it nowhere farther off than asked") {
     const std::vector<glm::dvec2> line_m = rounded(winding(30), 100.0, anywhere);
     std::size_t before = line_m.size() + 1;
     for (const double error_m : {0.05, 0.5, 5.0, 50.0}) {
-        const std::vector<std::size_t> kept = enough_points(line_m, error_m);
+        const std::vector<std::size_t> kept = enough_points(line_m, error_m, 1e9);
         CHECK(kept.front() == 0);
         CHECK(kept.back() == line_m.size() - 1);
         CHECK(std::ranges::is_sorted(kept));
@@ -94,6 +98,21 @@ TEST_CASE("enough points of a line leave it nowhere farther off than asked") {
             REQUIRE(off_line_m(at_m, fewer_m) < error_m + 1e-6);
         }
     }
+}
+
+TEST_CASE("stretches are no longer than asked where there are points between") {
+    std::vector<glm::dvec2> line_m;
+    for (int i = 0; i <= 37; ++i) {
+        line_m.emplace_back(10.0 * i, 0.0);
+    }
+    const std::vector<std::size_t> kept = enough_points(line_m, 1.0, 45.0);
+    CHECK(kept.back() == 37);
+    CHECK(kept.size() < 18);
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+        CHECK(kept[i] > kept[i - 1]);
+        CHECK(kept[i] - kept[i - 1] <= 4);
+    }
+    CHECK(enough_points(line_m, 1.0, 1.0).size() == line_m.size());
 }
 
 TEST_CASE("pieces follow one another without a gap in all levels") {

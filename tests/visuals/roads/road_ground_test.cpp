@@ -33,7 +33,7 @@ std::size_t cell_at(const RoadGround& ground, const glm::dvec2& place_m) {
 TEST_CASE("a ground too small, too coarse or with no samples to spare has no cells") {
     CHECK(RoadGround(GroundSamples(field_of(20, two_basins)), {}).columns() == 0);
     const models::heights::HeightField coarse(
-        60, 60, 500.0, std::vector<float>(std::size_t{60} * 60, 100.0F));
+        60, 60, 700.0, std::vector<float>(std::size_t{60} * 60, 100.0F));
     CHECK(RoadGround(GroundSamples(coarse), {}).columns() == 0);
     const RoadGround usual(GroundSamples(field_of(201, two_basins)), {});
     CHECK(usual.cell_m() == 100.0);
@@ -60,6 +60,17 @@ TEST_CASE("a cell with a sample of water is not free, nor is a taken one") {
     CHECK(denied >= 1);
     CHECK(denied <= 4);
     CHECK_FALSE(ground.is_free(cell_at(ground, {510.0, 30.0})));
+}
+
+TEST_CASE("a cell with a cliff is not free") {
+    const auto field =
+        field_of(201, [](const glm::dvec2& at_m) { return at_m.x < 1000.0 ? 100.0 : 190.0; });
+    const RoadGround ground(GroundSamples(field), {});
+    int cliffs = 0;
+    for (std::size_t cell = 0; cell < 2500; ++cell) {
+        cliffs += ground.is_free(cell) ? 0 : 1;
+    }
+    CHECK(cliffs == 50);
 }
 
 TEST_CASE("slopes and heights above the valley are those of the ground") {
