@@ -187,12 +187,13 @@ void fly(FlyOptions options) {
     if (options.replay && !live) {
         start_replay(*options.replay, session, options.quiet);
     }
-    flight::FlightRecorder recorder(options.record, options.settings, session);
     const base::StopSignals stop_signals;
+    flight::FlightRecorder recorder(options.record, options.settings, session);
     std::string stopped;
-    std::unique_ptr<flight::LiveFlight> packets;
+    FlownPackets packets;
     if (live) {
         packets = fly_packets(*options.replay, session, recorder, options.quiet);
+        stopped = packets.stopped;
     } else {
         stopped = fly_frames(options, session, sender, recorder);
     }
@@ -217,7 +218,7 @@ void fly(FlyOptions options) {
                 session.frames()));
     }
     std::optional<flight::ReplayVerdict> verdict;
-    if (options.replay) {
+    if (options.replay && stopped.empty()) {
         verdict = flight::verdict_on(*options.replay, end.state_hash, end.picture_hash);
     }
     print_summary(end, verdict, options.json);

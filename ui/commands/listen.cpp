@@ -2,8 +2,8 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/interrupt.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/video_pipe.h"
@@ -39,12 +39,12 @@ public:
 
     flight::FlightEnd fly() {
         tell_notes();
-        const Interrupt interrupt;
         const double frame_s = 1.0 / options_.settings.time.rate_hz;
         began_s_ = listener_.now_s();
         double due_s = began_s_;
         const bool step = options_.listener.live.step;
-        for (int frame = 0; !interrupt.came() && !is_over(frame);) {
+        int frame = 0;
+        while (!base::StopSignals::came() && !is_over(frame)) {
             wait_until(step ? listener_.now_s() + look_every_s : due_s);
             const bool drawn = draw(due_s + frame_s);
             frame += drawn ? 1 : 0;
@@ -53,9 +53,17 @@ public:
                 break;
             }
         }
+        if (base::StopSignals::came()) {
+            base::say(
+                options_.quiet,
+                fmt::format(
+                    "note: ended by {} after {} pictures", base::StopSignals::name(), frame));
+        }
         listener_.finish();
         return recorder_.finish(session_);
     }
+
+    const sim::links::LiveTraffic& traffic() const { return listener_.live().traffic(); }
 
 private:
     bool is_over(int frame) const {
@@ -103,6 +111,8 @@ private:
     flight::Listener listener_;
     flight::Sender sender_;
     flight::Session session_;
+    /// From here on a signal ends the flight in order: the recorder makes files.
+    const base::StopSignals stop_signals_;
     flight::FlightRecorder recorder_;
     double began_s_ = 0.0;
 };
