@@ -257,9 +257,10 @@ std::vector<Option> options_of(FlyOptions& options) {
              }},
         list_option(
             "--send",
-            "fdm|dis|cigi|tacview:HOST:PORT",
+            "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as fast as the clock goes: "
-            "fdm: the first one as FlightGear's native FDM; dis: all as DIS entity states; "
+            "fdm: the first one as FlightGear's native FDM; xplane: the first one as X-Plane's "
+            "DATA; dis: all as DIS entity states; "
             "cigi:HOST:PORT[:OWN]: all and the camera to an image generator that answers to port "
             "OWN "
             "[8005], whose picture is waited for, so that several show one frame; "

@@ -14,12 +14,39 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace octant::ui::commands {
 
 namespace {
 
 constexpr double look_every_s = 0.0005; ///< in steps, for the next packet
+
+/// What came, for programs: every vehicle, and what its packets were.
+base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
+    base::Figures vehicles = base::Figures::list({});
+    for (const sim::links::VehicleReport& vehicle : traffic.vehicle_reports()) {
+        vehicles.push_back(
+            {{"protocol", std::string(sim::links::name_of(vehicle.protocol))},
+             {"name", vehicle.name},
+             {"marking", vehicle.marking},
+             {"from", sim::links::text_of(vehicle.source)},
+             {"packets", vehicle.packets},
+             {"latitude_deg", vehicle.latitude_deg},
+             {"longitude_deg", vehicle.longitude_deg},
+             {"altitude_m", vehicle.altitude_m},
+             {"shown", vehicle.is_shown}});
+    }
+    base::Figures packets = base::Figures::list({});
+    for (const sim::links::PacketReport& form : traffic.packet_reports()) {
+        packets.push_back(
+            {{"from", sim::links::text_of(form.source)},
+             {"what", form.text},
+             {"packets", form.packets},
+             {"refused", form.is_wrong}});
+    }
+    return {{"vehicles", std::move(vehicles)}, {"packets", std::move(packets)}};
+}
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
 class HeadlessRun {
@@ -131,7 +158,18 @@ void listen_without_window(const ListenOptions& options) {
     for (const std::string& missing : end.missing) {
         base::say(false, missing);
     }
-    print_summary(end, std::nullopt, options.json);
+    for (const sim::links::PacketReport& form : run.traffic().packet_reports()) {
+        if (form.is_wrong) {
+            base::say(
+                options.quiet,
+                fmt::format(
+                    "note: {} packets from {}: {}",
+                    form.packets,
+                    sim::links::text_of(form.source),
+                    form.text));
+        }
+    }
+    print_summary(end, std::nullopt, options.json, figures_of(run.traffic()));
     if (!end.fault.empty()) {
         throw Error(end.fault);
     }

@@ -168,6 +168,7 @@ TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, i
              "--fdm-port",     "0",
              "--dis-port",     "-1",
              "--mavlink-port", "-1",
+             "--xplane-port",  "-1",
              "--cigi-port",    "-1",
              "--terrain",      tests::small_ground(),
              "--seconds",      "60",
