@@ -1,13 +1,17 @@
 #include "flightpaths/limits_check.h"
 
 #include "flightpaths/manoeuvre.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace octant::flightpaths {
 
@@ -223,6 +227,45 @@ void LimitsCheck::check_weave(Leg& leg) const {
 
 double least_flown_speed_mps(const sim::AircraftLimits& limits) {
     return std::max(limits.least_speed_mps, 5.0);
+}
+
+std::string
+beyond_limits(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth) {
+    constexpr double margin = 0.05; // of the limit, or of 1 where that is less
+    std::vector<std::string> beyond;
+    const auto check = [&](const char* what, double limit, auto value_of, double shown, bool most) {
+        const double sign = most ? 1.0 : -1.0;
+        double farthest = limit;
+        for (const sim::AircraftState& state : path.samples()) {
+            const double value = value_of(state);
+            farthest = sign * (value - farthest) > 0.0 ? value : farthest;
+        }
+        if (sign * (farthest - limit) > margin * std::max(std::abs(limit), 1.0)) {
+            beyond.push_back(fmt::format(
+                "{} {} to {:.3g} (at {} {:.3g})",
+                what,
+                most ? "up" : "down",
+                shown * farthest,
+                most ? "most" : "least",
+                shown * limit));
+        }
+    };
+    const auto speed_mps = [](const sim::AircraftState& state) {
+        return glm::length(state.velocity_mps);
+    };
+    const auto load = [](const sim::AircraftState& state) { return state.load_factor; };
+    const auto bank_rad = [](const sim::AircraftState& state) {
+        return std::abs(euler_from_body_to_world(state.body_to_world).roll_rad);
+    };
+    const double kt = kt_from_mps(1.0);
+    check("speed in kt", limits.most_speed_mps, speed_mps, kt, true);
+    if (is_smooth) {
+        check("speed in kt", limits.least_speed_mps, speed_mps, kt, false);
+        check("load factor", limits.most_load_factor, load, 1.0, true);
+        check("load factor", limits.least_load_factor, load, 1.0, false);
+        check("bank in degrees", limits.bank_rad, bank_rad, deg_from_rad(1.0), true);
+    }
+    return fmt::format("{}", fmt::join(beyond, ", "));
 }
 
 } // namespace octant::flightpaths

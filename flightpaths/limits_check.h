@@ -3,6 +3,7 @@
 #include "flightpaths/path_script.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_limits.h"
+#include "sim/trajectory.h"
 
 #include <string>
 #include <vector>
@@ -51,5 +52,12 @@ private:
 /// The slowest speed that legs may be flown at: lift bends the path of a point mass only while it
 /// moves, so a hover is no leg.
 double least_flown_speed_mps(const sim::AircraftLimits& limits);
+
+/// What of a motion lies more than 5 % beyond the limits of an aircraft that it was not made for,
+/// as "speed in kt up to 486 (at most 152), load factor up to 4 (at most 2)"; empty where all is
+/// within. `is_smooth`: load factors, bank and the lowest speed count, too. In a recorded track the
+/// first two are mostly noise, and the last one is its taxiing.
+std::string
+beyond_limits(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth);
 
 } // namespace octant::flightpaths

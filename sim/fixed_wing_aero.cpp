@@ -5,6 +5,9 @@
 //   4.0 allows for the broad body. Drag of a plate across the wind: Hoerner, Fluid-Dynamic Drag.
 // - Thrust with height and Mach number: Mattingly, Heiser and Pratt, Aircraft Engine Design, 2nd
 //   ed., ch. 2, low-bypass mixed turbofan, for the 23,770 lb of the F100-PW-220 with reheat.
+// - Dry thrust over thrust with reheat: the tables of an engine of that family in Nguyen et al.,
+//   NASA TP-1538 (1979), printed in Stevens and Lewis, Aircraft Control and Simulation, app. A.
+//   From sea level to 20,000 ft it falls from 0.57 .. 0.63 at rest to 0.47 .. 0.49 at Mach 0.8.
 // Deviations: angle and size of the most lift, zero-lift and wave drag are chosen so that a stall
 // at about 115 kt, the published 800 kt (M 1.2) low down, the climb of the 50,000 ft/min class and
 // M 2 at height come out roughly. Lift does not depend on the Mach number. Idle gives no net
@@ -28,13 +31,17 @@ constexpr double side_slope = 0.9; // side force per radian of sideslip
 constexpr double induced_factor = 0.13;
 
 constexpr double dry_lever = 0.8;
-constexpr double dry_share = 0.6; // dry thrust over thrust with reheat
 constexpr double installed_share = 0.92;
 constexpr double throttle_ratio = 1.07;
 constexpr double static_thrust_n = 2.0 * 23770.0 * 4.4482216 * installed_share;
 
 double zero_lift_drag(double mach) {
     return 0.0215 + 0.0185 * smooth_step(0.85, 1.15, mach) - 0.012 * smooth_step(1.15, 2.2, mach);
+}
+
+/// Dry thrust over thrust with reheat.
+double dry_share(double mach) {
+    return std::clamp(0.62 - 0.18 * mach, 0.35, 0.62);
 }
 
 double full_thrust_n(double mach, const Air& air) {
@@ -86,18 +93,23 @@ double side_coefficient(double beta_rad) {
 }
 
 double thrust_n(double lever, double mach, const Air& air) {
-    const double share = lever <= dry_lever ? dry_share * lever / dry_lever
-                                            : dry_share + (1.0 - dry_share) * (lever - dry_lever) /
-                                                              (1.0 - dry_lever);
+    const double dry = dry_share(mach);
+    const double share = lever <= dry_lever
+                             ? dry * lever / dry_lever
+                             : dry + (1.0 - dry) * (lever - dry_lever) / (1.0 - dry_lever);
     return share * full_thrust_n(mach, air);
 }
 
 double lever_of_thrust(double newtons, double mach, const Air& air) {
     const double full_n = full_thrust_n(mach, air);
+    const double dry = dry_share(mach);
     const double share = full_n > 0.0 ? std::clamp(newtons / full_n, 0.0, 1.0) : 1.0;
-    return share <= dry_share
-               ? share / dry_share * dry_lever
-               : dry_lever + (share - dry_share) / (1.0 - dry_share) * (1.0 - dry_lever);
+    return share <= dry ? share / dry * dry_lever
+                        : dry_lever + (share - dry) / (1.0 - dry) * (1.0 - dry_lever);
+}
+
+double reheat_of_lever(double lever) {
+    return std::clamp((lever - dry_lever) / (1.0 - dry_lever), 0.0, 1.0);
 }
 
 } // namespace octant::sim::f15

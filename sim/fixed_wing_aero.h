@@ -33,4 +33,7 @@ double thrust_n(double lever, double mach, const Air& air);
 /// Lever that gives this thrust, the nearest where none does.
 double lever_of_thrust(double newtons, double mach, const Air& air);
 
+/// The share of the reheat that a lever asks for, 0 .. 1.
+double reheat_of_lever(double lever);
+
 } // namespace octant::sim::f15

@@ -292,6 +292,7 @@ void FixedWingFlight::step(const PilotControls& controls) {
     air_ = standard_air(state_.position_m.z);
     now_ = flow(state_.velocity_mps, state_.body_to_world, incidence_rad_);
     state_.load_factor = now_.load_factor;
+    state_.speed_rate_mps2 = glm::dot(now_.along, now_.acceleration_mps2);
     state_.time_s = clock_.next_s();
 }
 

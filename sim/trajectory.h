@@ -17,7 +17,8 @@ AircraftState state_between(const AircraftState& a, const AircraftState& b, doub
 /// position and velocity are continuous; attitudes turn at a constant rate between samples (slerp).
 class Trajectory {
 public:
-    /// At least one sample, times strictly increasing (asserted; readers check before).
+    /// At least one sample, times strictly increasing (asserted; readers check before). Fills in
+    /// the samples' speed_rate_mps2 from their velocities.
     explicit Trajectory(std::vector<AircraftState> samples);
 
     std::span<const AircraftState> samples() const { return samples_; }

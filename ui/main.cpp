@@ -40,6 +40,8 @@ int run(int argc, char** argv) {
         commands::action_of(program, argc, argv)();
     } catch (const commands::CheckSaidNo&) {
         code = check_said_no;
+    } catch (const base::StoppedBySignal&) {
+        return code; // which the signal replaces
     }
     for (const std::string& line : octant::visuals::groundfile::damage_lines()) {
         std::fputs(fmt::format("octant: {}\n", line).c_str(), stderr);

@@ -186,6 +186,7 @@ void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
     PolygonModel& model = planar.model;
     PolygonModel out;
     std::vector<std::uint32_t> parents;
+    bool is_changed = !model.parents.empty();
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const Outline whole = different_corners(model, i);
         std::vector<Outline> pieces;
@@ -194,8 +195,11 @@ void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
         }
         std::erase_if(
             pieces, [&](const Outline& piece) { return has_no_area(places_of(model, piece)); });
-        planar.cut_polygons += pieces.size() > 1 ? 1 : 0;
+        const bool is_faulty =
+            pieces.size() > 1 && polygons::corners_fault(places_of(model, whole), touching_reach);
+        planar.cut_polygons += is_faulty ? 1 : 0;
         planar.lost_polygons += pieces.empty() ? 1 : 0;
+        is_changed = is_changed || pieces.size() != 1;
         for (const Outline& piece : pieces) {
             polygons::Polygon polygon = model.polygons[i];
             polygon.first_corner = static_cast<std::uint32_t>(out.corner_vertices.size());
@@ -205,7 +209,7 @@ void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
             parents.push_back(model.parent_of(i));
         }
     }
-    if (planar.cut_polygons + planar.lost_polygons > 0 || !model.parents.empty()) {
+    if (is_changed) {
         model.parents = std::move(parents);
     }
     model.polygons = std::move(out.polygons);

@@ -49,7 +49,9 @@ struct PlanarModel {
         return {normal, plane.offset_m * radius_m - glm::dot(normal, in_given(glm::dvec3(0.0)))};
     }
 
-    int cut_polygons = 0;  ///< How many polygons were bent or dented and are cut into pieces.
+    /// How many polygons were bent or dented by more than touching_reach and are cut into pieces.
+    /// Smaller faults come from the decimals of a file; their polygons are cut, but not counted.
+    int cut_polygons = 0;
     int lost_polygons = 0; ///< How many had no area and are left out.
 };
 

@@ -4,6 +4,24 @@
 
 namespace octant::sim::links {
 
+std::string_view name_of(Protocol protocol) {
+    switch (protocol) {
+    case Protocol::Fdm:
+        return "FlightGear FDM";
+    case Protocol::Lines:
+        return "lines";
+    case Protocol::MavLink:
+        return "MAVLink";
+    case Protocol::Dis:
+        return "DIS";
+    case Protocol::Cigi:
+        return "CIGI";
+    case Protocol::XPlane:
+        return "X-Plane";
+    }
+    return "unknown";
+}
+
 std::string text_of(const Source& source) {
     if (source == Source{}) {
         return "standard input";

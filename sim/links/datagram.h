@@ -3,12 +3,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::sim::links {
 
 /// What a packet's bytes mean. The values stand in recordings.
-enum class Protocol : std::uint8_t { Fdm = 1, Lines = 2, MavLink = 3, Dis = 4, Cigi = 5 };
+enum class Protocol : std::uint8_t {
+    Fdm = 1,
+    Lines = 2,
+    MavLink = 3,
+    Dis = 4,
+    Cigi = 5,
+    XPlane = 6
+};
+
+/// As people call it: "DIS".
+std::string_view name_of(Protocol protocol);
 
 /// Where a packet came from: an IPv4 address and a port, both as numbers; 0:0 is standard input.
 struct Source {

@@ -3,6 +3,7 @@
 
 #include "sim/links/dis_entity.h"
 
+#include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "sim/links/earth.h"
 
@@ -114,6 +115,13 @@ Verdict decode_dis(Bytes datagram, DisEntity& entity) {
                          static_cast<std::uint64_t>(entity.application) << 16U | entity.entity;
     verdict.fault = fault_of(entity.fix);
     return verdict;
+}
+
+std::string marking_of(const DisEntity& entity) {
+    const auto end = std::ranges::find(entity.marking, '\0');
+    std::string text(entity.marking.begin(), end);
+    text.erase(text.find_last_not_of(' ') + 1);
+    return printable(text);
 }
 
 std::string dis_text(const Verdict& verdict) {

@@ -35,6 +35,10 @@ struct DisEntity {
 /// zero where its dead reckoning leaves them out.
 Verdict decode_dis(Bytes datagram, DisEntity& entity);
 
+/// The marking as text, without the zeros and spaces at its end; what a terminal would obey is
+/// replaced.
+std::string marking_of(const DisEntity& entity);
+
 std::string dis_text(const Verdict& verdict);
 
 /// The PDU of an entity; `fix` needs latitude and longitude. `time_s` is seconds past the hour.

@@ -47,10 +47,10 @@ enum class Fault {
     None,
     WrongSize,    ///< Verdict::got bytes
     WrongVersion, ///< Verdict::got
-    SwappedBytes, ///< it would be right with its bytes the other way round
     NotFinite,    ///< a number that is none
     OutOfRange,   ///< a number that no aircraft has
     NotOurs,      ///< the beginning is that of another protocol
+    OtherKind,    ///< of a kind that is not read at this port: Verdict::got is its PacketKind
     Unused,       ///< right, but nothing is to be shown of it
 };
 

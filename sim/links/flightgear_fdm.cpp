@@ -24,8 +24,6 @@ constexpr std::size_t velocity_at = 76;    ///< north, east, down, ft/s
 constexpr std::size_t time_at = 356;       ///< of version 24
 constexpr std::size_t longer_in_25 = fdm_25_bytes - fdm_24_bytes;
 constexpr float no_agl_below_m = -9000.0F;
-constexpr std::uint32_t swapped_24 = 24U << 24U;
-constexpr std::uint32_t swapped_25 = 25U << 24U;
 
 /// Rates about the body's axes from the rates of roll, pitch and heading, and back: any text on
 /// flight dynamics, e.g. Stevens and Lewis, Aircraft Control and Simulation, eq. 1.4-4.
@@ -52,9 +50,6 @@ Verdict check_head(const WireReader& reader) {
     const auto version = reader.at<std::uint32_t>(version_at);
     if (size < sizeof(version)) {
         return {Fault::WrongSize, size, size};
-    }
-    if (version == swapped_24 || version == swapped_25) {
-        return {Fault::SwappedBytes, version, size};
     }
     if (version != 24 && version != 25) {
         return {Fault::WrongVersion, version, size};
@@ -95,8 +90,6 @@ std::string fdm_text(const Verdict& verdict) {
     switch (fault) {
     case Fault::None:
         return fmt::format("FDM version {} of {} bytes: fine", got, size);
-    case Fault::SwappedBytes:
-        return fmt::format("{}: this is an FDM packet with its bytes the other way round", got);
     case Fault::WrongSize:
         if (size < sizeof(got)) {
             return fmt::format("expected an FDM packet, got {} bytes", size);

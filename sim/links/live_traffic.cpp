@@ -3,6 +3,7 @@
 #include "sim/hidden_height.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
+#include "sim/links/identify.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,12 +16,12 @@ namespace {
 /// What was wrong is said as long as this.
 constexpr double wrong_said_s = 5.0;
 
-std::string motion_text(const LiveVehicle& vehicle, bool is_shown) {
+std::string motion_text(const LiveVehicle& vehicle, const std::string& name, bool is_shown) {
     const double period_s = vehicle.clock().period_s();
     return fmt::format(
         "{} {}: {:.1f}/s, {} lost, {} late, jitter {:.0f} ms{}{}",
         text_of(vehicle.key().source),
-        vehicle.key().vehicle,
+        name,
         period_s > 0.0 ? 1.0 / period_s : 0.0,
         vehicle.clock().lost(),
         vehicle.late(),
@@ -53,9 +54,14 @@ typename Streams::mapped_type* stream_of(
 }
 
 std::string verdict_text(Protocol protocol, const Verdict& verdict) {
+    if (verdict.fault == Fault::OtherKind) {
+        return std::string(text_of(PacketKind{verdict.got}));
+    }
     switch (protocol) {
     case Protocol::Lines:
         return NamedColumns::text_of(verdict);
+    case Protocol::XPlane:
+        return xplane_text(verdict);
     case Protocol::MavLink:
         return mavlink_text(verdict);
     case Protocol::Dis:
@@ -67,7 +73,35 @@ std::string verdict_text(Protocol protocol, const Verdict& verdict) {
     }
 }
 
+/// The verdict on a packet that its port's decoder does not use: what it is in truth, where its
+/// form tells that. To a decoder of DIS, a message of CIGI 3 is a PDU of another type.
+Verdict identified(const Datagram& datagram, const Verdict& verdict) {
+    const auto kind = verdict.fault != Fault::None && datagram.protocol != Protocol::Lines
+                          ? packet_kind(datagram.bytes)
+                          : std::nullopt;
+    if (!kind || protocol_of(*kind) == datagram.protocol) {
+        return verdict;
+    }
+    return {Fault::OtherKind, static_cast<std::uint32_t>(*kind), 0};
+}
+
 } // namespace
+
+std::string name_of(const VehicleKey& key) {
+    switch (key.protocol) {
+    case Protocol::Dis:
+        return fmt::format(
+            "{}:{}:{}", key.vehicle >> 32U, key.vehicle >> 16U & 0xffffU, key.vehicle & 0xffffU);
+    case Protocol::MavLink:
+        return fmt::format("system {}", key.vehicle);
+    case Protocol::Cigi:
+        return fmt::format("entity {}", key.vehicle);
+    case Protocol::Lines:
+        return fmt::format("id {}", key.vehicle);
+    default:
+        return "aircraft";
+    }
+}
 
 LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     if (const auto known = numbers_.find(key); known != numbers_.end()) {
@@ -100,8 +134,29 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     return &vehicles_.emplace_back(key);
 }
 
-LiveTraffic::Taken LiveTraffic::move(const Datagram& datagram, const Fix& fix) {
+/// Notes what came of a vehicle.
+void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::string& marking) {
+    auto known = reports_.find(key);
+    if (known == reports_.end()) {
+        if (reports_.size() >= most_reported) {
+            return;
+        }
+        known = reports_.try_emplace(key).first;
+    }
+    VehicleReport& told = known->second;
+    ++told.packets;
+    told.latitude_deg = fix.latitude_deg;
+    told.longitude_deg = fix.longitude_deg;
+    told.altitude_m = fix.altitude_m;
+    if (told.marking != marking) {
+        told.marking = marking;
+    }
+}
+
+LiveTraffic::Taken
+LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& marking) {
     const VehicleKey key{datagram.protocol, datagram.source, fix.vehicle};
+    report(key, fix, marking);
     LiveVehicle* const vehicle = vehicle_of(key, datagram.arrival_s);
     if (vehicle == nullptr) {
         ++counts_.unused;
@@ -122,7 +177,8 @@ LiveTraffic::Taken LiveTraffic::move(const Datagram& datagram, const Fix& fix) {
 }
 
 /// Counts and remembers what is to be said of a packet. Never Moved.
-LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& verdict) {
+LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& decoded) {
+    const Verdict verdict = identified(datagram, decoded);
     const bool wrong = verdict.fault != Fault::None && verdict.fault != Fault::Unused;
     if (verdict.fault == Fault::Unused) {
         ++counts_.unused;
@@ -134,8 +190,10 @@ LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& v
     constexpr std::size_t most_kinds = 50;
     const std::tuple kind(
         datagram.protocol, datagram.source, verdict.fault, verdict.got, verdict.size);
-    if (heard_.size() < most_kinds && !heard_.contains(kind)) {
-        heard_.insert(kind);
+    if (const auto known = heard_.find(kind); known != heard_.end()) {
+        ++known->second;
+    } else if (heard_.size() < most_kinds) {
+        heard_.emplace(kind, 1);
         news_.push_back(fmt::format(
             "{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
     }
@@ -171,6 +229,9 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
         Verdict said = parse.verdict;
         said.size = said.fault == Fault::NotOurs ? said.size : 0;
         taken = std::max(taken, count(datagram, said));
+        if (identified(datagram, said).fault == Fault::OtherKind) {
+            break;
+        }
         auto* const stream = parse.frame ? stream_of(
                                                poses_,
                                                {datagram.source, parse.frame->system},
@@ -191,7 +252,21 @@ LiveTraffic::Taken LiveTraffic::take_dis(const Datagram& datagram) {
     DisEntity entity;
     const Verdict verdict = decode_dis(datagram.bytes, entity);
     const Taken counted = count(datagram, verdict);
-    return verdict.fault == Fault::None ? move(datagram, entity.fix) : counted;
+    return verdict.fault == Fault::None ? move(datagram, entity.fix, marking_of(entity)) : counted;
+}
+
+LiveTraffic::Taken LiveTraffic::take_xplane(const Datagram& datagram) {
+    std::optional<Fix> fix;
+    if (packet_kind(datagram.bytes) != PacketKind::XPlane) {
+        return count(datagram, XPlanePose().take(datagram.bytes, fix)); // takes no stream
+    }
+    auto* const stream = stream_of(xplanes_, datagram.source, datagram.arrival_s, gone_after_s);
+    if (stream == nullptr) {
+        ++counts_.unused;
+        return Taken::Wrong;
+    }
+    const Taken counted = count(datagram, stream->value.take(datagram.bytes, fix));
+    return fix ? move(datagram, *fix) : counted;
 }
 
 LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
@@ -228,6 +303,8 @@ LiveTraffic::Taken LiveTraffic::take(const Datagram& datagram) {
         return take_dis(datagram);
     case Protocol::Cigi:
         return take_cigi(datagram);
+    case Protocol::XPlane:
+        return take_xplane(datagram);
     default:
         ++counts_.unused;
         return Taken::Wrong;
@@ -285,7 +362,13 @@ std::vector<std::string> LiveTraffic::lines() const {
     }
     constexpr std::size_t most_lines = 4;
     for (std::size_t i = 0; i < std::min(vehicles_.size(), most_lines); ++i) {
-        lines.push_back(motion_text(vehicles_[i], i < shown_ || shown_ == 0));
+        const VehicleKey& key = vehicles_[i].key();
+        const auto known = reports_.find(key);
+        const std::string marking = known == reports_.end() ? "" : known->second.marking;
+        lines.push_back(motion_text(
+            vehicles_[i],
+            marking.empty() ? name_of(key) : fmt::format("{} {}", name_of(key), marking),
+            i < shown_ || shown_ == 0));
     }
     if (vehicles_.size() > most_lines) {
         lines.push_back(fmt::format("and {} vehicles more", vehicles_.size() - most_lines));
@@ -297,7 +380,41 @@ std::vector<std::string> LiveTraffic::lines() const {
             verdict_text(wrong_.protocol, wrong_.verdict),
             counts_.wrong));
     }
+    if (vehicles_.size() == most_vehicles) {
+        lines.push_back(fmt::format(
+            "{} vehicles in all, {} are followed, {} shown",
+            reports_.size(),
+            vehicles_.size(),
+            shown_));
+    }
     return lines;
+}
+
+std::vector<VehicleReport> LiveTraffic::vehicle_reports() const {
+    std::vector<VehicleReport> all;
+    all.reserve(reports_.size());
+    for (const auto& [key, told] : reports_) {
+        const auto known = numbers_.find(key);
+        VehicleReport& report = all.emplace_back(told);
+        report.name = name_of(key);
+        report.protocol = key.protocol;
+        report.source = key.source;
+        report.is_shown = known != numbers_.end() && known->second < shown_;
+    }
+    return all;
+}
+
+std::vector<PacketReport> LiveTraffic::packet_reports() const {
+    std::vector<PacketReport> all;
+    for (const auto& [kind, packets] : heard_) {
+        const auto& [protocol, source, fault, got, size] = kind;
+        all.push_back(
+            {source,
+             verdict_text(protocol, {fault, got, size}),
+             packets,
+             fault != Fault::None && fault != Fault::Unused});
+    }
+    return all;
 }
 
 } // namespace octant::sim::links

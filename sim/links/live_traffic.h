@@ -6,12 +6,12 @@
 #include "sim/links/live_vehicle.h"
 #include "sim/links/mavlink.h"
 #include "sim/links/named_columns.h"
+#include "sim/links/xplane.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -38,11 +38,38 @@ struct TrafficCounts {
     long snaps = 0;    ///< corrections too large to be blended in
 };
 
+/// What came of one vehicle, followed or not.
+struct VehicleReport {
+    std::string name;    ///< as name_of() has it
+    std::string marking; ///< what a DIS entity calls itself; else empty
+    Protocol protocol = Protocol::Fdm;
+    Source source;
+    long packets = 0;
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double altitude_m = 0.0;
+    bool is_shown = false;
+};
+
+/// Packets of one form that were refused or passed over, or taken.
+struct PacketReport {
+    Source source;
+    std::string text; ///< what a person should be told of them
+    long packets = 0;
+    bool is_wrong = false;
+};
+
+/// How people call a vehicle: "1:2:3" is site, application and entity of DIS; "system 1" of
+/// MAVLink; "entity 5" of CIGI; "aircraft" where a sender has but one.
+std::string name_of(const VehicleKey& key);
+
 /// All vehicles that others fly. Takes packets as they came and gives what is shown at a time; no
 /// sockets and no clocks in here, so that a recording of packets repeats it.
 class LiveTraffic {
 public:
     static constexpr std::size_t most_vehicles = 256;
+    /// Vehicles that are reported; those beyond most_vehicles are not followed.
+    static constexpr std::size_t most_reported = 20000;
     /// Silence after which a vehicle gives its place to another one.
     static constexpr double gone_after_s = 10.0;
     /// The same where the other one is its sender begun anew: of the same number, machine and
@@ -92,6 +119,12 @@ public:
     /// What a person should be told, a line each: senders and what is wrong with them.
     std::vector<std::string> lines() const;
 
+    /// All vehicles of which something came, by protocol, source and number.
+    std::vector<VehicleReport> vehicle_reports() const;
+
+    /// What came, each form of packet of each sender once, with the number of such packets.
+    std::vector<PacketReport> packet_reports() const;
+
 private:
     struct Said {
         Protocol protocol = Protocol::Fdm;
@@ -105,8 +138,10 @@ private:
     Taken take_mavlink(const Datagram& datagram);
     Taken take_dis(const Datagram& datagram);
     Taken take_cigi(const Datagram& datagram);
+    Taken take_xplane(const Datagram& datagram);
     void put_away_hidden(std::span<AircraftState> states) const;
-    Taken move(const Datagram& datagram, const Fix& fix);
+    Taken move(const Datagram& datagram, const Fix& fix, const std::string& marking = {});
+    void report(const VehicleKey& key, const Fix& fix, const std::string& marking);
     LiveVehicle* vehicle_of(const VehicleKey& key, double arrival_s);
     Taken count(const Datagram& datagram, const Verdict& verdict);
 
@@ -123,9 +158,13 @@ private:
 
     std::map<Source, Stream<NamedColumns>> columns_;
     std::map<std::pair<Source, std::uint8_t>, Stream<MavLinkPose>> poses_;
+    std::map<Source, Stream<XPlanePose>> xplanes_;
     CigiImageGenerator cigi_;
     TrafficCounts counts_;
-    std::set<std::tuple<Protocol, Source, Fault, std::uint32_t, std::uint32_t>> heard_;
+    /// Packets by what they were, as far as that is told.
+    std::map<std::tuple<Protocol, Source, Fault, std::uint32_t, std::uint32_t>, long> heard_;
+    /// Without names, which follow from the keys.
+    std::map<VehicleKey, VehicleReport> reports_;
     std::vector<std::string> news_;
     Said fine_;
     Said wrong_;

@@ -2,6 +2,7 @@
 
 #include "sim/base/axes.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -111,6 +112,18 @@ LiveVehicle::turn_of(const Fix& fix, const glm::dquat& body_to_world, double ste
     return axis * (rate_radps / sine);
 }
 
+/// The change of speed since the sample before, filtered over half a second.
+double LiveVehicle::speed_rate_of(const glm::dvec3& velocity_mps, double step_s) const {
+    if (track_.empty() || step_s <= 0.0) {
+        return 0.0;
+    }
+    constexpr double filter_s = 0.5;
+    const AircraftState& last = track_.last().state;
+    const double gained_mps = glm::length(velocity_mps) - glm::length(last.velocity_mps);
+    const double newer = 1.0 - std::exp(-step_s / filter_s);
+    return glm::mix(last.speed_rate_mps2, gained_mps / step_s, newer);
+}
+
 bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_s) {
     const double before_s = clock_.sender_s();
     const SenderClock::Order order = clock_.take(arrival_s, clue_of(fix, world_m));
@@ -131,6 +144,7 @@ bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_
     sample.state.velocity_mps = velocity_of(fix, world_m, step_s);
     sample.world_radps = turn_of(fix, sample.state.body_to_world, step_s);
     sample.world_mps2 = world_from_ned(fix.acceleration_ned_mps2);
+    sample.state.speed_rate_mps2 = speed_rate_of(sample.state.velocity_mps, step_s);
     track_.add(sample);
     last_fix_ = fix;
     hidden_ = false;

@@ -60,6 +60,7 @@ public:
 private:
     TimeClue clue_of(const Fix& fix, const glm::dvec3& world_m);
     glm::dvec3 velocity_of(const Fix& fix, const glm::dvec3& world_m, double step_s);
+    double speed_rate_of(const glm::dvec3& velocity_mps, double step_s) const;
     glm::dvec3 turn_of(const Fix& fix, const glm::dquat& body_to_world, double step_s) const;
 
     VehicleKey key_;

@@ -23,6 +23,10 @@ public:
     static std::string name();
 };
 
+/// Thrown by work of which a part is of no use once a stop signal came, when its files are in order:
+/// the program then ends by the signal.
+struct StoppedBySignal {};
+
 /// Ends the program by the signal that came, as whoever started it expects; returns where none did.
 void end_by_signal_that_came();
 

@@ -187,12 +187,13 @@ void fly(FlyOptions options) {
     if (options.replay && !live) {
         start_replay(*options.replay, session, options.quiet);
     }
-    flight::FlightRecorder recorder(options.record, options.settings, session);
     const base::StopSignals stop_signals;
+    flight::FlightRecorder recorder(options.record, options.settings, session);
     std::string stopped;
-    std::unique_ptr<flight::LiveFlight> packets;
+    FlownPackets packets;
     if (live) {
         packets = fly_packets(*options.replay, session, recorder, options.quiet);
+        stopped = packets.stopped;
     } else {
         stopped = fly_frames(options, session, sender, recorder);
     }
@@ -217,7 +218,7 @@ void fly(FlyOptions options) {
                 session.frames()));
     }
     std::optional<flight::ReplayVerdict> verdict;
-    if (options.replay) {
+    if (options.replay && stopped.empty()) {
         verdict = flight::verdict_on(*options.replay, end.state_hash, end.picture_hash);
     }
     print_summary(end, verdict, options.json);
@@ -256,9 +257,10 @@ std::vector<Option> options_of(FlyOptions& options) {
              }},
         list_option(
             "--send",
-            "fdm|dis|cigi|tacview:HOST:PORT",
+            "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as fast as the clock goes: "
-            "fdm: the first one as FlightGear's native FDM; dis: all as DIS entity states; "
+            "fdm: the first one as FlightGear's native FDM; xplane: the first one as X-Plane's "
+            "DATA; dis: all as DIS entity states; "
             "cigi:HOST:PORT[:OWN]: all and the camera to an image generator that answers to port "
             "OWN "
             "[8005], whose picture is waited for, so that several show one frame; "

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,15 +40,30 @@ void count_words(CLI::Option& option, const Option& row) {
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& row) {
-    CLI::Option* option = nullptr;
     if (row.takes == Takes::Nothing) {
-        option = app.add_flag(row.name, row.meaning);
-    } else {
-        option = app.add_option(row.name, CLI::callback_t(), row.meaning);
-        option->type_name(row.form)->required(row.required);
-        count_words(*option, row);
+        const std::string meaning = row.shown_default.empty()
+                                        ? row.meaning
+                                        : fmt::format("{} [{}]", row.meaning, row.shown_default);
+        return app.add_flag(row.name, meaning)->group(row.heading);
     }
+    CLI::Option* const option = app.add_option(row.name, CLI::callback_t(), row.meaning);
+    option->type_name(row.form)->required(row.required);
+    count_words(*option, row);
     return option->default_str(row.shown_default)->group(row.heading);
+}
+
+/// Help without the library's mark of names that unset a flag, as in "--no-sky{false}": it reads as
+/// if a word followed them.
+class HelpFormatter final : public CLI::Formatter {
+public:
+    std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+        return CLI::detail::find_and_replace(
+            CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
+    }
+};
+
+bool is_truth(std::string_view word) {
+    return word == "true" || word == "false";
 }
 
 /// The words given for an option.
@@ -65,6 +81,7 @@ public:
         : program_(program)
         , app_(program.about) {
         app_.set_version_flag("--version", program.version);
+        app_.formatter(std::make_shared<HelpFormatter>());
         app_.get_formatter()->column_width(column_width);
         app_.footer(program.footer);
         add_commands(app_, program.commands, "octant");
@@ -117,7 +134,7 @@ public:
     /// Options of the command that the line names, read; then what is to be done.
     std::function<void()> action(const Words& line) const {
         const Parsed& parsed = *named();
-        refuse_flag_values(parsed, line);
+        check_flag_values(parsed, line);
         std::vector<std::pair<const Option*, Words>> readings;
         for (std::size_t i = 0; i < parsed.options.size(); ++i) {
             if (parsed.options[i]->count() > 0) {
@@ -224,9 +241,9 @@ private:
             "expected one of its options, got {}{}", printable(got), perhaps_meant(name, names));
     }
 
-    /// Throws Error for a flag with a value, which the library takes where that is a number or a
-    /// truth: what --no-near-detail=0 should mean nobody can say.
-    static void refuse_flag_values(const Parsed& parsed, const Words& line) {
+    /// Throws Error for a flag with another value than true or false, and for a name that unsets a
+    /// flag with any: what --no-near-detail=0 should mean nobody can say.
+    static void check_flag_values(const Parsed& parsed, const Words& line) {
         for (const std::string& word : line) {
             const std::size_t equals = word.find('=');
             if (!word.starts_with("--") || equals == std::string::npos) {
@@ -234,10 +251,21 @@ private:
             }
             const std::string name = word.substr(0, equals);
             for (std::size_t i = 0; i < parsed.options.size(); ++i) {
-                if (parsed.command->options[i].takes == Takes::Nothing &&
-                    parsed.options[i]->check_name(name)) {
-                    const std::string value = printable(word.substr(equals + 1));
-                    throw Error(fmt::format("{}: expected nothing after it, got {}", name, value));
+                const Option& row = parsed.command->options[i];
+                if (row.takes != Takes::Nothing || !parsed.options[i]->check_name(name)) {
+                    continue;
+                }
+                const std::string value = word.substr(equals + 1);
+                if (row.name.find("!" + name) != std::string::npos) {
+                    throw Error(fmt::format(
+                        "{}: expected nothing after it, got {}; {}=true or {}=false is taken",
+                        name,
+                        printable(value),
+                        first_name(row),
+                        first_name(row)));
+                }
+                if (!is_truth(value)) {
+                    throw Error(text_of_words(row, {value}));
                 }
             }
         }
@@ -251,15 +279,19 @@ private:
         }
     }
 
+    static std::string first_name(const Option& row) {
+        return row.name.substr(0, row.name.find(','));
+    }
+
     /// The option's words are too few or too many.
     static std::string text_of_words(const Option& row, const Words& got) {
-        std::string name = row.name.substr(0, row.name.find(','));
+        std::string name = first_name(row);
         if (!name.starts_with('-')) {
             std::ranges::transform(name, name.begin(), [](unsigned char c) {
                 return static_cast<char>(std::toupper(c));
             });
         }
-        const std::string form = row.takes == Takes::Nothing            ? "nothing after it"
+        const std::string form = row.takes == Takes::Nothing ? "nothing, =true or =false after it"
                                  : row.form.empty() || row.form == name ? "a word"
                                                                         : row.form;
         return fmt::format(

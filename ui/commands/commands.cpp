@@ -29,6 +29,7 @@ Program octant_program(std::vector<Command> of_windows) {
                   "  octant draw-order f15 --table\n"
                   "  octant refine bunny.ply --base 100 --save bunny.pm\n"
                   "  octant simplify bunny.ply small.obj --faces 1000\n"
+                  "A flag takes =true and =false, too: --scenery=false is --no-scenery.\n"
                   "Every option with its unit and default, and examples: octant COMMAND --help.\n"
                   "All of them: octant --help-all.",
         .commands = {

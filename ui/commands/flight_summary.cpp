@@ -9,7 +9,10 @@
 namespace octant::ui::commands {
 
 void print_summary(
-    const flight::FlightEnd& end, const std::optional<flight::ReplayVerdict>& verdict, bool json) {
+    const flight::FlightEnd& end,
+    const std::optional<flight::ReplayVerdict>& verdict,
+    bool json,
+    const base::Figures::Named& further) {
     if (json) {
         base::Figures object;
         for (const report::Figure& figure : report::figures()) {
@@ -25,6 +28,9 @@ void print_summary(
         if (verdict) {
             object["replay"] = {
                 {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
+        }
+        for (const auto& [name, figure] : further) {
+            object[name] = figure;
         }
         base::print_figures(object, true);
         return;

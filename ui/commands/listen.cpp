@@ -2,8 +2,8 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/interrupt.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/video_pipe.h"
@@ -14,12 +14,39 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace octant::ui::commands {
 
 namespace {
 
 constexpr double look_every_s = 0.0005; ///< in steps, for the next packet
+
+/// What came, for programs: every vehicle, and what its packets were.
+base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
+    base::Figures vehicles = base::Figures::list({});
+    for (const sim::links::VehicleReport& vehicle : traffic.vehicle_reports()) {
+        vehicles.push_back(
+            {{"protocol", std::string(sim::links::name_of(vehicle.protocol))},
+             {"name", vehicle.name},
+             {"marking", vehicle.marking},
+             {"from", sim::links::text_of(vehicle.source)},
+             {"packets", vehicle.packets},
+             {"latitude_deg", vehicle.latitude_deg},
+             {"longitude_deg", vehicle.longitude_deg},
+             {"altitude_m", vehicle.altitude_m},
+             {"shown", vehicle.is_shown}});
+    }
+    base::Figures packets = base::Figures::list({});
+    for (const sim::links::PacketReport& form : traffic.packet_reports()) {
+        packets.push_back(
+            {{"from", sim::links::text_of(form.source)},
+             {"what", form.text},
+             {"packets", form.packets},
+             {"refused", form.is_wrong}});
+    }
+    return {{"vehicles", std::move(vehicles)}, {"packets", std::move(packets)}};
+}
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
 class HeadlessRun {
@@ -39,12 +66,12 @@ public:
 
     flight::FlightEnd fly() {
         tell_notes();
-        const Interrupt interrupt;
         const double frame_s = 1.0 / options_.settings.time.rate_hz;
         began_s_ = listener_.now_s();
         double due_s = began_s_;
         const bool step = options_.listener.live.step;
-        for (int frame = 0; !interrupt.came() && !is_over(frame);) {
+        int frame = 0;
+        while (!base::StopSignals::came() && !is_over(frame)) {
             wait_until(step ? listener_.now_s() + look_every_s : due_s);
             const bool drawn = draw(due_s + frame_s);
             frame += drawn ? 1 : 0;
@@ -53,9 +80,17 @@ public:
                 break;
             }
         }
+        if (base::StopSignals::came()) {
+            base::say(
+                options_.quiet,
+                fmt::format(
+                    "note: ended by {} after {} pictures", base::StopSignals::name(), frame));
+        }
         listener_.finish();
         return recorder_.finish(session_);
     }
+
+    const sim::links::LiveTraffic& traffic() const { return listener_.live().traffic(); }
 
 private:
     bool is_over(int frame) const {
@@ -103,6 +138,8 @@ private:
     flight::Listener listener_;
     flight::Sender sender_;
     flight::Session session_;
+    /// From here on a signal ends the flight in order: the recorder makes files.
+    const base::StopSignals stop_signals_;
     flight::FlightRecorder recorder_;
     double began_s_ = 0.0;
 };
@@ -121,7 +158,18 @@ void listen_without_window(const ListenOptions& options) {
     for (const std::string& missing : end.missing) {
         base::say(false, missing);
     }
-    print_summary(end, std::nullopt, options.json);
+    for (const sim::links::PacketReport& form : run.traffic().packet_reports()) {
+        if (form.is_wrong) {
+            base::say(
+                options.quiet,
+                fmt::format(
+                    "note: {} packets from {}: {}",
+                    form.packets,
+                    sim::links::text_of(form.source),
+                    form.text));
+        }
+    }
+    print_summary(end, std::nullopt, options.json, figures_of(run.traffic()));
     if (!end.fault.empty()) {
         throw Error(end.fault);
     }

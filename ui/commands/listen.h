@@ -29,7 +29,7 @@ struct ListenOptions {
 std::vector<Option> listen_options(ListenOptions& options);
 
 /// Shows what comes without a window, until as many frames or seconds have passed as the settings
-/// say or Ctrl-C is pressed, and prints a summary. Throws Error.
+/// say or a stop signal comes, completes the recording and prints a summary. Throws Error.
 void listen_without_window(const ListenOptions& options);
 
 } // namespace octant::ui::commands

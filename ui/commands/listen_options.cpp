@@ -58,6 +58,20 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
              65535},
             input.dis_port),
         read_option(
+            {"xplane-port",
+             "PORT",
+             "UDP port for X-Plane's DATA (groups 3, 17, 18, 20 and 21) and RREF; -1 = closed "
+             "[49003; none with --channel]",
+             -1,
+             65535},
+            input.xplane_port),
+        text_option(
+            "--xplane",
+            "HOST[:PORT]",
+            "ask the X-Plane there for its motion, at port 49000 where none is given; its DATA "
+            "needs no asking",
+            input.xplane_host),
+        read_option(
             {"cigi-port",
              "PORT",
              "UDP port for hosts of CIGI 3.3, as their image generator; -1 = closed",
@@ -81,6 +95,7 @@ void take_from(const std::string& from, flight::LiveInputOptions& input) {
     input.fdm_port = -1;
     input.mavlink_port = -1;
     input.dis_port = -1;
+    input.xplane_port = -1;
     input.cigi_port = -1;
 }
 
@@ -196,7 +211,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
         table,
         {list_option(
              "--send",
-             "fdm|dis|cigi|tacview:HOST:PORT",
+             "fdm|dis|xplane|cigi|tacview:HOST:PORT",
              "send each picture's aircraft on to another program, as octant fly --send",
              Takes::OneWordAgain,
              options.send),

@@ -13,7 +13,7 @@ using Words = std::vector<std::string>;
 
 /// How many words follow an option.
 enum class Takes {
-    Nothing,        ///< a flag: it is read as "true", its negation as "false"
+    Nothing,        ///< a flag: it is read as "true", its negation and `=false` as "false"
     OneWord,        ///< and the option stands once
     PerhapsOneWord, ///< one word or none; none is read as an empty one
     OneWordAgain,   ///< one word each time that the option stands

@@ -2,11 +2,15 @@
 
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/flight/live_air.h"
 #include "ui/flight/packet_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <utility>
 
 namespace octant::ui::commands {
 
@@ -31,7 +35,7 @@ void check_shapes(
 
 } // namespace
 
-std::unique_ptr<flight::LiveFlight> fly_packets(
+FlownPackets fly_packets(
     const flight::Replay& replay,
     flight::Session& session,
     flight::FlightRecorder& recorder,
@@ -44,7 +48,8 @@ std::unique_ptr<flight::LiveFlight> fly_packets(
     session.follow(*live);
     session.simulation().start_log();
     base::Progress progress(session.world().flight.title, static_cast<int>(frames), quiet);
-    for (std::size_t frame = 0; frame < frames; ++frame) {
+    std::size_t frame = 0;
+    for (; frame < frames && !(base::StopSignals::came() && frame > 0); ++frame) {
         const flight::PacketFrame& of_frame = file.frames[frame];
         for (const sim::links::Datagram& packet : of_frame.packets) {
             live->take(packet);
@@ -62,7 +67,11 @@ std::unique_ptr<flight::LiveFlight> fly_packets(
         progress.show(static_cast<int>(frame) + 1, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
-    return live;
+    std::string stopped =
+        frame == frames
+            ? std::string()
+            : fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame, frames);
+    return {std::move(live), std::move(stopped)};
 }
 
 } // namespace octant::ui::commands

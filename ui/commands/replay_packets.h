@@ -6,12 +6,21 @@
 #include "ui/flight/session.h"
 
 #include <memory>
+#include <string>
 
 namespace octant::ui::commands {
 
+/// A live flight that was flown again.
+struct FlownPackets {
+    /// Must outlive the session's last use.
+    std::unique_ptr<flight::LiveFlight> live;
+    /// What ended it before its last picture, empty = nothing did.
+    std::string stopped;
+};
+
 /// Flies a recorded live flight again in a session of its settings: the same packets for the same
-/// pictures. What it gives must outlive the session's last use. Throws Error.
-std::unique_ptr<flight::LiveFlight> fly_packets(
+/// pictures, until a stop signal comes. Throws Error.
+FlownPackets fly_packets(
     const flight::Replay& replay,
     flight::Session& session,
     flight::FlightRecorder& recorder,

@@ -69,7 +69,7 @@ void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& op
              options.roughness_c),
          flag(
              "--geomorphs,!--no-geomorphs",
-             "vertices on their way as drawn in flight; else each at its own height [no]",
+             "vertices on their way as drawn in flight; else each at its own height [false]",
              options.geomorphs)});
 }
 

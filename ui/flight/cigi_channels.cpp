@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/links/cigi_host.h"
+#include "ui/base/stop_signals.h"
 #include "ui/flight/session_fix.h"
 
 #include <algorithm>
@@ -122,7 +123,8 @@ std::vector<std::string> CigiChannels::await_first(const std::function<void()>& 
         listen();
         return std::ranges::all_of(channels_, &Channel::answers);
     };
-    while (!channels_.empty() && !all_answer() && Clock::now() < end) {
+    while (!channels_.empty() && !all_answer() && Clock::now() < end &&
+           !base::StopSignals::came()) {
         meanwhile();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }

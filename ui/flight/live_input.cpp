@@ -1,9 +1,12 @@
 #include "ui/flight/live_input.h"
 
+#include "sim/base/error.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/mavlink.h"
+#include "sim/links/xplane.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,21 +18,33 @@ LiveInput::LiveInput(const LiveInputOptions& options)
     : bind_(options.bind) {
     const std::uint32_t address = links::address_from_text("--bind", options.bind);
     const auto usual = [&](std::uint16_t port) { return options.is_channel ? -1 : int{port}; };
-    const auto open = [&](links::Protocol protocol, const char* name, int port) {
+    const auto open = [&](links::Protocol protocol, int port) {
         if (port >= 0) {
-            ports_.push_back(
-                {protocol, name, links::UdpPort(address, static_cast<std::uint16_t>(port))});
+            ports_.push_back({protocol, links::UdpPort(address, static_cast<std::uint16_t>(port))});
         }
     };
-    open(links::Protocol::Fdm, "FlightGear FDM", options.fdm_port.value_or(usual(links::fdm_port)));
+    open(links::Protocol::Fdm, options.fdm_port.value_or(usual(links::fdm_port)));
+    open(links::Protocol::MavLink, options.mavlink_port.value_or(usual(links::mavlink_port)));
+    open(links::Protocol::Dis, options.dis_port.value_or(usual(links::dis_port)));
+    if (!options.xplane_host.empty()) {
+        const bool has_port = options.xplane_host.find(':') != std::string::npos;
+        xplane_ = Peer{
+            ports_.size(),
+            links::peer_from_text(
+                "--xplane",
+                has_port ? options.xplane_host
+                         : fmt::format("{}:{}", options.xplane_host, links::xplane_request_port))};
+        if (options.xplane_port.value_or(0) < 0) {
+            throw Error("--xplane: expected an open --xplane-port, got -1");
+        }
+    }
     open(
-        links::Protocol::MavLink,
-        "MAVLink",
-        options.mavlink_port.value_or(usual(links::mavlink_port)));
-    open(links::Protocol::Dis, "DIS", options.dis_port.value_or(usual(links::dis_port)));
+        links::Protocol::XPlane,
+        options.xplane_port.value_or(
+            xplane_ ? int{links::xplane_port} : usual(links::xplane_port)));
     if (options.cigi_port >= 0) {
-        cigi_ = Cigi{ports_.size(), links::peer_from_text("--cigi-host", options.cigi_host)};
-        open(links::Protocol::Cigi, "CIGI", options.cigi_port);
+        cigi_ = Peer{ports_.size(), links::peer_from_text("--cigi-host", options.cigi_host)};
+        open(links::Protocol::Cigi, options.cigi_port);
     }
     if (!options.only_from.empty()) {
         only_from_ = links::address_from_text("--from", options.only_from);
@@ -39,6 +54,35 @@ LiveInput::LiveInput(const LiveInputOptions& options)
     }
     if (options.standard_input) {
         standard_input_.emplace();
+    }
+}
+
+LiveInput::~LiveInput() {
+    if (asked_s_) {
+        ask_xplane(0);
+    }
+}
+
+void LiveInput::ask_xplane(int per_second) {
+    for (const std::vector<std::byte>& request : links::xplane_requests(per_second)) {
+        ports_[xplane_->port].socket.send(xplane_->host, request);
+    }
+}
+
+/// An X-Plane that is silent may have begun anew, and forgotten what it was asked for.
+void LiveInput::ask_silent_xplane() {
+    constexpr double patience_s = 2.0;
+    constexpr int per_second = 60;
+    const double now = now_s();
+    for (const links::Datagram& packet : packets_) {
+        if (packet.protocol == links::Protocol::XPlane &&
+            packet.source.address == xplane_->host.address) {
+            heard_s_ = packet.arrival_s;
+        }
+    }
+    if (!asked_s_ || now - std::max(*asked_s_, heard_s_) > patience_s) {
+        ask_xplane(per_second);
+        asked_s_ = now;
     }
 }
 
@@ -61,6 +105,9 @@ std::vector<links::Datagram>& LiveInput::drain() {
         return (only_from_ && packet.source.address != *only_from_) ||
                !limit_.admits(packet.source, packet.arrival_s);
     });
+    if (xplane_) {
+        ask_silent_xplane();
+    }
     if (standard_input_) {
         standard_input_->drain(now_s(), packets_);
     }
@@ -80,11 +127,14 @@ bool LiveInput::has_ended() const {
 std::vector<std::string> LiveInput::lines() const {
     std::vector<std::string> lines;
     for (const Port& port : ports_) {
-        lines.push_back(
-            fmt::format("{}: waits on UDP {}:{}", port.name, bind_, port.socket.port()));
+        lines.push_back(fmt::format(
+            "{}: waits on UDP {}:{}", name_of(port.protocol), bind_, port.socket.port()));
     }
     if (cigi_) {
         lines.back() += fmt::format(", answers to {}", links::text_of(cigi_->host));
+    }
+    if (xplane_) {
+        lines.push_back(fmt::format("X-Plane: asks {}", links::text_of(xplane_->host)));
     }
     if (line_server_) {
         lines.push_back(fmt::format("lines: waits on TCP {}:{}", bind_, line_server_->port()));

@@ -22,6 +22,9 @@ struct LiveInputOptions {
     std::optional<int> fdm_port;
     std::optional<int> mavlink_port;
     std::optional<int> dis_port;
+    std::optional<int> xplane_port;
+    /// The X-Plane that is asked for its motion, as "HOST" or "HOST:PORT"; empty = none is.
+    std::string xplane_host;
     bool is_channel = false;
     int lines_port = -1;
     int cigi_port = 8004;
@@ -37,6 +40,12 @@ class LiveInput {
 public:
     /// Opens the ports; the clock begins at 0. Throws Error where one is taken.
     explicit LiveInput(const LiveInputOptions& options);
+    /// Tells an X-Plane that was asked to send no more.
+    ~LiveInput();
+    LiveInput(const LiveInput&) = delete;
+    LiveInput& operator=(const LiveInput&) = delete;
+    LiveInput(LiveInput&&) = delete;
+    LiveInput& operator=(LiveInput&&) = delete;
 
     /// Seconds since the beginning, in whole microseconds.
     double now_s() const;
@@ -60,19 +69,25 @@ public:
 private:
     struct Port {
         sim::links::Protocol protocol;
-        std::string name;
         sim::links::UdpPort socket;
     };
 
     /// Of ports_, and to whom it sends.
-    struct Cigi {
+    struct Peer {
         std::size_t port = 0;
         sim::links::Source host;
     };
 
+    void ask_xplane(int per_second);
+    void ask_silent_xplane();
+
     std::string bind_;
     std::vector<Port> ports_;
-    std::optional<Cigi> cigi_;
+    std::optional<Peer> cigi_;
+    std::optional<Peer> xplane_;
+    /// When the X-Plane was last asked, and when it last sent anything.
+    std::optional<double> asked_s_;
+    double heard_s_ = 0.0;
     std::optional<sim::links::LineServer> line_server_;
     std::optional<sim::links::StandardInput> standard_input_;
     std::optional<std::uint32_t> only_from_;

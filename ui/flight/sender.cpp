@@ -5,6 +5,7 @@
 #include "sim/base/units.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
+#include "sim/links/xplane.h"
 #include "ui/flight/session_fix.h"
 
 #include <algorithm>
@@ -70,17 +71,18 @@ Sender::Sender(const std::vector<std::string>& targets) {
             channels_.add(target);
             continue;
         }
-        const auto form = text.starts_with("fdm:")   ? std::optional(Form::Fdm)
-                          : text.starts_with("dis:") ? std::optional(Form::Dis)
-                                                     : std::nullopt;
+        const auto form = text.starts_with("fdm:")      ? std::optional(Form::Fdm)
+                          : text.starts_with("xplane:") ? std::optional(Form::XPlane)
+                          : text.starts_with("dis:")    ? std::optional(Form::Dis)
+                                                        : std::nullopt;
         if (!form) {
             throw Error(fmt::format(
-                "--send: expected fdm:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT or tacview:PORT, "
-                "got '{}'",
+                "--send: expected fdm:HOST:PORT, xplane:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT "
+                "or tacview:PORT, got '{}'",
                 printable(target)));
         }
-        constexpr std::size_t prefix = 4;
-        targets_.push_back({*form, links::peer_from_text("--send", target.substr(prefix))});
+        const std::string peer = target.substr(target.find(':') + 1);
+        targets_.push_back({*form, links::peer_from_text("--send", peer)});
     }
     if (!targets_.empty()) {
         socket_.emplace_back(0, std::uint16_t{0}); // any address of ours, any port
@@ -89,6 +91,13 @@ Sender::Sender(const std::vector<std::string>& targets) {
 
 void Sender::send_fdm(const Target& target, const links::Fix& fix) {
     socket_.front().send(target.peer, links::encode_fdm(fix));
+}
+
+void Sender::send_xplane(const Target& target, const links::Fix& fix, double time_s) {
+    if (!origin_) {
+        origin_ = {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m};
+    }
+    socket_.front().send(target.peer, links::encode_xplane(fix, *origin_, time_s));
 }
 
 void Sender::send_dis(const Target& target, std::size_t number, links::Fix fix, double time_s) {
@@ -154,7 +163,7 @@ void Sender::send(const Session& session) {
     channels_.send(session);
     for (const Target& target : targets_) {
         const auto states = session.states();
-        const std::size_t count = target.form == Form::Fdm ? 1 : states.size();
+        const std::size_t count = target.form == Form::Dis ? states.size() : 1;
         for (std::size_t i = 0; i < count; ++i) {
             const std::optional<links::Fix> fix = flown_fix(session, i);
             if (!fix) {
@@ -162,6 +171,8 @@ void Sender::send(const Session& session) {
             }
             if (target.form == Form::Fdm) {
                 send_fdm(target, *fix);
+            } else if (target.form == Form::XPlane) {
+                send_xplane(target, *fix, states[i].time_s);
             } else {
                 send_dis(target, i, *fix, states[i].time_s);
             }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/links/earth.h"
 #include "sim/links/fix.h"
 #include "sim/links/tacview_server.h"
 #include "sim/links/udp_port.h"
@@ -7,19 +8,20 @@
 #include "ui/flight/session.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::ui::flight {
 
 /// Sends what pictures show to other programs: the first aircraft as FlightGear's native FDM
-/// (version 24), all of them as DIS entity states, as Tacview's real-time telemetry, or with the
-/// camera to image generators of CIGI.
+/// (version 24) or X-Plane's DATA, all of them as DIS entity states, as Tacview's real-time
+/// telemetry, or with the camera to image generators of CIGI.
 class Sender {
 public:
-    /// Targets as "fdm:HOST:PORT", "dis:HOST:PORT", as CigiChannels has them or, for readers to
-    /// come, "tacview:PORT" on 127.0.0.1 or "tacview:ADDRESS:PORT". Opens what is needed. Throws
-    /// Error.
+    /// Targets as "fdm:HOST:PORT", "xplane:HOST:PORT", "dis:HOST:PORT", as CigiChannels has them
+    /// or, for readers to come, "tacview:PORT" on 127.0.0.1 or "tacview:ADDRESS:PORT". Opens what
+    /// is needed. Throws Error.
     explicit Sender(const std::vector<std::string>& targets);
 
     /// Waits for the channels of CIGI as CigiChannels::await_first() does; readers of Tacview's
@@ -34,7 +36,7 @@ public:
     int await_pictures() { return channels_.await_pictures(); }
 
 private:
-    enum class Form { Fdm, Dis };
+    enum class Form { Fdm, XPlane, Dis };
 
     struct Target {
         Form form;
@@ -42,6 +44,7 @@ private:
     };
 
     void send_fdm(const Target& target, const sim::links::Fix& fix);
+    void send_xplane(const Target& target, const sim::links::Fix& fix, double time_s);
     void send_dis(const Target& target, std::size_t number, sim::links::Fix fix, double time_s);
 
     void tell_head(const Session& session);
@@ -51,6 +54,8 @@ private:
     std::vector<sim::links::TacviewServer> tacview_;
     CigiChannels channels_;
     bool head_told_ = false;
+    /// Of X-Plane's local axes: where the first aircraft was sent first.
+    std::optional<sim::links::Geodetic> origin_;
     /// One, where there is a target.
     std::vector<sim::links::UdpPort> socket_;
 };

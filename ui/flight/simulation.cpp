@@ -31,7 +31,8 @@ sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState
         .position_m = glm::mix(a.position_m, b.position_m, share),
         .velocity_mps = glm::mix(a.velocity_mps, b.velocity_mps, share),
         .body_to_world = glm::slerp(a.body_to_world, b.body_to_world, share),
-        .load_factor = glm::mix(a.load_factor, b.load_factor, share)};
+        .load_factor = glm::mix(a.load_factor, b.load_factor, share),
+        .speed_rate_mps2 = glm::mix(a.speed_rate_mps2, b.speed_rate_mps2, share)};
 }
 
 /// The highest ground below the next quarter of a minute of a straight flight.

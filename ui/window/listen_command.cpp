@@ -98,7 +98,10 @@ std::vector<commands::Option> options_of(ListenWork& work) {
             "FILE.mp4",
             "with --headless: write a video (needs ffmpeg)",
             listen.record.video),
-        flag("--json", "with --headless: summary as JSON", listen.json),
+        flag(
+            "--json",
+            "with --headless: summary as JSON, with every vehicle and what its packets were",
+            listen.json),
         flag("--full-screen", "fill the screen (F11)", work.view.full_screen),
         flag(
             "--vsync,!--no-vsync",
@@ -121,7 +124,8 @@ commands::Command listen_command() {
     return {
         .name = "listen",
         .summary =
-            "Shows what other programs fly: FlightGear FDM, CIGI, MAVLink, DIS, lines of numbers",
+            "Shows what other programs fly: FlightGear FDM, X-Plane, CIGI, MAVLink, DIS, lines of "
+            "numbers",
         .options = options_of(*work),
         .footer = "Examples:\n"
                   "  octant listen\n"
@@ -133,6 +137,8 @@ commands::Command listen_command() {
                   "protocol=\"UDP\" rate=\"60\"/>\n"
                   "ArduPilot: sim_vehicle.py -v ArduPlane\n"
                   "FlightGear: fgfs --native-fdm=socket,out,60,127.0.0.1,5550,udp\n"
+                  "X-Plane: data output by UDP of groups 3, 17, 18, 20 and 21 to port 49003; or "
+                  "octant listen --xplane HOST\n"
                   "Ctrl-C ends it; a recording is then completed.",
         .run = [work] { listen(*work); }};
 }

@@ -135,7 +135,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             work.bench),
         list_option(
             "--send",
-            "fdm|dis|cigi|tacview:HOST:PORT",
+            "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as octant fly --send",
             Takes::OneWordAgain,
             view.send),

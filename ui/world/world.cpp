@@ -1,5 +1,6 @@
 #include "ui/world/world.h"
 
+#include "flightpaths/limits_check.h"
 #include "flightpaths/placement.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
@@ -81,6 +82,36 @@ void check_wingmen(const World& world) {
                 "wingman {}: {}; fewer --aircraft, another --place or another --heading may do",
                 number,
                 fault.what()));
+        }
+    }
+}
+
+/// Tells of aircraft of known types that fly what their types cannot: in formation the motion of
+/// another one, or what somebody else flew.
+void note_limits(const std::vector<std::string>& shapes, World& world) {
+    const bool has_script = !world.flight.legs.empty();
+    std::vector<std::string> in_formation_before;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const sim::AircraftKind* const kind = sim::find_aircraft_kind(shapes[i]);
+        const auto own = world.flight.others.find(i);
+        const bool in_formation = i > 0 && own == world.flight.others.end();
+        if (kind == nullptr || (in_formation && std::ranges::find(in_formation_before, shapes[i]) !=
+                                                    in_formation_before.end())) {
+            continue;
+        }
+        if (in_formation) {
+            in_formation_before.push_back(shapes[i]);
+        }
+        const std::string beyond = flightpaths::beyond_limits(
+            kind->limits,
+            own == world.flight.others.end() ? world.flight.trajectory : own->second,
+            in_formation && has_script);
+        if (!beyond.empty()) {
+            world.notes.push_back(fmt::format(
+                "{}{} is flown beyond its limits: {}",
+                kind->name,
+                in_formation ? " in formation" : "",
+                beyond));
         }
     }
 }
@@ -267,6 +298,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
         world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
         check_wingmen(world);
+        note_limits(inputs.shapes, world);
     }
     world.leader_kind = sim::find_aircraft_kind(settings::shape_of(settings.path.aircraft.front()));
     world.terrain = std::move(ground.inputs);

@@ -12,7 +12,7 @@ namespace octant::visuals::ordercache {
 
 /// Raised whenever draworder::ordered() gives any model another result, or a file another layout:
 /// what was kept before is then computed anew.
-inline constexpr std::uint32_t order_version = 8;
+inline constexpr std::uint32_t order_version = 9;
 
 /// An ordered model, and how it was come by.
 struct CachedOrder {

@@ -1,6 +1,7 @@
 #include "visuals/planning/aircraft_effects.h"
 
 #include "sim/base/units.h"
+#include "sim/flight_models.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -169,16 +170,12 @@ bool is_of_nozzle(const std::string& name) {
 
 } // namespace
 
-EffectStrength strength_of(const sim::AircraftState& state) {
+EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state) {
+    constexpr double full_flame = 0.1; // of the reheat: its first stage is seen as well as its last
     EffectStrength strength;
-    const double speed_mps = glm::length(state.velocity_mps);
-    const double climb = speed_mps > 1.0 ? state.velocity_mps.z / speed_mps : 0.0;
-    const double load = std::abs(state.load_factor);
-    // Drag under load grows with its square; both are shares of the weight.
-    const double wanted = climb + 0.012 * (load * load - 1.0);
     strength.exhaust = 1.0;
-    strength.burner = glm::smoothstep(0.15, 0.35, wanted);
-    strength.vapour = glm::smoothstep(3.0, 5.5, load);
+    strength.burner = glm::smoothstep(0.0, full_flame, sim::reheat_share(kind, state));
+    strength.vapour = glm::smoothstep(3.0, 5.5, std::abs(state.load_factor));
     return strength;
 }
 

@@ -3,6 +3,7 @@
 #include "models/colour_vertex.h"
 #include "models/no_index.h"
 #include "models/polygons/polygon_model.h"
+#include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
 #include "visuals/planning/aircraft_hull.h"
 #include "visuals/planning/turned_part.h"
@@ -21,13 +22,15 @@ namespace octant::visuals::planning {
 struct EffectStrength {
     /// Hot air behind the nozzles.
     double exhaust = 0.0;
-    /// Afterburners: climb and load ask for more thrust than there is without them.
+    /// Afterburners: the motion needs more thrust than there is without them
+    /// (sim::reheat_share).
     double burner = 0.0;
     /// Vapour at the wingtips, under load.
     double vapour = 0.0;
 };
 
-EffectStrength strength_of(const sim::AircraftState& state);
+/// `kind`: the row of the aircraft; null for one of which only the shape is known.
+EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state);
 
 /// What is seen through around an aircraft: discs of quick rotors and propellers, plumes behind
 /// nozzles, vapour behind wingtips. Each lies on one side of a plane that has all the rest of the

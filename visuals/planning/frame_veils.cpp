@@ -1,5 +1,7 @@
 #include "visuals/planning/frame_veils.h"
 
+#include "sim/aircraft_kind.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -66,13 +68,16 @@ void FrameVeils::add_effects(
         const double away_m = glm::length(hull.centre_m);
         const bool is_seen =
             radius_m(hull) > least_px * view.pixel_rad * away_m && in_view(hull, view);
-        effect_ranges_[i] = is_seen ? effects_[i].add(
-                                          fleet.placed()[i].parts[0],
-                                          strength_of(aircraft.states[i]),
-                                          aircraft.turned,
-                                          static_cast<std::uint32_t>(i),
-                                          veils_)
-                                    : AircraftEffects::Ranges();
+        effect_ranges_[i] = is_seen
+                                ? effects_[i].add(
+                                      fleet.placed()[i].parts[0],
+                                      strength_of(
+                                          sim::find_aircraft_kind(scene_.model_of(i).polygons.name),
+                                          aircraft.states[i]),
+                                      aircraft.turned,
+                                      static_cast<std::uint32_t>(i),
+                                      veils_)
+                                : AircraftEffects::Ranges();
     }
 }
 

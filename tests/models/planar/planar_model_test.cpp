@@ -2,6 +2,7 @@
 #include "models/planar/decimal_grid.h"
 #include "models/planar/planar_model.h"
 #include "models/planar/planarize.h"
+#include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_check.h"
 #include "sim/base/dice.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 using namespace octant::models::planar;
@@ -212,6 +214,27 @@ TEST_CASE("a polygon with a slight dent is cut into convex pieces") {
     CHECK(planar.cut_polygons == 1);
     for (std::size_t i = 0; i < planar.model.polygons.size(); ++i) {
         CHECK_FALSE(octant::models::polygons::polygon_fault(planar.model, i, planar_tolerance));
+    }
+}
+
+TEST_CASE("a polygon that only rounding dents is cut, but not counted") {
+    PolygonModel model = plate();
+    // 11 nm are more than planar_tolerance and less than what files with six decimals keep.
+    model.vertices_m.insert(model.vertices_m.end(), {{0.2, 1.1e-8, 0}, {0.205, 0, 0}});
+    model.corner_vertices = {0, 4, 5, 1, 2, 3};
+    model.polygons[0].corner_count = 6;
+    const PlanarModel planar = planar_model(model);
+    CHECK(planar.model.polygons.size() > 1);
+    CHECK(planar.cut_polygons == 0);
+}
+
+TEST_CASE("no polygon of the shipped aircraft is bent or dented") {
+    for (const std::string name : {"f15", "500md", "f15-detailed", "500md-detailed"}) {
+        INFO(name);
+        const PlanarModel planar = planar_model(octant::models::polygons::read_obj(
+            std::string(OCTANT_SOURCE_DIR) + "/models/" + name + ".obj"));
+        CHECK(planar.cut_polygons == 0);
+        CHECK(planar.lost_polygons == 0);
     }
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("what is wrong with an FDM packet is said with numbers") {
     std::swap(swapped[0], swapped[3]);
     CHECK(
         fdm_text(decode_fdm(swapped, fix)) ==
-        "402653184: this is an FDM packet with its bytes the other way round");
+        "expected FDM version 24 or 25, got 402653184 in 408 bytes");
 
     auto old = packet();
     old[3] = std::byte{23};

@@ -1,5 +1,6 @@
 #include "sim/base/dice.h"
 #include "sim/base/text_file.h"
+#include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/line_input.h"
 #include "sim/links/live_traffic.h"
@@ -109,7 +110,7 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
     Dice dice(3);
     for (int i = 0; i < 20000; ++i) {
         Datagram packet;
-        packet.protocol = static_cast<Protocol>(1 + i % 5);
+        packet.protocol = static_cast<Protocol>(1 + i % 6);
         packet.source = {static_cast<std::uint32_t>(i), 1};
         packet.arrival_s = i * 1e-4;
         packet.bytes.resize(static_cast<std::size_t>(dice.between(0.0, 600.0)));
@@ -121,6 +122,40 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
     CHECK(traffic.vehicles().empty());
     CHECK(traffic.counts().accepted == 0);
     CHECK(traffic.take_news().size() <= 50);
+}
+
+TEST_CASE(
+    "DIS entities are named site:application:entity with their marking, all of ten thousand") {
+    LiveTraffic traffic(flat);
+    constexpr int count = 10000;
+    for (int round = 0; round < 2; ++round) {
+        for (int i = 0; i < count; ++i) {
+            DisEntity entity;
+            entity.site = static_cast<std::uint16_t>(1 + i / 5000);
+            entity.application = 20;
+            entity.entity = static_cast<std::uint16_t>(i);
+            const std::string marking = "UNIT" + std::to_string(i);
+            std::ranges::copy(marking, entity.marking.begin());
+            entity.fix.latitude_deg = 47.0;
+            entity.fix.altitude_m = 100.0;
+            const auto bytes = encode_dis(entity, round);
+            traffic.take({Protocol::Dis, {1, 3000}, 1.0 * round, {bytes.begin(), bytes.end()}});
+        }
+    }
+    const std::vector<VehicleReport> reports = traffic.vehicle_reports();
+    REQUIRE(reports.size() == count);
+    CHECK(reports[0].name == "1:20:0");
+    CHECK(reports[0].marking == "UNIT0");
+    CHECK(reports[9999].name == "2:20:9999");
+    CHECK(reports[9999].marking == "UNIT9999");
+    CHECK(reports[9999].packets == 2);
+    CHECK(reports[9999].latitude_deg == Approx(47.0));
+    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
+    const std::vector<std::string> lines = traffic.lines();
+    CHECK(std::ranges::any_of(lines, [](const std::string& told) {
+        return told.find("1:20:0 UNIT0") != std::string::npos;
+    }));
+    CHECK(lines.back().starts_with("10000 vehicles in all, 256 are followed"));
 }
 
 TEST_CASE("streams that come and go do not push out one that stays") {

@@ -50,6 +50,8 @@ ProgramRun generate_for(
         "-1",
         "--dis-port",
         "-1",
+        "--xplane-port",
+        "-1",
         "--cigi-port",
         std::to_string(host.generator()),
         "--cigi-host",

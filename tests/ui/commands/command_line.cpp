@@ -34,9 +34,20 @@ pid_t start(
         &files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_addopen(
         &files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    // Shells let programs in the background ignore SIGINT.
+    sigset_t usual{};
+    sigemptyset(&usual);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        sigaddset(&usual, number);
+    }
+    posix_spawnattr_t attributes{};
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
     const int fault =
-        posix_spawn(&child, OCTANT_PROGRAM, &files, nullptr, pointers.data(), environ);
+        posix_spawn(&child, OCTANT_PROGRAM, &files, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     if (fault != 0) {
         throw std::runtime_error("the program cannot be started");
@@ -52,24 +63,36 @@ int wait_for(pid_t child) {
 
 } // namespace
 
-ProgramRun run_octant(const std::vector<std::string>& arguments) {
+namespace {
+
+/// Runs it; `meanwhile` gets its process.
+template <class Meanwhile>
+ProgramRun run_meanwhile(const std::vector<std::string>& arguments, Meanwhile meanwhile) {
     const std::string out = (scratch_folder() / "stdout").string();
     const std::string err = (scratch_folder() / "stderr").string();
     ProgramRun run;
-    run.exit_code = wait_for(start(arguments, out, err));
+    const pid_t child = start(arguments, out, err);
+    meanwhile(child);
+    run.exit_code = wait_for(child);
     run.out = read_file(out);
     run.err = read_file(err);
     return run;
 }
 
-int run_octant_and_signal(
+} // namespace
+
+ProgramRun run_octant(const std::vector<std::string>& arguments) {
+    return run_meanwhile(arguments, [](pid_t) {});
+}
+
+ProgramRun run_octant_and_signal(
     const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal) {
-    const pid_t child = start(arguments, "/dev/null", "/dev/null");
-    for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    kill(child, signal);
-    return wait_for(child);
+    return run_meanwhile(arguments, [&](pid_t child) {
+        for (int tenth = 0; tenth < 1200 && !std::filesystem::exists(file); ++tenth) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        kill(child, signal);
+    });
 }
 
 int lines_in(const std::string& text) {

@@ -16,9 +16,8 @@ struct ProgramRun {
 /// Runs the octant program with these arguments (no shell) and waits.
 ProgramRun run_octant(const std::vector<std::string>& arguments);
 
-/// Starts it and sends it a signal once `file` is there, at the latest after two minutes; its exit
-/// code as ProgramRun has it.
-int run_octant_and_signal(
+/// Starts it and sends it a signal once `file` is there, at the latest after two minutes.
+ProgramRun run_octant_and_signal(
     const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal);
 
 /// Number of lines in a text.

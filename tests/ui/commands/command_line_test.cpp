@@ -83,17 +83,44 @@ TEST_CASE("what is wrong with a command line is said as what was expected and wh
     CHECK(refusal_of({"fly", "--region", "1", "2"}) == "--region: expected X Y RADIUS, got 1 2");
     CHECK(
         refusal_of({"fly", "--quiet=perhaps"}) ==
-        "--quiet: expected nothing after it, got perhaps");
-    for (const char* const value : {"3", "0", "1", "true", "false", "-1"}) {
+        "--quiet: expected nothing, =true or =false after it, got perhaps");
+    for (const char* const value : {"3", "0", "1", "on", "False", "-1"}) {
         CHECK(
             refusal_of({"fly", std::string("--quiet=") + value}) ==
-            std::string("--quiet: expected nothing after it, got ") + value);
+            std::string("--quiet: expected nothing, =true or =false after it, got ") + value);
     }
     CHECK(
         refusal_of({"fly", "--no-vsync=false"}) ==
-        "--no-vsync: expected nothing after it, got false");
+        "--no-vsync: expected nothing after it, got false; --vsync=true or --vsync=false is taken");
     CHECK(refusal_of({"terrain", "make"}) == "IN: expected FILE, got none");
     CHECK(refusal_of({"terrain", "make", "a.tif"}) == "--out: expected FILE, got none");
+}
+
+TEST_CASE("a flag is set and unset by its value as by its names") {
+    const auto value_after = [](bool before, const char* word) {
+        bool value = before;
+        const auto run = [] {};
+        const Program program{
+            .about = "small",
+            .version = "1",
+            .footer = {},
+            .commands = {
+                {.name = "fly",
+                 .summary = "flies",
+                 .options = {flag("--sky,!--no-sky", "sky", value), flag("--json", "", value)},
+                 .run = run}}};
+        const std::vector<const char*> arguments{"octant", "fly", word};
+        action_of(program, static_cast<int>(arguments.size()), arguments.data());
+        return value;
+    };
+    for (const bool before : {false, true}) {
+        CHECK(value_after(before, "--sky"));
+        CHECK(value_after(before, "--sky=true"));
+        CHECK_FALSE(value_after(before, "--sky=false"));
+        CHECK_FALSE(value_after(before, "--no-sky"));
+        CHECK(value_after(before, "--json=true"));
+        CHECK_FALSE(value_after(before, "--json=false"));
+    }
 }
 
 TEST_CASE("bytes of the command line that a terminal would obey are not handed on") {

@@ -10,6 +10,9 @@
 
 #include <csignal>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace octant;
 
@@ -45,6 +48,9 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
     return files;
 }
 
+const std::vector<std::pair<int, std::string>> stop_signals{
+    {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
+
 double last_time_in_track(const fs::path& folder) {
     const std::string text = read_file(folder / "track.csv");
     const auto lines = split_lines(text);
@@ -56,8 +62,8 @@ double last_time_in_track(const fs::path& folder) {
 TEST_CASE("a flight that was killed is reported, losing at most its last second") {
     const auto folder = tests::empty_folder("killed") / "out";
     CHECK(
-        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00100.png", SIGKILL) ==
-        128 + SIGKILL);
+        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00100.png", SIGKILL)
+            .exit_code == 128 + SIGKILL);
     const auto left = files_in(folder);
     const auto page = folder.parent_path() / "elsewhere.html";
     const tests::ProgramRun run =
@@ -127,22 +133,108 @@ TEST_CASE("a flight that ended and whose rows were cut off is reported with exit
 
 TEST_CASE("a signal ends a flight in order, and its recording can be flown again") {
     const auto made = tests::empty_folder("stopped");
-    const auto folder = made / "out";
-    CHECK(
-        tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00040.png", SIGTERM) ==
-        128 + SIGTERM);
-    const auto loaded = ui::report::load_recording(folder);
-    CHECK_FALSE(loaded.ended_early);
-    CHECK(loaded.disagreement.empty());
-    CHECK(loaded.run.stopped.starts_with("SIGTERM after "));
-    CHECK(loaded.flight.frames() >= 41);
-    CHECK(last_time_in_track(folder) <= loaded.flight.end_s() + 1e-6);
-    CHECK(fs::exists(folder / "report.html"));
-    CHECK_FALSE(fs::exists(folder / "recording.lock"));
+    auto folder = made / "none";
+    for (const auto& [number, name] : stop_signals) {
+        INFO(name);
+        folder = made / name;
+        const tests::ProgramRun run =
+            tests::run_octant_and_signal(slow_flight(folder), folder / "picture-00040.png", number);
+        INFO(run.err);
+        CHECK(run.exit_code == 128 + number);
+        CHECK(run.out.find("state hash") != std::string::npos);
+        const auto loaded = ui::report::load_recording(folder);
+        CHECK_FALSE(loaded.ended_early);
+        CHECK(loaded.disagreement.empty());
+        CHECK(loaded.run.stopped.starts_with(name + " after "));
+        CHECK(loaded.flight.frames() >= 41);
+        CHECK(last_time_in_track(folder) <= loaded.flight.end_s() + 1e-6);
+        CHECK(fs::exists(folder / "report.html"));
+        CHECK_FALSE(fs::exists(folder / "recording.lock"));
+    }
     const tests::ProgramRun again = tests::run_octant({"fly", "--replay", folder.string()});
     INFO(again.out << again.err);
     CHECK(again.exit_code == 0);
     CHECK(again.out.find("same states, same pictures") != std::string::npos);
+}
+
+TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, its exit code") {
+    const auto made = tests::empty_folder("listen-stopped");
+    for (const auto& [number, name] : stop_signals) {
+        INFO(name);
+        const auto folder = made / name;
+        const tests::ProgramRun run = tests::run_octant_and_signal(
+            {"listen",         "--headless",
+             "--size",         "64x48",
+             "--fdm-port",     "0",
+             "--dis-port",     "-1",
+             "--mavlink-port", "-1",
+             "--xplane-port",  "-1",
+             "--cigi-port",    "-1",
+             "--terrain",      tests::small_ground(),
+             "--seconds",      "60",
+             "--pictures",     "1",
+             "--record",       folder.string()},
+            folder / "picture-00020.png",
+            number);
+        INFO(run.err);
+        CHECK(run.exit_code == 128 + number);
+        CHECK(run.out.find("state hash") != std::string::npos);
+        CHECK(run.err.find("ended by " + name) != std::string::npos);
+        CHECK_FALSE(ui::report::load_recording(folder).ended_early);
+        CHECK(fs::exists(folder / "report.html"));
+        CHECK_FALSE(fs::exists(folder / "recording.lock"));
+    }
+}
+
+TEST_CASE("a signal ends a sweep in order, with what is flown so far") {
+    const auto made = tests::empty_folder("sweep-stopped");
+    write_file(
+        made / "long.toml",
+        "name = \"long\"\n[settings]\npath = \"straight\"\nterrain = \"none\"\nsize = \"48x32\"\n"
+        "realtime = true\nseconds = 60\n[vary]\nfov = [40, 50, 60]\n");
+    for (const auto& [number, name] : stop_signals) {
+        INFO(name);
+        const auto folder = made / name;
+        const tests::ProgramRun run = tests::run_octant_and_signal(
+            {"sweep", (made / "long.toml").string(), "--out", folder.string(), "--quiet"},
+            folder / "runs/40/picture-00000.png",
+            number);
+        INFO(run.out << run.err);
+        CHECK(run.exit_code == 128 + number);
+        CHECK(fs::exists(folder / "report.html"));
+        CHECK(fs::exists(folder / "runs/40/report.html"));
+        CHECK_FALSE(fs::exists(folder / "runs/40/recording.lock"));
+        CHECK_FALSE(fs::exists(folder / "runs/50"));
+    }
+}
+
+TEST_CASE("a signal ends a study of flights with its recording in order") {
+    const auto made = tests::empty_folder("study-stopped");
+    for (const auto& [number, name] : stop_signals) {
+        INFO(name);
+        const auto folder = made / name;
+        const tests::ProgramRun run = tests::run_octant_and_signal(
+            {"study", "flights", "--size", "64x48", "--out", folder.string(), "--quiet"},
+            folder / "f15-alone/picture-00000.png",
+            number);
+        INFO(run.err);
+        CHECK(run.exit_code == 128 + number);
+        CHECK(fs::exists(folder / "f15-alone/report.html"));
+        CHECK_FALSE(fs::exists(folder / "f15-alone/recording.lock"));
+        CHECK_FALSE(fs::exists(folder / "flights.md"));
+    }
+}
+
+TEST_CASE("a signal ends a command that records no flight at once, and leaves no tables") {
+    const auto made = tests::empty_folder("others-stopped");
+    for (const auto& [number, name] : stop_signals) {
+        INFO(name);
+        const auto folder = made / name;
+        const tests::ProgramRun run = tests::run_octant_and_signal(
+            {"study", "popping", "--terrain", "canyon", "--out", folder.string()}, folder, number);
+        CHECK(run.exit_code == 128 + number);
+        CHECK(files_in(folder).empty());
+    }
 }
 
 TEST_CASE("a flight does not record into a folder that another program records into") {

@@ -2,8 +2,11 @@
 #include "sim/base/units.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
+#include "sim/links/wire_bytes.h"
+#include "sim/links/xplane.h"
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
+#include "tests/ui/commands/json_schema.h"
 #include "ui/report/frame_csv.h"
 
 #include <catch2/catch.hpp>
@@ -13,6 +16,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -45,39 +50,50 @@ links::Fix fix_at(double time_s) {
     return fix;
 }
 
-/// Runs the program while somebody sends FDM packets to its port at about 60 Hz, and now and then a
-/// wrong one.
-tests::ProgramRun run_with_packets(std::vector<std::string> arguments) {
-    const std::uint16_t port = free_port();
-    arguments.insert(
-        arguments.end(),
-        {"--fdm-port",
-         std::to_string(port),
-         "--mavlink-port",
-         "-1",
-         "--dis-port",
-         "-1",
-         "--cigi-port",
-         "-1"});
+/// Runs the program with one port open, for packets of a protocol, and calls `send(i, seconds)`
+/// about 60 times a second meanwhile.
+tests::ProgramRun run_beside(
+    std::vector<std::string> arguments,
+    const std::string& open,
+    std::uint16_t port,
+    const std::function<void(int, double)>& send) {
+    for (const std::string each : {"fdm", "mavlink", "dis", "xplane", "cigi"}) {
+        arguments.push_back("--" + each + "-port");
+        arguments.push_back(each == open ? std::to_string(port) : "-1");
+    }
     std::atomic<bool> done = false;
     std::thread sender([&] {
-        links::UdpPort socket(loopback, 0);
         const auto begin = std::chrono::steady_clock::now();
         for (int i = 0; !done; ++i) {
             std::this_thread::sleep_until(begin + i * std::chrono::microseconds(16667));
             const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-            auto packet = links::encode_fdm(fix_at(passed.count()));
-            socket.send({loopback, port}, packet);
-            if (i % 30 == 0) {
-                std::swap(packet[0], packet[3]);
-                socket.send({loopback, port}, packet);
-            }
+            send(i, passed.count());
         }
     });
     const tests::ProgramRun run = run_octant(arguments);
     done = true;
     sender.join();
     return run;
+}
+
+/// Runs the program while somebody sends FDM packets to its port, and now and then a wrong one.
+tests::ProgramRun run_with_packets(const std::vector<std::string>& arguments) {
+    const std::uint16_t port = free_port();
+    links::UdpPort socket(loopback, 0);
+    return run_beside(arguments, "fdm", port, [&](int i, double passed_s) {
+        auto packet = links::encode_fdm(fix_at(passed_s));
+        socket.send({loopback, port}, packet);
+        if (i % 30 == 0) {
+            std::swap(packet[0], packet[3]);
+            socket.send({loopback, port}, packet);
+        }
+    });
+}
+
+/// The value of a name in printed JSON, from the first object that has it.
+std::string json_value(const std::string& text, const std::string& name) {
+    const std::size_t at = text.find('"' + name + "\":");
+    return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
 struct Sums {
@@ -116,7 +132,8 @@ TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is rep
     CHECK_THAT(run.err, Contains("waits on UDP 127.0.0.1:"));
     CHECK_THAT(run.err, Contains("FDM version 24 of 408 bytes: fine"));
     CHECK_THAT(
-        run.err, Contains("402653184: this is an FDM packet with its bytes the other way round"));
+        run.err,
+        Contains("this is FlightGear FDM in little-endian byte order, which is not supported"));
     CHECK_THAT(run.err, Contains("made ground, placed at the first position 47.0"));
 
     const auto rows = ui::report::read_frame_csv(folder / "flight" / "frames.csv").records;
@@ -154,7 +171,8 @@ TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
         "--send",
         "fdm:127.0.0.1:" + std::to_string(receiver.port())};
     std::vector<std::string> alone = arguments;
-    for (const std::string port : {"--fdm-port", "--mavlink-port", "--dis-port", "--cigi-port"}) {
+    for (const std::string port :
+         {"--fdm-port", "--mavlink-port", "--dis-port", "--xplane-port", "--cigi-port"}) {
         alone.insert(alone.end(), {port, port == "--fdm-port" ? "0" : "-1"});
     }
     REQUIRE(run_octant(alone).exit_code == 0);
@@ -170,6 +188,129 @@ TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
         REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::Fault::None);
         CHECK(fix.latitude_deg == Approx(47.0).margin(0.1));
         CHECK(fix.longitude_deg == Approx(8.0).margin(0.1));
+    }
+}
+
+TEST_CASE("octant listen reads X-Plane's DATA, and octant's own is read as that") {
+    const std::uint16_t port = free_port();
+    links::UdpPort socket(loopback, 0);
+    const sim::links::Geodetic origin{rad_from_deg(47.0), rad_from_deg(8.0), 0.0};
+    const tests::ProgramRun run = run_beside(
+        {"listen", "--headless", "--size", "64x36", "--seconds", "2", "--json"},
+        "xplane",
+        port,
+        [&](int, double passed_s) {
+            socket.send({loopback, port}, links::encode_xplane(fix_at(passed_s), origin, passed_s));
+        });
+    INFO(run.err << run.out);
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains("X-Plane: waits on UDP 127.0.0.1:"));
+    CHECK_THAT(run.err, Contains("X-Plane DATA: fine"));
+    CHECK(json_value(run.out, "protocol") == "\"protocol\": \"X-Plane\",");
+    CHECK_THAT(json_value(run.out, "latitude_deg"), Contains("47.0"));
+    CHECK(json_value(run.out, "shown") == "\"shown\": true");
+    const auto faults =
+        tests::schema_faults(run.out, fs::path(OCTANT_SOURCE_DIR) / "ui/schemas/fly.json");
+    CHECK(faults.empty());
+}
+
+TEST_CASE("octant listen asks an X-Plane for its motion, again when it is silent, and ends that") {
+    const std::uint16_t port = free_port();
+    links::UdpPort xplane(loopback, 0);
+    std::map<std::int32_t, std::string> asked;
+    int requests = 0;
+    std::vector<links::Datagram> packets;
+    const auto take = [&] {
+        packets.clear();
+        xplane.drain(links::Protocol::XPlane, 0.0, packets);
+        for (const links::Datagram& packet : packets) {
+            const links::WireReader reader(packet.bytes, links::ByteOrder::Little);
+            const auto number = reader.at<std::int32_t>(9);
+            ++requests;
+            if (reader.at<std::int32_t>(5) == 0) {
+                asked.erase(number);
+                continue;
+            }
+            std::string& name = asked[number];
+            name.clear();
+            for (std::size_t at = 13; reader.at<char>(at) != '\0'; ++at) {
+                name += reader.at<char>(at);
+            }
+        }
+    };
+    const std::map<std::string, float> world{
+        {"sim/flightmodel/position/latitude", 47.25F},
+        {"sim/flightmodel/position/longitude", 8.5F},
+        {"sim/flightmodel/position/elevation", 1500.0F}};
+    const tests::ProgramRun run = run_beside(
+        {"listen",
+         "--headless",
+         "--size",
+         "64x36",
+         "--seconds",
+         "5",
+         "--json",
+         "--xplane",
+         "127.0.0.1:" + std::to_string(xplane.port())},
+        "xplane",
+        port,
+        [&](int, double) {
+            take();
+            if (requests < 2 * 17) {
+                return; // An X-Plane that loads is silent, and is asked again.
+            }
+            links::WireWriter answer(links::ByteOrder::Little);
+            for (const char letter : std::string("RREF,")) {
+                answer.add(letter);
+            }
+            for (const auto& [number, name] : asked) {
+                const auto value = world.find(name);
+                answer.add(number);
+                answer.add(value == world.end() ? 0.0F : value->second);
+            }
+            xplane.send({loopback, port}, answer.bytes());
+        });
+    INFO(run.err << run.out);
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains("X-Plane RREF: fine"));
+    CHECK_THAT(json_value(run.out, "latitude_deg"), Contains("47.25"));
+    CHECK_THAT(json_value(run.out, "altitude_m"), Contains("1500"));
+    take();
+    CHECK(asked.empty());
+    CHECK(requests >= 3 * 17);
+}
+
+TEST_CASE("octant listen tells once and counts what it does not support") {
+    const std::uint16_t port = free_port();
+    links::UdpPort socket(loopback, 0);
+    // IG Control of CIGI 4.0: 24 bytes, packet id 0, major version 4, little-endian.
+    links::WireWriter cigi_4(links::ByteOrder::Little);
+    cigi_4.add(std::uint16_t{24});
+    cigi_4.add(std::uint16_t{0});
+    cigi_4.add(std::uint8_t{4});
+    cigi_4.add_zeros(19);
+    const std::vector<std::byte> xplane =
+        links::encode_xplane(fix_at(0.0), {rad_from_deg(47.0), 0.0, 0.0}, 0.0);
+    const tests::ProgramRun run = run_beside(
+        {"listen", "--headless", "--size", "64x36", "--seconds", "2"},
+        "cigi",
+        port,
+        [&](int, double) {
+            socket.send({loopback, port}, cigi_4.bytes());
+            socket.send({loopback, port}, xplane);
+        });
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    for (const std::string told :
+         {"this is a CIGI 4 host, which is not supported: set it to CIGI 3.3",
+          "this is X-Plane DATA or RREF; --xplane-port [49003] says where it is read"}) {
+        const std::size_t first = run.err.find(told);
+        REQUIRE(first != std::string::npos);
+        const std::size_t counted = run.err.find(told, first + 1);
+        REQUIRE(counted != std::string::npos);
+        CHECK(run.err.find(told, counted + 1) == std::string::npos);
+        const std::size_t line = run.err.rfind('\n', counted) + 1;
+        CHECK_THAT(run.err.substr(line, counted - line), Contains(" packets from 127.0.0.1:"));
     }
 }
 
@@ -196,6 +337,9 @@ TEST_CASE("octant listen refuses what it cannot do in one line") {
         {{"--channel", "up"}, "--channel: expected left, front or right, got 'up'"},
         {{"--cigi-host", "there"}, "--cigi-host: expected HOST:PORT, got 'there'"},
         {{"--send", "fdm:there"}, "--send: expected HOST:PORT, got 'there'"},
+        {{"--xplane", "127.0.0.1:x"}, "--xplane: expected HOST:PORT, got '127.0.0.1:x'"},
+        {{"--xplane", "127.0.0.1", "--xplane-port", "-1"},
+         "--xplane: expected an open --xplane-port, got -1"},
         {{"--delay", "-1"}, "--delay"}};
     const std::filesystem::path record = tests::scratch_folder() / "refused";
     for (const Case& wrong : cases) {

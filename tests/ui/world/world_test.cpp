@@ -99,6 +99,38 @@ TEST_CASE(
     CHECK(ui::world::formation_of(world.scene, world.flight).framed_radius_m(1.0) > 1.0);
 }
 
+TEST_CASE("an aircraft that flies beyond its limits in formation is told of, once") {
+    const auto told = [](std::vector<std::string> aircraft, const std::string& path) {
+        RunSettings settings = over("none");
+        settings.path.aircraft = std::move(aircraft);
+        settings.path.name = path;
+        std::vector<std::string> notes = ui::world::load_world(settings).notes;
+        std::erase_if(notes, [](const std::string& note) {
+            return note.find("beyond its limits") == std::string::npos;
+        });
+        return notes;
+    };
+    // 250 m/s are 486 kt; the 500MD's never-exceed speed is 152 kt.
+    CHECK(
+        told({"f15", "500md", "500md"}, "straight") ==
+        std::vector<std::string>{"500md in formation is flown beyond its limits: speed in kt up to "
+                                 "486 (at most 152)"});
+    // A turn of 4 g at a bank of 75.5 degrees, the 500MD's limits are 2 g and 60 degrees.
+    const std::vector<std::string> in_turn = told({"f15", "500md"}, "turn");
+    REQUIRE(in_turn.size() == 1);
+    CHECK_THAT(
+        in_turn.front(), Catch::Contains("load factor up to 3.99") && Catch::Contains("bank"));
+    // 60 m/s are 117 kt; the F-15's slowest is 80 m/s.
+    CHECK(
+        told({"500md", "f15"}, "straight") ==
+        std::vector<std::string>{"f15 in formation is flown beyond its limits: speed in kt down to "
+                                 "117 (at least 156)"});
+    for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
+        CHECK(told({"f15", "f15-detailed"}, path).empty());
+        CHECK(told({"500md", "500md-detailed"}, path).empty());
+    }
+}
+
 TEST_CASE("a file is no known aircraft because of its name, and says whose path it borrows") {
     const std::filesystem::path file = tests::scratch_folder() / "f15.obj";
     write_file(file, "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");

@@ -218,6 +218,6 @@ TEST_CASE("a builder that gives other orders has another version") {
     }
     add(by(Method::Tree, crossing_plates()));
     add(by(Method::Bsp, models::made::torus()));
-    CHECK(order_version == 8);
+    CHECK(order_version == 9);
     CHECK(hash.value() == 0x54515b483709eb34ULL);
 }

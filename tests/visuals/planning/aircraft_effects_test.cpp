@@ -108,17 +108,34 @@ TEST_CASE("a rotor has a disc only where a plane parts it from the rest") {
     CHECK(AircraftEffects(box_model({4.0, 0.8, 1.0})).empty());
 }
 
-TEST_CASE("thrust and load say how strong effects are") {
+TEST_CASE("afterburners follow thrust, vapour follows load") {
+    const sim::AircraftKind* const f15 = sim::find_aircraft_kind("f15");
     sim::AircraftState state = state_at({0.0, 0.0, 500.0});
     state.velocity_mps = {200.0, 0.0, 0.0};
     state.load_factor = 1.0;
-    CHECK(strength_of(state).burner == 0.0);
-    CHECK(strength_of(state).vapour == 0.0);
+    CHECK(strength_of(f15, state).burner == 0.0);
+    CHECK(strength_of(f15, state).vapour == 0.0);
+    // At 6.5 g and a constant speed the drag is far above the dry thrust of 0.6 x 195 kN ...
     state.load_factor = 6.5;
-    CHECK(strength_of(state).burner > 0.9);
-    CHECK(strength_of(state).vapour == 1.0);
-    state.load_factor = 1.0;
+    CHECK(strength_of(f15, state).burner > 0.9);
+    CHECK(strength_of(f15, state).vapour == 1.0);
+    // ... but not where the speed pays for it.
+    state.speed_rate_mps2 = -9.0;
+    CHECK(strength_of(f15, state).burner == 0.0);
+    // A climb of 45 degrees: 118 kN of weight and some 25 kN of drag at a constant speed; none
+    // where speed is lost as fast as gravity takes it.
+    state.load_factor = 0.7;
     state.velocity_mps = {150.0, 0.0, 150.0};
-    CHECK(strength_of(state).burner == 1.0);
-    CHECK(strength_of(state).vapour == 0.0);
+    state.speed_rate_mps2 = 0.0;
+    CHECK(strength_of(f15, state).burner > 0.3);
+    CHECK(strength_of(nullptr, state).burner > 0.3);
+    CHECK(strength_of(sim::find_aircraft_kind("500md"), state).burner == 0.0);
+    CHECK(strength_of(f15, state).vapour == 0.0);
+    state.speed_rate_mps2 = -7.0;
+    CHECK(strength_of(f15, state).burner == 0.0);
+    // A dive of 20 degrees that gains 10 m/s every second needs 113 kN beside 33 kN of drag.
+    state.load_factor = 0.94;
+    state.velocity_mps = {206.7, 0.0, -75.2};
+    state.speed_rate_mps2 = 10.0;
+    CHECK(strength_of(f15, state).burner > 0.9);
 }

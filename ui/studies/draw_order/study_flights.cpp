@@ -4,6 +4,7 @@
 #include "sim/base/worker_team.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/session.h"
 #include "ui/report/frame_times.h"
@@ -94,7 +95,12 @@ settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSu
     return settings;
 }
 
+/// Flies a row and records it. A stop signal ends the recording in order, and the row is measured
+/// in part or not at all.
 Measured measure(const PrintedTime& row, const StudyOptions& options) {
+    if (base::StopSignals::came()) {
+        return {};
+    }
     std::array<std::unique_ptr<flight::Session>, drawn_by.size()> sessions;
     for (std::size_t m = 0; m < drawn_by.size(); ++m) {
         sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, drawn_by[m]));
@@ -116,7 +122,8 @@ Measured measure(const PrintedTime& row, const StudyOptions& options) {
     std::array<std::vector<double>, drawn_by.size()> frame_ms;
     base::Progress progress(
         fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
-    for (int frame = 0; frame < measured.frames; ++frame) {
+    int frame = 0;
+    for (; frame < measured.frames && !(base::StopSignals::came() && frame > 0); ++frame) {
         report::FrameRecord octant_record;
         for (std::size_t turn = 0; turn < drawn_by.size(); ++turn) {
             const std::size_t m = (turn + static_cast<std::size_t>(frame)) % drawn_by.size();
@@ -138,6 +145,13 @@ Measured measure(const PrintedTime& row, const StudyOptions& options) {
         progress.show(frame + 1);
     }
     progress.finish();
+    if (frame < measured.frames) {
+        recorder.finish(
+            octant,
+            fmt::format(
+                "{} after {} of {} frames", base::StopSignals::name(), frame, measured.frames));
+        return measured;
+    }
     recorder.finish(octant);
     for (std::size_t m = 0; m < drawn_by.size(); ++m) {
         frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + frames_left_out);
@@ -299,9 +313,13 @@ void study_flights(const StudyOptions& options) {
     StudyOptions of_row = options;
     of_row.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
     std::vector<Measured> measured(printed_times.size());
+    const base::StopSignals stop_signals;
     share_out(printed_times.size(), options.jobs, [&](std::size_t row, std::size_t /*worker*/) {
         measured[row] = measure(printed_times[row], of_row);
     });
+    if (base::StopSignals::came()) {
+        throw base::StoppedBySignal();
+    }
     write_results(measured, options);
 }
 
