@@ -92,6 +92,7 @@ OCTANT_GDAL(OSRClone);
 OCTANT_GDAL(OSRExportToWkt);
 OCTANT_GDAL(OSRGetAttrValue);
 OCTANT_GDAL(OSRGetLinearUnits);
+OCTANT_GDAL(OSRGetName);
 OCTANT_GDAL(OSRGetTargetLinearUnits);
 OCTANT_GDAL(OSRImportFromProj4);
 OCTANT_GDAL(OSRIsGeographic);

@@ -36,6 +36,7 @@ HeightField field_from(const std::vector<path>& files, const ImportOptions& opti
     field.place = source.place();
     field.system = source.system();
     field.filled_voids = voids;
+    field.notes = source.notes();
     return field;
 }
 

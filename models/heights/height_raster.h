@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace octant::models::heights {
 
@@ -26,6 +27,7 @@ struct OpenRaster {
     bool from_east = false;         ///< its lines run westward
     bool from_south = false;        ///< its first line is the southernmost
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
+    std::vector<MapNote> notes;     ///< what a person should be told of the file
     std::optional<MapFromGrid> map; ///< nothing for a file without georeference
     SystemHandle system = nullptr;  ///< null when neither the file nor the options name one
     Reference given_system;         ///< of a file that names none; else the dataset owns `system`

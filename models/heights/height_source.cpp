@@ -1,5 +1,6 @@
 #include "models/heights/height_source.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/height_raster.h"
 #include "models/heights/plain_pgm.h"
 #include "models/heights/raster_file.h"
@@ -110,6 +111,7 @@ void HeightSource::Content::take_picture(int columns, int rows, double spacing) 
     lattice.columns = columns;
     lattice.rows = rows;
     lattice.is_source = true;
+    lattice.cell_m = {spacing, spacing};
     spacing_m = spacing;
 }
 
@@ -160,6 +162,47 @@ std::string HeightSource::name() const {
     const std::string first = content_->files.front().filename().string();
     const std::size_t more = content_->files.size() - 1;
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
+}
+
+std::string HeightSource::system_name() const {
+    const SystemHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
+    const char* const name = own == nullptr ? nullptr : OSRGetName(own);
+    return name == nullptr ? "" : printable(name);
+}
+
+glm::dvec2 HeightSource::cell_m() const {
+    return content_->lattice.cell_m;
+}
+
+std::vector<MapNote> HeightSource::notes() const {
+    std::vector<MapNote> notes;
+    for (const SourceGrid& grid : content_->grids) {
+        for (const SourcePiece& piece : grid.pieces()) {
+            notes.insert(notes.end(), piece.raster.notes.begin(), piece.raster.notes.end());
+        }
+    }
+    return notes;
+}
+
+std::int64_t HeightSource::count_voids() const {
+    std::int64_t voids = 0;
+    std::vector<float> row;
+    for (const SourceGrid& grid : content_->grids) {
+        for (const SourcePiece& piece : grid.pieces()) {
+            row.resize(static_cast<std::size_t>(piece.raster.columns));
+            for (int y = 0; y < piece.raster.rows; ++y) {
+                read_heights(
+                    piece.file,
+                    piece.raster,
+                    {0, piece.raster.columns, y, 1},
+                    row,
+                    *content_->gdal);
+                voids +=
+                    std::ranges::count_if(row, [](float height_m) { return std::isnan(height_m); });
+            }
+        }
+    }
+    return voids;
 }
 
 bool HeightSource::whole_metres() const {

@@ -285,6 +285,7 @@ TargetLattice lattice_in_own_frame(const path& file, std::vector<SourceGrid>& gr
     Finest finest = finest_of(grids);
     const MapFromGrid& map = *finest.grid->map();
     finest.sides = map.steps(); // to the last bit
+    lattice.cell_m = finest.sides * lattice.unit_m;
     const bool square = std::abs(finest.sides.x / finest.sides.y - 1.0) <= square_tolerance;
     lattice.is_source = grids.size() == 1 && map.is_upright() && square;
     lattice.step = lattice.is_source ? finest.sides.x : common_step(finest.sides);
@@ -320,7 +321,9 @@ TargetLattice lattice_about_middle(const path& file, std::vector<SourceGrid>& gr
             file,
             fmt::format("{:.0f} x {:.0f} km", 1e-3 * extent.size().x, 1e-3 * extent.size().y));
     }
-    const double side = finest_of(grids).side();
+    const Finest finest = finest_of(grids);
+    const double side = finest.side();
+    lattice.cell_m = finest.sides;
     const glm::dvec2 cells = extent.size() / side;
     lattice.step = 4.0 * cells.x * cells.y <= most_halved ? 0.5 * side : side;
     lay_samples(file, extent, lattice);

@@ -106,6 +106,9 @@ SceneGround ground_of_field(
     DrawnBy drawn_by,
     const RunwayFinder& find_runway) {
     std::vector<std::string> notes;
+    for (const models::heights::MapNote& note : field.notes) {
+        notes.push_back(note.text);
+    }
     std::shared_ptr<const RunwayStrip> runway;
     if (find_runway) {
         check_samples(field.columns(), field.rows());
