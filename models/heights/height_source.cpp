@@ -13,6 +13,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <utility>
 
 namespace octant::models::heights {
@@ -21,14 +22,32 @@ namespace {
 
 using std::filesystem::path;
 
-/// A plain PGM's heights in metres.
-HeightGrid plain_heights(const path& file, double height_scale) {
+/// A plain PGM's heights in metres; adds a note of voids that it does not declare.
+HeightGrid
+plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
     HeightGrid grid = read_plain_pgm(
         file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
+    const double unit_m = options.height_scale.value_or(1.0);
+    VoidSurvey survey(lowest_import_m, highest_import_m, 65536.0);
+    for (const float height : grid.heights_m) {
+        survey.add(static_cast<double>(height), static_cast<double>(height) * unit_m);
+    }
+    UndeclaredVoids voids = survey.result();
+    if (options.void_value) {
+        voids = {};
+        voids.values.push_back(*options.void_value);
+    }
     for (float& height : grid.heights_m) {
-        const double height_m = static_cast<double>(height) * height_scale;
-        check_height(file, height_m);
-        height = static_cast<float>(height_m);
+        const double raw = static_cast<double>(height);
+        if (voids.has(raw)) {
+            height = std::numeric_limits<float>::quiet_NaN();
+        } else {
+            check_height(file, raw * unit_m, raw, false);
+            height = static_cast<float>(raw * unit_m);
+        }
+    }
+    if (!voids.note.empty()) {
+        notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)});
     }
     return grid;
 }
@@ -57,6 +76,7 @@ struct HeightSource::Content {
     std::unique_ptr<GdalSession> gdal;
     std::vector<SourceGrid> grids;
     std::optional<HeightGrid> whole; ///< a plain PGM
+    std::vector<MapNote> whole_notes;
     TargetLattice lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
@@ -77,7 +97,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
         if (files.size() > 1) {
             error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
-        whole = plain_heights(file, options.height_scale.value_or(1.0));
+        whole = plain_heights(file, options, whole_notes);
         take_picture(whole->columns, whole->rows, options.spacing_m);
         return;
     }
@@ -175,10 +195,16 @@ glm::dvec2 HeightSource::cell_m() const {
 }
 
 std::vector<MapNote> HeightSource::notes() const {
-    std::vector<MapNote> notes;
+    std::vector<MapNote> notes = content_->whole_notes;
     for (const SourceGrid& grid : content_->grids) {
         for (const SourcePiece& piece : grid.pieces()) {
-            notes.insert(notes.end(), piece.raster.notes.begin(), piece.raster.notes.end());
+            const std::vector<MapNote> own = notes_of(piece.file, piece.raster);
+            notes.insert(notes.end(), own.begin(), own.end());
+        }
+    }
+    if (content_->gdal) {
+        for (const std::string& warning : content_->gdal->warnings()) {
+            notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
         }
     }
     return notes;
@@ -186,6 +212,10 @@ std::vector<MapNote> HeightSource::notes() const {
 
 std::int64_t HeightSource::count_voids() const {
     std::int64_t voids = 0;
+    if (content_->whole) {
+        return std::ranges::count_if(
+            content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
+    }
     std::vector<float> row;
     for (const SourceGrid& grid : content_->grids) {
         for (const SourcePiece& piece : grid.pieces()) {

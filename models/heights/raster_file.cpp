@@ -2,6 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/web_tiles.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -77,6 +78,9 @@ void check_sources(const path& file, GDALDatasetH dataset) {
 }
 
 Dataset open_named(const std::string& name) {
+    if (Dataset heightmap = open_cesium_heightmap(name)) {
+        return heightmap;
+    }
     return Dataset(GDALOpenEx(name.c_str(), open_flags, nullptr, nullptr, nullptr));
 }
 

@@ -138,7 +138,6 @@ bool has_length_unit(SystemHandle system) {
 }
 
 void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
-    constexpr double coarsest_degrees = 0.02;
     for (const SourceGrid& grid : grids) {
         const path& own = grid.pieces().front().file;
         const SystemHandle system = grid.system();
@@ -149,17 +148,6 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
                     "expected a coordinate system, as {} has, got none: --terrain-system says "
                     "which",
                     file.filename().string()));
-        }
-        const MapFromGrid& map = *grid.map();
-        const bool like_degrees = std::abs(map.x0) <= 360.0 && std::abs(map.y0) <= 90.0 &&
-                                  map.steps().x < coarsest_degrees;
-        if (system == nullptr && like_degrees) {
-            error_in(
-                own,
-                fmt::format(
-                    "expected a coordinate system, got none and cells of {:g}, which look like "
-                    "degrees: --terrain-system EPSG:4326 says that they are",
-                    map.steps().x));
         }
         if (!has_length_unit(system) && OSRIsGeographic(system) == 0) {
             error_in(own, "expected a map projection or degrees, got another coordinate system");
