@@ -227,30 +227,6 @@ std::string bands_text(GDALDatasetH dataset) {
     return fmt::format("{}{}", fmt::join(texts, ", "), count > max_named ? ", ..." : "");
 }
 
-/// Whether a band's name says that it holds heights of the ground.
-bool is_name_of_heights(std::string_view name) {
-    constexpr std::array<std::string_view, 15> heights = {
-        "elevation",
-        "elevations",
-        "elev",
-        "dem",
-        "dtm",
-        "dsm",
-        "height",
-        "heights",
-        "altitude",
-        "alt",
-        "topography",
-        "topo",
-        "orography",
-        "terrain",
-        "bathymetry"};
-    const std::vector<std::string> words = words_of(name);
-    return std::ranges::any_of(words, [&](const std::string& word) {
-        return std::ranges::find(heights, word) != heights.end();
-    });
-}
-
 /// The band that an option names by its number or its name.
 int band_named(const path& file, GDALDatasetH dataset, const std::string& wanted) {
     const int count = GDALGetRasterCount(dataset);
@@ -363,6 +339,30 @@ void take_band(
 }
 
 } // namespace
+
+bool is_name_of_heights(std::string_view name) {
+    constexpr std::array<std::string_view, 16> heights = {
+        "elevation",
+        "elevations",
+        "elev",
+        "dem",
+        "dtm",
+        "dsm",
+        "height",
+        "heights",
+        "altitude",
+        "alt",
+        "topography",
+        "topo",
+        "orography",
+        "terrain",
+        "bathymetry",
+        "hgt"};
+    const std::vector<std::string> words = words_of(name);
+    return std::ranges::any_of(words, [&](const std::string& word) {
+        return std::ranges::find(heights, word) != heights.end();
+    });
+}
 
 std::optional<double> declared_no_data(void* band) {
     int declared = 0;

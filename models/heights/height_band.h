@@ -28,6 +28,9 @@ struct HeightBand {
     std::vector<MapNote> notes;
 };
 
+/// Whether a band's name says that it holds heights of the ground.
+bool is_name_of_heights(std::string_view name);
+
 /// The raw number that a GDALRasterBandH declares for no data.
 std::optional<double> declared_no_data(void* band);
 

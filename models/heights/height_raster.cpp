@@ -411,8 +411,9 @@ void check_height(const path& file, double height_m, double raw, bool names_unit
 
 OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     OpenRaster raster;
-    raster.datasets.push_back(open_raster_file(file, gdal));
-    HeightBand band = height_band_of(file, raster.datasets.back().get(), options);
+    ImportOptions own = options;
+    raster.datasets.push_back(open_raster_file(file, gdal, own.band, raster.notes));
+    HeightBand band = height_band_of(file, raster.datasets.back().get(), own);
     if (band.decoded) {
         raster.datasets.push_back(std::move(band.decoded));
     }
@@ -423,7 +424,7 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     raster.scale_m = band.scale_m;
     raster.offset_m = band.offset_m;
     raster.names_unit = band.names_unit;
-    raster.notes = std::move(band.notes);
+    raster.notes.insert(raster.notes.end(), band.notes.begin(), band.notes.end());
     if (Dataset grid =
             grid_by_control_points(file, raster.datasets.back().get(), band.number, gdal)) {
         raster.datasets.push_back(std::move(grid));

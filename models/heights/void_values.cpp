@@ -12,6 +12,15 @@ namespace {
 /// Distinct numbers that no ground has as a height and that count as voids at most.
 constexpr std::size_t max_absurd = 3;
 
+/// Whether a number is one that a person writes: a whole one of up to ten digits or a power of ten.
+/// Damaged samples are hardly ever.
+bool is_written(double raw) {
+    const double size = std::abs(raw);
+    return (size < 1e10 && size == std::floor(size)) ||
+           static_cast<float>(size) ==
+               static_cast<float>(std::pow(10.0, std::round(std::log10(size))));
+}
+
 std::string samples_text(std::int64_t samples) {
     return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s");
 }
@@ -101,7 +110,7 @@ UndeclaredVoids VoidSurvey::result() const {
         absurd_.size() <= 1 || (absurd_.size() <= max_absurd && absurd < ordinary_);
     if (has_heights && are_few) {
         for (const Mark& mark : absurd_) {
-            if (distance_m(mark.height_m) > far_m) {
+            if (distance_m(mark.height_m) > far_m && is_written(mark.raw)) {
                 take(mark);
             }
         }
