@@ -120,28 +120,28 @@ std::string singular(std::string word) {
     return word == "inche" ? "inch" : word;
 }
 
-/// Whether a word behind a unit says from where heights are counted.
-bool begins_reference(std::string_view word) {
-    constexpr std::array<std::string_view, 18> words = {
-        "above",
-        "asl",
-        "amsl",
-        "msl",
-        "agl",
-        "over",
-        "navd",
-        "navd88",
-        "ngvd",
-        "ngvd29",
-        "egm96",
-        "egm2008",
-        "egm08",
-        "evrf",
-        "nap",
-        "nn",
-        "nhn",
-        "wgs84"};
-    return std::ranges::find(words, word) != words.end();
+/// Whether a word behind the name of a length makes another quantity of it, such as metres a
+/// second.
+bool makes_no_length(std::string_view word) {
+    constexpr std::array<std::string_view, 17> words = {
+        "s",
+        "sec",
+        "second",
+        "seconds",
+        "per",
+        "h",
+        "hr",
+        "hour",
+        "day",
+        "days",
+        "d",
+        "yr",
+        "year",
+        "a",
+        "kg",
+        "square",
+        "squared"};
+    return is_digit(word.front()) || std::ranges::find(words, word) != words.end();
 }
 
 /// The unit of heights that a coordinate system names, in metres.
@@ -384,7 +384,7 @@ std::optional<double> metres_from_unit(std::string_view unit) {
     const std::vector<std::string> words = words_of(unit);
     constexpr std::size_t longest = 3;
     for (std::size_t used = std::min(longest, words.size()); used > 0; --used) {
-        if (used < words.size() && !begins_reference(words[used])) {
+        if (used < words.size() && makes_no_length(words[used])) {
             continue;
         }
         std::string as_written;

@@ -11,8 +11,8 @@
 
 namespace octant::models::heights {
 
-/// Metres of a unit by its meaning: case, plurals, punctuation and a reference surface behind it
-/// ("m above mean sea level") do not matter. Nothing for what is no known length.
+/// Metres of a unit by its meaning: case, plurals, punctuation and words behind it ("m above mean
+/// sea level") do not matter. Nothing for what is no known length.
 std::optional<double> metres_from_unit(std::string_view unit);
 
 /// The band of a raster that holds heights, and what its raw numbers mean.

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -162,16 +163,9 @@ void read_raw_line(
     }
 }
 
-/// 2^bits of unsigned numbers of 16 or more bits, else 0.
+/// 2^bits of the unsigned numbers that a band holds or may have been made of.
 double modulus_of(GDALRasterBandH band) {
-    switch (GDALGetRasterDataType(band)) {
-    case GDT_UInt16:
-        return 65536.0;
-    case GDT_UInt32:
-        return 4294967296.0;
-    default:
-        return 0.0;
-    }
+    return GDALGetRasterDataType(band) == GDT_UInt32 ? 4294967296.0 : 65536.0;
 }
 
 const UndeclaredVoids&
@@ -321,12 +315,11 @@ bool has_unnamed_datum(SystemHandle system) {
     return is_open && radius_m > 6.3e6 && radius_m < 6.4e6;
 }
 
-/// Whether a local system, without a place on the earth, counts in degrees.
-bool is_local_in_degrees(SystemHandle system) {
-    char* name = nullptr; // the system's own
-    OSRGetLinearUnits(system, &name);
-    return OSRIsLocal(system) != 0 && name != nullptr &&
-           std::string_view(name).substr(0, 6) == "degree";
+/// Whether a system that should count lengths, a local one or a projection, counts degrees.
+bool has_degrees_for_lengths(SystemHandle system) {
+    constexpr double degree = std::numbers::pi / 180.0; // no unit of length is so many metres
+    return (OSRIsLocal(system) != 0 || OSRIsProjected(system) != 0) &&
+           std::abs(OSRGetLinearUnits(system, nullptr) - degree) < 1e-9;
 }
 
 /// The coordinate system of a raster that has a map. Null where lengths are metres.
@@ -342,7 +335,7 @@ Reference system_of_raster(
     if (options.system) {
         note(file, raster, "names its own coordinate system, which counts, not --terrain-system");
     }
-    if (is_local_in_degrees(own) || (OSRIsGeographic(own) != 0 && has_unnamed_datum(own))) {
+    if (has_degrees_for_lengths(own) || (OSRIsGeographic(own) != 0 && has_unnamed_datum(own))) {
         note(file, raster, "degrees on a datum that is not named are taken as WGS 84");
         return wgs84_system();
     }

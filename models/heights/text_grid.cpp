@@ -192,12 +192,18 @@ public:
     }
 
 private:
+    static bool is_key(std::string_view word) {
+        constexpr std::array<std::string_view, 20> keys = {
+            "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
+            "dx",    "dy",    "nodata_value", "nodata",    "byteorder", "north:",    "south:",
+            "east:", "west:", "rows:",        "cols:",     "null:",     "type:"};
+        return is_one_of(word, keys) || is_same_word(word, "multiplier:");
+    }
+
     /// Lines of a key and its value. Returns the first word behind them.
     std::optional<std::string_view> keyed_header() {
         while (const auto word = words_.next()) {
-            const bool is_key = std::isalpha(static_cast<unsigned char>(word->front())) != 0 &&
-                                !is_not_finite(*word) && !is_void_word(*word);
-            if (!is_key) {
+            if (!is_key(*word)) {
                 return word;
             }
             const std::string key(*word);
@@ -251,6 +257,10 @@ private:
         std::int64_t seen = 0;
         for (; word && seen < samples_; word = words_.next()) {
             if (!is_number(*word)) {
+                if (seen == 0 && std::isalpha(static_cast<unsigned char>(word->front())) != 0) {
+                    // GDAL takes it for a part of the header.
+                    words_.refuse_word("a number for the first height", *word);
+                }
                 if (driver_ == surfer || !(is_void_word(*word) || is_not_finite(*word))) {
                     words_.refuse_word("a height", *word);
                 }

@@ -61,7 +61,7 @@ void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
 
 /// Whether a number is a negative height that was stored unsigned.
 bool VoidSurvey::is_wrapped(double raw) const {
-    return modulus_ > 0.0 && raw >= 0.5 * modulus_ && raw - modulus_ >= lowest_m_;
+    return raw < modulus_ && raw - modulus_ >= lowest_m_ && raw == std::floor(raw);
 }
 
 void VoidSurvey::add(double raw, double height_m) {

@@ -25,11 +25,11 @@ bool is_usual_void(double raw);
 /// A usual number (is_usual_void) does where it lies apart from all other heights: deep-sea maps
 /// have true heights of -9999 m. Of other numbers those do that no ground has as a height, where
 /// there is one of them, or up to three of fewer samples than heights have, far from all heights
-/// and whole or a power of ten: more are heights in a unit that is not known. Where samples are
-/// unsigned, negative heights that were stored in them do, too.
+/// and whole or a power of ten: more are heights in a unit that is not known. Negative heights
+/// that were stored in unsigned numbers do, too.
 class VoidSurvey {
 public:
-    /// `modulus`: 2^bits where raw numbers are unsigned integers of 16 or more bits, else 0.
+    /// `modulus`: 2^bits of the unsigned numbers that samples are or were.
     VoidSurvey(double lowest_m, double highest_m, double modulus)
         : lowest_m_(lowest_m)
         , highest_m_(highest_m)

@@ -205,8 +205,11 @@ TEST_CASE("negative heights that were stored unsigned are voids with a note") {
     raster.values[3] = 65536.0 - 12.0;
     raster.values[4] = 65536.0 - 3.0;
     raster.values[5] = 65536.0 - 9999.0;
+    for (const GDALDataType type : {GDT_UInt16, GDT_Float32}) {
+        raster.type = type;
+        CHECK(read_small(raster).filled_voids == 3);
+    }
     const HeightField field = read_small(raster);
-    CHECK(field.filled_voids == 3);
     CHECK_THAT(
         notes_text(field), Contains("2 samples from 65524 to 65533 (negative numbers stored"));
     CHECK_THAT(notes_text(field), Contains("1 sample of 55537"));
@@ -267,6 +270,10 @@ TEST_CASE("a damaged number in a text grid is refused with its line") {
     CHECK_THROWS_WITH(
         read_height_field(ascii_grid("1 2 3\n4 5")),
         Contains(":8: expected 6 heights, got the end of the file after 5"));
+    CHECK_THROWS_WITH(
+        read_height_field(ascii_grid("NA 2 3\n4 5 6")),
+        Contains("words.asc:6: expected a number for the first height, got 'NA'"));
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("O1 2 3\n4 5 6")), Contains("words.asc:6: "));
     const path points = scratch_file("points.xyz");
     write_text(points, "x y z\n0 0 1\n30 0 2\n0 30 3\n30 30 4O\n");
     CHECK_THROWS_WITH(
@@ -338,6 +345,8 @@ TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") 
     CHECK_THAT(notes_text(field), Contains("on a datum that is not named are taken as WGS 84"));
     raster.system = "EPSG:4326";
     CHECK(read_small(raster).notes.empty());
+    raster.system = "LOCAL_CS[\"degrees\",UNIT[\"degree\",0.0174532925199433]]";
+    CHECK(read_small(raster).spacing_m() > 300.0);
 }
 
 TEST_CASE("units of heights are recognised by their meaning") {
@@ -353,7 +362,7 @@ TEST_CASE("units of heights are recognised by their meaning") {
         CHECK(metres_from_unit(metre) == 1.0);
     }
     for (const char* const foot :
-         {"ft", "Feet", "FOOT", "foot", "feet above MSL", "International Foot"}) {
+         {"ft", "Feet", "FOOT", "foot", "feet above MSL", "ft (NAVD88)", "International Foot"}) {
         CHECK(metres_from_unit(foot) == 0.3048);
     }
     for (const char* const survey :
