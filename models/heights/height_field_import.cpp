@@ -57,7 +57,7 @@ HeightField read_height_field(const std::vector<path>& files, const ImportOption
 }
 
 void check_system(const ImportOptions& options) {
-    if (options.system) {
+    if (options.system && *options.system != no_system_but_metres) {
         const GdalSession gdal;
         system_named(*options.system);
     }

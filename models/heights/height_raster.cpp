@@ -327,7 +327,7 @@ Reference system_of_raster(
     const path& file, GDALDatasetH dataset, const ImportOptions& options, OpenRaster& raster) {
     const SystemHandle own = GDALGetSpatialRef(dataset);
     if (own == nullptr && options.system) {
-        return *options.system == "metres" ? nullptr : system_named(*options.system);
+        return *options.system == no_system_but_metres ? nullptr : system_named(*options.system);
     }
     if (own == nullptr) {
         return assumed_system(file, dataset, raster);
