@@ -24,8 +24,8 @@ Number* list_of(Number value) {
 
 } // namespace
 
-Dataset
-grid_by_control_points(const std::filesystem::path& file, void* source, const GdalSession& gdal) {
+Dataset grid_by_control_points(
+    const std::filesystem::path& file, void* source, int band, const GdalSession& gdal) {
     std::array<double, 6> transform = {};
     const int points = GDALGetGCPCount(source);
     if (points == 0 || GDALGetRasterCount(source) == 0 ||
@@ -33,11 +33,11 @@ grid_by_control_points(const std::filesystem::path& file, void* source, const Gd
         return nullptr;
     }
     int declared = 0;
-    const double value = GDALGetRasterNoDataValue(GDALGetRasterBand(source, 1), &declared);
+    const double value = GDALGetRasterNoDataValue(GDALGetRasterBand(source, band), &declared);
     const std::unique_ptr<GDALWarpOptions, void (*)(GDALWarpOptions*)> options(
         GDALCreateWarpOptions(), [](GDALWarpOptions* own) { GDALDestroyWarpOptions(own); });
     options->nBandCount = 1;
-    options->panSrcBands = list_of(1);
+    options->panSrcBands = list_of(band);
     options->panDstBands = list_of(1);
     options->padfDstNoDataReal = list_of(declared != 0 ? value : usual_no_data);
     if (declared != 0) {

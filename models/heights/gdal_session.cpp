@@ -2,14 +2,42 @@
 
 #include "models/heights/gdal_functions.h"
 #include "sim/base/error.h"
+#include "sim/base/utf8.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fmt/format.h>
 #include <mutex>
 
 namespace octant::models::heights {
 
 namespace {
+
+void add_text(std::vector<std::string>& texts, const char* text) {
+    const std::string line = one_line(text);
+    if (texts.size() < GdalSession::max_warnings && std::ranges::find(texts, line) == texts.end()) {
+        texts.push_back(line);
+    }
+}
+
+/// What GDAL said on threads without a session, which are its own.
+struct Elsewhere {
+    std::mutex writing;
+    std::vector<std::string> texts;
+};
+
+Elsewhere& elsewhere() {
+    static Elsewhere said;
+    return said;
+}
+
+void CPL_STDCALL hear_elsewhere(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
+    if (severity >= CE_Warning) {
+        const std::scoped_lock lock(elsewhere().writing);
+        add_text(elsewhere().texts, text);
+    }
+}
 
 /// All drivers but those that speak to other computers.
 void register_drivers() {
@@ -28,6 +56,7 @@ void register_drivers() {
         "STACTA",
         "STACIT",
         "PostGISRaster"};
+    CPLSetErrorHandlerEx(&hear_elsewhere, nullptr);
     GDALAllRegister();
     for (const char* const name : remote) {
         if (const GDALDriverH driver = GDALGetDriverByName(name)) {
@@ -37,6 +66,21 @@ void register_drivers() {
     OSRSetPROJEnableNetwork(0);
 }
 
+/// Stops HDF5, which netCDF is built on, from printing each error that its callers provoke and
+/// handle. HDF5 holds this setting per thread. Does nothing in a GDAL without HDF5.
+void silence_hdf5() {
+    thread_local bool is_silent = false;
+    if (is_silent) {
+        return;
+    }
+    is_silent = true;
+    constexpr std::int64_t default_stack = 0;
+    using SetAuto = int(std::int64_t stack, void* function, void* data);
+    if (void* const set_auto = gdal_library.find("H5Eset_auto2")) {
+        reinterpret_cast<SetAuto*>(set_auto)(default_stack, nullptr, nullptr);
+    }
+}
+
 void erase_all(std::string& text, const std::string& piece) {
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at)) {
         text.erase(at, piece.size());
@@ -44,8 +88,11 @@ void erase_all(std::string& text, const std::string& piece) {
 }
 
 void CPL_STDCALL hear(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
+    auto& session = *static_cast<GdalSession*>(CPLGetErrorHandlerUserData());
     if (severity >= CE_Failure) {
-        static_cast<GdalSession*>(CPLGetErrorHandlerUserData())->note_error(text);
+        session.note_error(text);
+    } else if (severity == CE_Warning) {
+        session.note_warning(text);
     }
 }
 
@@ -64,11 +111,10 @@ GdalSession::GdalSession() {
     CPLPushErrorHandlerEx(&hear, this);
     static std::once_flag registered;
     std::call_once(registered, register_drivers);
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
+    silence_hdf5();
 }
 
 GdalSession::~GdalSession() {
-    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
     CPLErrorReset();
     CPLPopErrorHandler();
 }
@@ -77,6 +123,19 @@ void GdalSession::note_error(const char* text) {
     if (first_error_.empty()) {
         first_error_ = text;
     }
+}
+
+void GdalSession::note_warning(const char* text) {
+    add_text(warnings_, text);
+}
+
+const std::vector<std::string>& GdalSession::warnings() {
+    const std::scoped_lock lock(elsewhere().writing);
+    for (const std::string& text : elsewhere().texts) {
+        add_text(warnings_, text.c_str());
+    }
+    elsewhere().texts.clear();
+    return warnings_;
 }
 
 bool GdalSession::names_no_format() const {

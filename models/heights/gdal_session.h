@@ -4,11 +4,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace octant::models::heights {
 
-/// While one lives, GDAL on this thread writes nothing to stderr and no side files, keeps off the
-/// network and remembers the first error it meets. Not to be nested.
+/// While one lives, GDAL on this thread keeps off the network and remembers the first error and the
+/// warnings it meets. Neither GDAL nor a library below it (HDF5, PROJ, libpng, libtiff) prints on
+/// any thread. Side files of maps (.aux.xml) are read; none is written, because datasets are opened
+/// for reading only and nothing is set in them. Not to be nested.
 class GdalSession {
 public:
     GdalSession();
@@ -30,11 +33,21 @@ public:
     /// there was none.
     std::string reason(const std::filesystem::path& path) const;
 
+    /// What GDAL warned of on this thread, and what it said on threads of its own that no session
+    /// reported before: each text once, one printable line, at most `max_warnings` of them.
+    const std::vector<std::string>& warnings();
+
+    static constexpr std::size_t max_warnings = 8;
+
     /// Keeps the text if it is the first; what GDAL's error handler calls.
     void note_error(const char* text);
 
+    /// Keeps the text if it is new; what GDAL's error handler calls.
+    void note_warning(const char* text);
+
 private:
     std::string first_error_;
+    std::vector<std::string> warnings_;
 };
 
 /// Refuses a file that should have been "an image" or "a height field".

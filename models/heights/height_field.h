@@ -20,6 +20,16 @@ struct MapSystem {
     double unit_m = 1.0;
 };
 
+/// What a person should be told of a map: what was assumed or mended, or what looks wrong.
+struct MapNote {
+    /// One sentence that begins with the file's name and names the option that changes it.
+    std::string text;
+    /// Metres east and north of the field's centre; empty where the whole map is meant.
+    std::vector<glm::dvec2> places_m = {};
+
+    bool operator==(const MapNote&) const = default;
+};
+
 /// How far a ground lies from the surface it was made from, as measured at some places.
 struct Deviation {
     double rms_m = 0.0;
@@ -68,6 +78,7 @@ public:
     std::optional<GeoPlace> place;   ///< of its centre; nothing for made ground
     std::optional<MapSystem> system; ///< nothing for ground without a place in any
     long filled_voids = 0;           ///< samples without data that were filled in on reading
+    std::vector<MapNote> notes;      ///< of the files it was read from
 
 private:
     int columns_;

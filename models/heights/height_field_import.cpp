@@ -36,6 +36,7 @@ HeightField field_from(const std::vector<path>& files, const ImportOptions& opti
     field.place = source.place();
     field.system = source.system();
     field.filled_voids = voids;
+    field.notes = source.notes();
     return field;
 }
 
@@ -56,7 +57,7 @@ HeightField read_height_field(const std::vector<path>& files, const ImportOption
 }
 
 void check_system(const ImportOptions& options) {
-    if (options.system) {
+    if (options.system && *options.system != no_system_but_metres) {
         const GdalSession gdal;
         system_named(*options.system);
     }

@@ -13,14 +13,16 @@ namespace octant::models::heights {
 ///
 /// Ground: as target_lattice.h says. A projected file in metres or feet with square cells is taken
 /// sample by sample, its grid north as north; degrees and projections that are not true to scale
-/// are resampled. A file with a pixel size but no coordinate system takes the option, else counts
-/// as metres. A file with neither takes the option's spacing. `place` is set when a coordinate
-/// system is known. A raster placed by control points is laid on a grid first.
+/// are resampled. A file with a pixel size but no coordinate system takes the option, else WGS 84
+/// where its axes are in degrees, else counts as metres. A file with neither takes the option's
+/// spacing. `place` is set when a coordinate system is known. A raster placed by control points is
+/// laid on a grid first.
 ///
-/// Heights: of the first band; scale, offset and unit (the band's, else the system's, else the
-/// option's) applied. No data are NaN, infinities, magnitudes from 1e30, the file's declared value
-/// and, where none is declared, -32768, -32767 and -9999. They are filled smoothly and counted in
-/// `filled_voids`.
+/// Heights: of the band that height_band.h chooses; scale, offset and unit (the band's, else the
+/// system's, else the option's) applied. No data are NaN, infinities, magnitudes from 1e30, the
+/// file's declared value, the option's, what a mask or an alpha band leaves out, words of text
+/// grids (text_grid.h), and undeclared values that void_values.h finds. They are filled smoothly
+/// and counted in `filled_voids`. What was guessed stands in `notes`.
 ///
 /// Memory: 4 bytes a sample; about 11 more a void while filling; for a plain PGM also the file.
 ///

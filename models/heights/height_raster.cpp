@@ -1,8 +1,10 @@
 #include "models/heights/height_raster.h"
 
+#include "models/heights/bounds.h"
 #include "models/heights/control_points.h"
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_band.h"
 #include "models/heights/import_options.h"
 #include "models/heights/raster_file.h"
 #include "sim/base/error.h"
@@ -10,11 +12,14 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,130 +30,29 @@ namespace {
 using std::filesystem::path;
 using GeoTransform = std::array<double, 6>;
 
-/// Metres of a unit by its name; nothing for one that is no known length.
-std::optional<double> metres_from_unit(std::string_view unit) {
-    constexpr double survey_foot_m = 1200.0 / 3937.0;
-    constexpr std::array<std::pair<std::string_view, double>, 26> known = {{
-        {"m", 1.0},
-        {"metre", 1.0},
-        {"meter", 1.0},
-        {"metres", 1.0},
-        {"meters", 1.0},
-        {"ft", 0.3048},
-        {"foot", 0.3048},
-        {"feet", 0.3048},
-        {"international foot", 0.3048},
-        {"international feet", 0.3048},
-        {"us-ft", survey_foot_m},
-        {"sfoot", survey_foot_m},
-        {"ftUS", survey_foot_m},
-        {"US survey foot", survey_foot_m},
-        {"Foot_US", survey_foot_m},
-        {"dm", 0.1},
-        {"decimetre", 0.1},
-        {"decimeter", 0.1},
-        {"decimeters", 0.1},
-        {"cm", 0.01},
-        {"centimetre", 0.01},
-        {"centimeter", 0.01},
-        {"mm", 0.001},
-        {"km", 1000.0},
-        {"yard", 0.9144},
-        {"fathom", 1.8288},
-    }};
-    for (const auto& [name, metres] : known) {
-        if (name == unit) {
-            return metres;
-        }
-    }
-    return std::nullopt;
-}
-
-std::optional<double> declared_no_data(GDALRasterBandH band) {
-    int declared = 0;
-    double value = 0.0;
-    switch (GDALGetRasterDataType(band)) {
-    case GDT_Int64:
-        value = static_cast<double>(GDALGetRasterNoDataValueAsInt64(band, &declared));
-        break;
-    case GDT_UInt64:
-        value = static_cast<double>(GDALGetRasterNoDataValueAsUInt64(band, &declared));
-        break;
-    default:
-        value = GDALGetRasterNoDataValue(band, &declared);
-    }
-    return declared != 0 ? std::optional(value) : std::nullopt;
-}
-
-/// The unit of heights that a coordinate system names, in metres.
-std::optional<double> vertical_unit_m(SystemHandle system) {
-    if (system == nullptr || OSRGetAttrValue(system, "VERT_CS", 0) == nullptr) {
-        return std::nullopt;
-    }
-    return OSRGetTargetLinearUnits(system, "VERT_CS", nullptr);
-}
-
-/// Metres a unit of the band: as it says, else as its system says, else as `given`, else 1.
-double unit_m_of(const path& file, const OpenRaster& raster, const std::optional<double>& given) {
-    std::string unit = GDALGetRasterUnitType(raster.band);
-    if (unit == "unspecified" || unit == "unknown" || unit == "-") {
-        unit.clear();
-    }
-    const auto named = unit.empty() ? vertical_unit_m(raster.system) : metres_from_unit(unit);
-    if (named || given || unit.empty()) {
-        return named ? *named : given.value_or(1.0);
-    }
-    error_in(
-        file,
-        fmt::format(
-            "expected heights in metres or feet, got '{}': --height-scale says how many metres "
-            "that is",
-            printable(unit)));
-}
-
-/// Reads what describes the first band: no-data value, scale, offset and unit.
-void take_first_band(
-    const path& file, OpenRaster& raster, const std::optional<double>& height_scale) {
-    GDALDatasetH dataset = raster.dataset.get();
-    if (GDALGetRasterCount(dataset) < 1) {
-        error_unreadable(file, "a height field", "no band");
-    }
-    raster.band = GDALGetRasterBand(dataset, 1);
-    const GDALColorInterp colour = GDALGetRasterColorInterpretation(raster.band);
-    if (GDALGetRasterColorTable(raster.band) != nullptr ||
-        (colour != GCI_Undefined && colour != GCI_GrayIndex)) {
-        error_in(file, "expected one band of heights, got a colour picture");
-    }
-    if (GDALDataTypeIsComplex(GDALGetRasterDataType(raster.band)) != 0) {
-        error_in(file, "expected real heights, got complex numbers");
-    }
-    const double unit_m = unit_m_of(file, raster, height_scale);
-    raster.no_data = declared_no_data(raster.band);
-    raster.scale_m = GDALGetRasterScale(raster.band, nullptr) * unit_m;
-    raster.offset_m = GDALGetRasterOffset(raster.band, nullptr) * unit_m;
-}
-
-bool is_void(double raw, const std::optional<double>& no_data) {
+/// Whether a raw number stands for no data by the file's word or the options'.
+bool is_void(double raw, const OpenRaster& raster) {
     constexpr double absurd = 1e30;
-    if (!std::isfinite(raw) || std::abs(raw) >= absurd) {
-        return true;
-    }
-    if (no_data) {
-        return std::abs(*no_data) < absurd &&
-               static_cast<float>(raw) == static_cast<float>(*no_data);
-    }
-    return raw == -32768.0 || raw == -32767.0 || raw == -9999.0;
+    const auto is = [raw](const std::optional<double>& mark) {
+        return mark && static_cast<float>(raw) == static_cast<float>(*mark);
+    };
+    return !std::isfinite(raw) || std::abs(raw) >= absurd || is(raster.no_data) ||
+           is(raster.given_void);
 }
 
-/// The height in metres of a raw number; NaN for one that stands for no data.
-float height_from_raw(const path& file, double raw, const OpenRaster& band) {
-    if (is_void(raw, band.no_data)) {
-        return std::numeric_limits<float>::quiet_NaN();
-    }
-    const bool plain = band.scale_m == 1.0 && band.offset_m == 0.0;
-    const double height_m = plain ? raw : raw * band.scale_m + band.offset_m;
-    check_height(file, height_m);
-    return static_cast<float>(height_m);
+double height_of(double raw, const OpenRaster& raster) {
+    const bool plain = raster.scale_m == 1.0 && raster.offset_m == 0.0;
+    return plain ? raw : raw * raster.scale_m + raster.offset_m;
+}
+
+bool is_believed(double height_m) {
+    return height_m >= lowest_import_m && height_m <= highest_import_m;
+}
+
+/// Whether a number must be looked at among all others of its raster before it counts as a height.
+bool is_doubtful(double raw, double height_m, const OpenRaster& raster) {
+    const bool may_be_mark = !raster.no_data && !raster.given_void;
+    return !is_believed(height_m) || (may_be_mark && is_usual_void(raw));
 }
 
 std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset) {
@@ -185,13 +89,25 @@ void take_transform(const GeoTransform& t, OpenRaster& raster) {
         up * t[5]};
 }
 
-/// Reads a window into a buffer row after row from the south.
+template <typename Number>
+constexpr GDALDataType type_of() {
+    if constexpr (std::is_same_v<Number, double>) {
+        return GDT_Float64;
+    } else if constexpr (std::is_same_v<Number, std::int16_t>) {
+        return GDT_Int16;
+    } else {
+        static_assert(std::is_same_v<Number, std::uint8_t>);
+        return GDT_Byte;
+    }
+}
+
+/// Reads a window of one of the raster's bands into a buffer row after row from the south.
 template <typename Number>
 void read_window(
     const path& file,
     const OpenRaster& raster,
+    GDALRasterBandH band,
     const GridWindow& window,
-    GDALDataType type,
     Number* numbers,
     const GdalSession& gdal) {
     const int line =
@@ -204,7 +120,7 @@ void read_window(
         numbers + (raster.from_east ? window.columns - 1 : 0) +
         (raster.from_south ? std::ptrdiff_t{0} : std::ptrdiff_t{window.rows - 1} * window.columns);
     const CPLErr result = GDALRasterIOEx(
-        raster.band,
+        band,
         GF_Read,
         pixel,
         line,
@@ -213,12 +129,245 @@ void read_window(
         start,
         window.columns,
         window.rows,
-        type,
+        type_of<Number>(),
         raster.from_east ? -size : size,
         raster.from_south ? line_size : -line_size,
         nullptr);
     if (result != CE_None || gdal.failed()) {
         error_unreadable(file, "a height field", gdal.reason(file));
+    }
+}
+
+/// Raw numbers of one line, NaN without data by the file's word or the options'.
+void read_raw_line(
+    const path& file,
+    const OpenRaster& raster,
+    const GridWindow& line,
+    std::span<double> raw,
+    const GdalSession& gdal) {
+    assert(line.rows == 1);
+    read_window(file, raster, raster.band, line, raw.data(), gdal);
+    if (raster.text_voids.samples > 0) { // a text grid is upright, its first line is the north
+        const std::int64_t from_north = raster.rows - 1 - line.first_row;
+        raster.text_voids.apply(from_north * raster.columns + line.first_column, raw);
+    }
+    std::vector<std::uint8_t> is_there;
+    if (raster.mask != nullptr) {
+        is_there.resize(raw.size());
+        read_window(file, raster, raster.mask, line, is_there.data(), gdal);
+    }
+    for (std::size_t x = 0; x < raw.size(); ++x) {
+        if ((!is_there.empty() && is_there[x] == 0) || is_void(raw[x], raster)) {
+            raw[x] = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+}
+
+/// 2^bits of the unsigned numbers that a band holds or may have been made of.
+double modulus_of(GDALRasterBandH band) {
+    return GDALGetRasterDataType(band) == GDT_UInt32 ? 4294967296.0 : 65536.0;
+}
+
+const UndeclaredVoids&
+undeclared_voids(const path& file, const OpenRaster& raster, const GdalSession& gdal) {
+    if (!raster.undeclared && raster.given_void) {
+        raster.undeclared.emplace();
+    }
+    if (!raster.undeclared) {
+        VoidSurvey survey(lowest_import_m, highest_import_m, modulus_of(raster.band));
+        std::vector<double> line(static_cast<std::size_t>(raster.columns));
+        for (int row = 0; row < raster.rows; ++row) {
+            read_raw_line(file, raster, {0, raster.columns, row, 1}, line, gdal);
+            for (const double raw : line) {
+                if (!std::isnan(raw)) {
+                    survey.add(raw, height_of(raw, raster));
+                }
+            }
+        }
+        raster.undeclared = survey.result();
+    }
+    return *raster.undeclared;
+}
+
+/// The height in metres of a raw number; NaN for one that stands for no data. Throws Error for one
+/// that is neither.
+float height_from_raw(
+    const path& file, double raw, const OpenRaster& raster, const GdalSession& gdal) {
+    if (std::isnan(raw)) {
+        return std::numeric_limits<float>::quiet_NaN();
+    }
+    const double height_m = height_of(raw, raster);
+    if (is_doubtful(raw, height_m, raster)) {
+        if (undeclared_voids(file, raster, gdal).has(raw)) {
+            return std::numeric_limits<float>::quiet_NaN();
+        }
+        check_height(file, height_m, raw, raster.names_unit);
+    }
+    return static_cast<float>(height_m);
+}
+
+/// Whether attributes of axes by the CF conventions say degrees east or north.
+bool has_cf_degrees(GDALDatasetH dataset) {
+    char** const list = GDALGetMetadata(dataset, nullptr);
+    for (int i = 0; i < CSLCount(list); ++i) {
+        const std::string_view entry = list[i];
+        const std::size_t value = entry.find("#units=");
+        if (value == std::string_view::npos) {
+            continue;
+        }
+        std::string unit(entry.substr(value + 7));
+        std::ranges::transform(
+            unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::erase(unit, '_');
+        std::erase(unit, ' ');
+        const bool is_degrees = unit.starts_with("degree");
+        const std::string direction =
+            unit.substr(unit.starts_with("degrees") ? 7 : std::min<std::size_t>(6, unit.size()));
+        if (is_degrees &&
+            (direction == "north" || direction == "east" || direction == "n" || direction == "e")) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Where a raster without a coordinate system may have degrees for axes.
+struct DegreeSigns {
+    bool fit = false;     ///< all its coordinates are longitudes and latitudes
+    bool by_name = false; ///< its axes say so
+    glm::dvec2 cell{0.0};
+    glm::dvec2 extent{0.0};
+
+    bool is_fine() const { return std::max(cell.x, cell.y) < 1.0; }
+};
+
+DegreeSigns degree_signs(GDALDatasetH dataset, const OpenRaster& raster) {
+    constexpr double edge_deg = 1.0; // outer edges of cells may lie behind a pole
+    Bounds bounds;
+    for (const double column : {-0.5, raster.columns - 0.5}) {
+        for (const double row : {-0.5, raster.rows - 0.5}) {
+            bounds.add(raster.map->at(column, row));
+        }
+    }
+    DegreeSigns signs;
+    signs.cell = raster.map->steps();
+    signs.extent = bounds.size();
+    signs.fit = bounds.least.x >= -360.0 - edge_deg && bounds.most.x <= 360.0 + edge_deg &&
+                bounds.least.y >= -90.0 - edge_deg && bounds.most.y <= 90.0 + edge_deg &&
+                signs.extent.x <= 360.0 + edge_deg;
+    signs.by_name = has_cf_degrees(dataset);
+    return signs;
+}
+
+void note(const path& file, OpenRaster& raster, std::string_view text) {
+    raster.notes.push_back({fmt::format("{}: {}", file.filename().string(), text)});
+}
+
+Reference wgs84_system() {
+    return system_named("EPSG:4326");
+}
+
+/// The system of a raster that names none: degrees are taken for WGS 84, all else for metres.
+/// Throws Error where either may be meant.
+Reference assumed_system(const path& file, GDALDatasetH dataset, OpenRaster& raster) {
+    constexpr double widest_deg = 9.0; // 1000 km; more would not be read
+    const DegreeSigns signs = degree_signs(dataset, raster);
+    if (!signs.fit) {
+        return nullptr;
+    }
+    const bool is_world = signs.extent.x > 170.0 && signs.extent.y > 85.0;
+    const bool is_small = std::max(signs.extent.x, signs.extent.y) <= widest_deg;
+    if (signs.by_name || (signs.is_fine() && is_small)) {
+        note(
+            file,
+            raster,
+            fmt::format(
+                "no coordinate system is named, {}: taken as longitude and latitude on WGS 84; "
+                "--terrain-system names another one, or metres",
+                signs.by_name ? "axes are in degrees"
+                              : fmt::format("cells of {:.6g} look like degrees", signs.cell.x)));
+        return wgs84_system();
+    }
+    if (signs.is_fine() || is_world) {
+        error_in(
+            file,
+            fmt::format(
+                "expected a coordinate system, got none and cells of {:g}, which are degrees or "
+                "metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
+                signs.cell.x));
+    }
+    return nullptr;
+}
+
+/// Whether a geographic system of the Earth leaves its datum open.
+bool has_unnamed_datum(SystemHandle system) {
+    const char* const datum = OSRGetAttrValue(system, "DATUM", 0);
+    std::string name = datum == nullptr ? "" : datum;
+    std::ranges::transform(
+        name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::replace(name, '_', ' ');
+    constexpr std::array<std::string_view, 4> open = {
+        "unknown", "not specified", "unnamed", "undefined"};
+    const bool is_open = name.empty() || std::ranges::any_of(open, [&](std::string_view word) {
+                             return name.find(word) != std::string::npos;
+                         });
+    const double radius_m = OSRGetSemiMajor(system, nullptr);
+    return is_open && radius_m > 6.3e6 && radius_m < 6.4e6;
+}
+
+/// Whether a system that should count lengths, a local one or a projection, counts degrees.
+bool has_degrees_for_lengths(SystemHandle system) {
+    constexpr double degree = std::numbers::pi / 180.0; // no unit of length is so many metres
+    return (OSRIsLocal(system) != 0 || OSRIsProjected(system) != 0) &&
+           std::abs(OSRGetLinearUnits(system, nullptr) - degree) < 1e-9;
+}
+
+/// The coordinate system of a raster that has a map. Null where lengths are metres.
+Reference system_of_raster(
+    const path& file, GDALDatasetH dataset, const ImportOptions& options, OpenRaster& raster) {
+    const SystemHandle own = GDALGetSpatialRef(dataset);
+    if (own == nullptr && options.system) {
+        return *options.system == no_system_but_metres ? nullptr : system_named(*options.system);
+    }
+    if (own == nullptr) {
+        return assumed_system(file, dataset, raster);
+    }
+    if (options.system) {
+        note(file, raster, "names its own coordinate system, which counts, not --terrain-system");
+    }
+    if (has_degrees_for_lengths(own) || (OSRIsGeographic(own) != 0 && has_unnamed_datum(own))) {
+        note(file, raster, "degrees on a datum that is not named are taken as WGS 84");
+        return wgs84_system();
+    }
+    return reference_of(own);
+}
+
+/// Checks the words of a text grid and takes those that stand for no data.
+void take_text(const path& file, const std::string& driver, OpenRaster& raster) {
+    raster.text_voids = check_text_grid(file, driver, raster.columns, raster.rows);
+    const TextVoids& found = raster.text_voids;
+    if (found.declares_no_number) {
+        raster.no_data.reset();
+    }
+    if (found.samples > 0) {
+        note(
+            file,
+            raster,
+            fmt::format(
+                "{} sample{} with a word such as '{}' count as without data",
+                found.samples,
+                found.samples == 1 ? "" : "s",
+                found.word));
+    }
+    if (found.numbers_left > 0) {
+        note(
+            file,
+            raster,
+            fmt::format(
+                "{} words behind the {} x {} heights are left out",
+                found.numbers_left,
+                raster.columns,
+                raster.rows));
     }
 }
 
@@ -238,42 +387,69 @@ void check_import_size(const path& file, int columns, int rows) {
     }
 }
 
-void check_height(const path& file, double height_m) {
-    if (!(height_m >= lowest_import_m && height_m <= highest_import_m)) {
+void check_height(const path& file, double height_m, double raw, bool names_unit) {
+    if (!is_believed(height_m)) {
         error_in(
             file,
             fmt::format(
-                "expected heights from {:g} to {:g} m, got {:g} m: --height-scale says how many "
-                "metres a unit is, where the file does not",
+                "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {:.15g} says that it "
+                "stands for no data",
                 lowest_import_m,
                 highest_import_m,
-                height_m));
+                height_m,
+                names_unit ? "" : "--height-scale says how many metres a unit is, ",
+                raw));
     }
 }
 
 OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
     OpenRaster raster;
-    raster.dataset = open_raster_file(file, gdal);
-    if (Dataset grid = grid_by_control_points(file, raster.dataset.get(), gdal)) {
-        raster.behind = std::exchange(raster.dataset, std::move(grid));
+    ImportOptions own = options;
+    raster.datasets.push_back(open_raster_file(file, gdal, own.band, raster.notes));
+    HeightBand band = height_band_of(file, raster.datasets.back().get(), own);
+    if (band.decoded) {
+        raster.datasets.push_back(std::move(band.decoded));
     }
-    GDALDatasetH dataset = raster.dataset.get();
+    raster.band = band.band;
+    raster.mask = band.mask;
+    raster.no_data = band.no_data;
+    raster.given_void = options.void_value;
+    raster.scale_m = band.scale_m;
+    raster.offset_m = band.offset_m;
+    raster.names_unit = band.names_unit;
+    raster.notes.insert(raster.notes.end(), band.notes.begin(), band.notes.end());
+    if (Dataset grid =
+            grid_by_control_points(file, raster.datasets.back().get(), band.number, gdal)) {
+        raster.datasets.push_back(std::move(grid));
+        raster.band = GDALGetRasterBand(raster.datasets.back().get(), 1);
+        raster.mask = nullptr;
+        raster.no_data = declared_no_data(raster.band);
+    }
+    GDALDatasetH dataset = raster.datasets.back().get();
     raster.columns = GDALGetRasterXSize(dataset);
     raster.rows = GDALGetRasterYSize(dataset);
     if (const auto transform = transform_of(file, dataset)) {
         take_transform(*transform, raster);
-        raster.system = GDALGetSpatialRef(dataset);
-        if (raster.system == nullptr && options.system) {
-            raster.given_system = system_named(*options.system);
-            raster.system = raster.given_system.get();
-        }
+        raster.system = system_of_raster(file, dataset, options, raster);
     }
-    take_first_band(file, raster, options.height_scale);
+    const GDALDriverH reader = GDALGetDatasetDriver(raster.datasets.front().get());
+    const std::string driver = reader == nullptr ? "" : GDALGetDriverShortName(reader);
+    if (is_text_grid(driver)) {
+        take_text(file, driver, raster);
+    }
     const GDALDataType type = GDALGetRasterDataType(raster.band);
-    raster.whole_metres =
-        (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 && raster.offset_m == 0.0;
+    raster.whole_metres = (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 &&
+                          raster.offset_m == 0.0 && raster.text_voids.samples == 0;
     gdal.forget();
     return raster;
+}
+
+std::vector<MapNote> notes_of(const path& file, const OpenRaster& raster) {
+    std::vector<MapNote> notes = raster.notes;
+    if (raster.undeclared && !raster.undeclared->note.empty()) {
+        notes.push_back({file.filename().string() + ": " + raster.undeclared->note});
+    }
+    return notes;
 }
 
 void read_heights(
@@ -288,10 +464,10 @@ void read_heights(
     for (int line_in_file = 0; line_in_file < window.rows; ++line_in_file) {
         const int row = raster.from_south ? line_in_file : window.rows - 1 - line_in_file;
         const GridWindow one{window.first_column, window.columns, window.first_row + row, 1};
-        read_window(file, raster, one, GDT_Float64, line.data(), gdal);
+        read_raw_line(file, raster, one, line, gdal);
         float* const out = heights_m.data() + static_cast<std::size_t>(row) * columns;
         for (std::size_t x = 0; x < columns; ++x) {
-            out[x] = height_from_raw(file, line[x], raster);
+            out[x] = height_from_raw(file, line[x], raster, gdal);
         }
     }
 }
@@ -303,26 +479,45 @@ void read_whole_metres(
     std::span<std::int16_t> heights_m,
     const GdalSession& gdal) {
     assert(raster.whole_metres);
-    read_window(file, raster, window, GDT_Int16, heights_m.data(), gdal);
-    constexpr int nothing = 1 << 20;
-    std::array<int, 3> voids = {void_metres, -32767, -9999};
-    if (raster.no_data) {
-        const double no_data = *raster.no_data;
-        const bool whole = std::abs(no_data) <= 32768.0 && no_data == std::floor(no_data);
-        voids.fill(whole ? static_cast<int>(no_data) : nothing);
+    read_window(file, raster, raster.band, window, heights_m.data(), gdal);
+    std::vector<std::uint8_t> is_there;
+    if (raster.mask != nullptr) {
+        is_there.resize(heights_m.size());
+        read_window(file, raster, raster.mask, window, is_there.data(), gdal);
     }
-    std::int16_t lowest_m = 0;
-    std::int16_t highest_m = 0;
-    for (std::int16_t& height_m : heights_m) {
-        const int metres = height_m;
-        const bool is_void = metres == voids[0] || metres == voids[1] || metres == voids[2];
-        const std::int16_t counted = is_void ? std::int16_t{0} : height_m;
-        lowest_m = std::min(lowest_m, counted);
-        highest_m = std::max(highest_m, counted);
-        height_m = is_void ? void_metres : height_m;
+    const auto whole = [](const std::optional<double>& mark) {
+        constexpr int nothing = 1 << 20;
+        const bool is_whole = mark && std::abs(*mark) <= 32768.0 && *mark == std::floor(*mark);
+        return is_whole ? static_cast<int>(*mark) : nothing;
+    };
+    const int no_data = whole(raster.no_data);
+    const int given = whole(raster.given_void);
+    constexpr int lowest_sure_m = -998; // all usual marks are below, or above the highest height
+    constexpr int highest_sure_m = 9000;
+    bool has_doubtful = false;
+    for (std::size_t i = 0; i < heights_m.size(); ++i) {
+        const int metres = heights_m[i];
+        const bool is_void =
+            metres == no_data || metres == given || (!is_there.empty() && is_there[i] == 0);
+        has_doubtful |= !is_void && (metres < lowest_sure_m || metres > highest_sure_m);
+        if (is_void) {
+            heights_m[i] = void_metres;
+        }
     }
-    check_height(file, lowest_m);
-    check_height(file, highest_m);
+    if (!has_doubtful) {
+        return;
+    }
+    for (std::size_t i = 0; i < heights_m.size(); ++i) {
+        const int metres = heights_m[i];
+        const bool is_sure = metres >= lowest_sure_m && metres <= highest_sure_m;
+        // -32768 is a void by now, unless nobody said so.
+        const bool is_declared =
+            metres == void_metres && (no_data == void_metres || given == void_metres ||
+                                      (!is_there.empty() && is_there[i] == 0));
+        if (!is_sure && !is_declared && std::isnan(height_from_raw(file, metres, raster, gdal))) {
+            heights_m[i] = void_metres;
+        }
+    }
 }
 
 } // namespace octant::models::heights

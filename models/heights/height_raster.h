@@ -3,32 +3,40 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/import_options.h"
 #include "models/heights/local_frame.h"
+#include "models/heights/text_grid.h"
+#include "models/heights/void_values.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace octant::models::heights {
 
-/// A file of heights, open to be read piece by piece: its first band and how raw numbers become
-/// metres. Row 0 is the south and column 0 the west, where it is upright.
+/// A file of heights, open to be read piece by piece: its band of heights and how raw numbers
+/// become metres. Row 0 is the south and column 0 the west, where it is upright.
 struct OpenRaster {
-    Dataset behind; ///< what `dataset` was laid on a grid from (control_points.h), if it was
-    Dataset dataset;
-    void* band = nullptr; ///< GDALRasterBandH of the dataset
-    std::optional<double> no_data;
+    std::vector<Dataset> datasets; ///< the file's; behind it what was made of it, which owns `band`
+    void* band = nullptr;          ///< GDALRasterBandH
+    void* mask = nullptr;          ///< GDALRasterBandH that is 0 where there is no data; null: none
+    std::optional<double> no_data; ///< raw number, as the file declares it
+    std::optional<double> given_void; ///< raw number, as the options have it
+    TextVoids text_voids;             ///< of a text grid
+    /// Found by the first read that meets a doubtful number, from all samples.
+    mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
     double offset_m = 0.0;
+    bool names_unit = false; ///< of heights
     int columns = 0;
     int rows = 0;
     bool from_east = false;         ///< its lines run westward
     bool from_south = false;        ///< its first line is the southernmost
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
+    std::vector<MapNote> notes;     ///< what a person should be told of the file
     std::optional<MapFromGrid> map; ///< nothing for a file without georeference
-    SystemHandle system = nullptr;  ///< null when neither the file nor the options name one
-    Reference given_system;         ///< of a file that names none; else the dataset owns `system`
+    Reference system;               ///< null where lengths are metres without a place on the earth
 };
 
 /// A rectangle of a grid.
@@ -45,13 +53,18 @@ inline constexpr std::int16_t void_metres = std::numeric_limits<std::int16_t>::m
 /// Throws Error unless both are from 2 to largest_import_samples.
 void check_import_size(const std::filesystem::path& file, int columns, int rows);
 
-/// Throws Error unless the height is within the bounds of read_height_field.
-void check_height(const std::filesystem::path& file, double height_m);
+/// Throws Error unless the height is within the bounds of read_height_field. The error names the
+/// options that can help: --void with the raw number, and --height-scale unless the file names the
+/// unit of its heights.
+void check_height(const std::filesystem::path& file, double height_m, double raw, bool names_unit);
 
 /// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
 /// which is not checked.
 OpenRaster open_height_raster(
     const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
+
+/// What a person should be told of a raster; complete once all heights have been read.
+std::vector<MapNote> notes_of(const std::filesystem::path& file, const OpenRaster& raster);
 
 /// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error
 /// as read_height_field.

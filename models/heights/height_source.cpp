@@ -1,5 +1,6 @@
 #include "models/heights/height_source.h"
 
+#include "models/heights/gdal_functions.h"
 #include "models/heights/height_raster.h"
 #include "models/heights/plain_pgm.h"
 #include "models/heights/raster_file.h"
@@ -12,6 +13,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <utility>
 
 namespace octant::models::heights {
@@ -20,14 +22,32 @@ namespace {
 
 using std::filesystem::path;
 
-/// A plain PGM's heights in metres.
-HeightGrid plain_heights(const path& file, double height_scale) {
+/// A plain PGM's heights in metres; adds a note of voids that it does not declare.
+HeightGrid
+plain_heights(const path& file, const ImportOptions& options, std::vector<MapNote>& notes) {
     HeightGrid grid = read_plain_pgm(
         file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
+    const double unit_m = options.height_scale.value_or(1.0);
+    VoidSurvey survey(lowest_import_m, highest_import_m, 65536.0);
+    for (const float height : grid.heights_m) {
+        survey.add(static_cast<double>(height), static_cast<double>(height) * unit_m);
+    }
+    UndeclaredVoids voids = survey.result();
+    if (options.void_value) {
+        voids = {};
+        voids.values.push_back(*options.void_value);
+    }
     for (float& height : grid.heights_m) {
-        const double height_m = static_cast<double>(height) * height_scale;
-        check_height(file, height_m);
-        height = static_cast<float>(height_m);
+        const double raw = static_cast<double>(height);
+        if (voids.has(raw)) {
+            height = std::numeric_limits<float>::quiet_NaN();
+        } else {
+            check_height(file, raw * unit_m, raw, false);
+            height = static_cast<float>(raw * unit_m);
+        }
+    }
+    if (!voids.note.empty()) {
+        notes.push_back({fmt::format("{}: {}", file.filename().string(), voids.note)});
     }
     return grid;
 }
@@ -56,6 +76,7 @@ struct HeightSource::Content {
     std::unique_ptr<GdalSession> gdal;
     std::vector<SourceGrid> grids;
     std::optional<HeightGrid> whole; ///< a plain PGM
+    std::vector<MapNote> whole_notes;
     TargetLattice lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
@@ -76,7 +97,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
         if (files.size() > 1) {
             error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
-        whole = plain_heights(file, options.height_scale.value_or(1.0));
+        whole = plain_heights(file, options, whole_notes);
         take_picture(whole->columns, whole->rows, options.spacing_m);
         return;
     }
@@ -110,6 +131,7 @@ void HeightSource::Content::take_picture(int columns, int rows, double spacing) 
     lattice.columns = columns;
     lattice.rows = rows;
     lattice.is_source = true;
+    lattice.cell_m = {spacing, spacing};
     spacing_m = spacing;
 }
 
@@ -160,6 +182,57 @@ std::string HeightSource::name() const {
     const std::string first = content_->files.front().filename().string();
     const std::size_t more = content_->files.size() - 1;
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
+}
+
+std::string HeightSource::system_name() const {
+    const SystemHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
+    const char* const name = own == nullptr ? nullptr : OSRGetName(own);
+    return name == nullptr ? "" : printable(name);
+}
+
+glm::dvec2 HeightSource::cell_m() const {
+    return content_->lattice.cell_m;
+}
+
+std::vector<MapNote> HeightSource::notes() const {
+    std::vector<MapNote> notes = content_->whole_notes;
+    for (const SourceGrid& grid : content_->grids) {
+        for (const SourcePiece& piece : grid.pieces()) {
+            const std::vector<MapNote> own = notes_of(piece.file, piece.raster);
+            notes.insert(notes.end(), own.begin(), own.end());
+        }
+    }
+    if (content_->gdal) {
+        for (const std::string& warning : content_->gdal->warnings()) {
+            notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
+        }
+    }
+    return notes;
+}
+
+std::int64_t HeightSource::count_voids() const {
+    std::int64_t voids = 0;
+    if (content_->whole) {
+        return std::ranges::count_if(
+            content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
+    }
+    std::vector<float> row;
+    for (const SourceGrid& grid : content_->grids) {
+        for (const SourcePiece& piece : grid.pieces()) {
+            row.resize(static_cast<std::size_t>(piece.raster.columns));
+            for (int y = 0; y < piece.raster.rows; ++y) {
+                read_heights(
+                    piece.file,
+                    piece.raster,
+                    {0, piece.raster.columns, y, 1},
+                    row,
+                    *content_->gdal);
+                voids +=
+                    std::ranges::count_if(row, [](float height_m) { return std::isnan(height_m); });
+            }
+        }
+    }
+    return voids;
 }
 
 bool HeightSource::whole_metres() const {

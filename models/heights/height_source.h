@@ -43,6 +43,19 @@ public:
     /// Name of the first file, and how many more there are.
     std::string name() const;
 
+    /// The coordinate system of the first file by its own name; empty for a file that has none.
+    std::string system_name() const;
+
+    /// East and north sides of the finest file's cells at its middle, metres.
+    glm::dvec2 cell_m() const;
+
+    /// What a person should be told of the files, in their order. What depends on heights is
+    /// complete once all of them have been read.
+    std::vector<MapNote> notes() const;
+
+    /// Samples of the files that are without data. Reads all of them. Throws Error.
+    std::int64_t count_voids() const;
+
     /// Whether all heights are whole metres that fit 16 bits.
     bool whole_metres() const;
 

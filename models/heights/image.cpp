@@ -183,6 +183,10 @@ Image image_from(const path& file) {
         apply_palette(palette, image);
     }
     place(dataset.get(), image);
+    for (const std::string& warning : gdal.warnings()) {
+        image.note += fmt::format(
+            "{}{}: GDAL warns: {}", image.note.empty() ? "" : "; ", image.name, warning);
+    }
     return image;
 }
 

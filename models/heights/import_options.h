@@ -11,8 +11,17 @@ struct ImportOptions {
     /// Metres a unit of heights, where a file names no unit or one that is not known; 1 if nothing.
     std::optional<double> height_scale = {};
     /// The coordinate system of files that have a place but name none, as GDAL takes it: EPSG:4326,
-    /// a PROJ string, well-known text, a .prj file. Nothing: they count as metres.
+    /// a PROJ string, well-known text, a .prj file; or "metres". Nothing: WGS 84 where their axes
+    /// are in degrees, else metres.
     std::optional<std::string> system = {};
+    /// A raw number that stands for no data. With it no other one is taken for a void unless the
+    /// file declares it.
+    std::optional<double> void_value = {};
+    /// The band of heights: its number from 1 on, its name, or "terrarium" or "mapbox" for heights
+    /// that are coded in colours. Nothing: chosen by height_band_of.
+    std::optional<std::string> band = {};
+
+    bool operator==(const ImportOptions&) const = default;
 };
 
 /// Largest width and height that is read, samples.

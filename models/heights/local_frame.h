@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace octant::models::heights {
 
@@ -53,6 +54,9 @@ std::string wkt_of(SystemHandle system);
 
 /// WGS 84 in degrees, longitude first.
 Reference globe_system();
+
+/// What ImportOptions::system says of files whose axes are in metres without a place on the earth.
+inline constexpr std::string_view no_system_but_metres = "metres";
 
 /// A system by a name that ImportOptions::system may have. Throws Error for other names.
 Reference system_named(const std::string& name);

@@ -29,6 +29,9 @@ bool is_folder(const std::string& name) {
 
 /// The short name of the driver that takes a file for a raster of its own; empty if there is none.
 std::string driver_of(const std::string& file) {
+    if (path(file).extension() == ".terrain") {
+        return "Cesium heightmap"; // which is not one of GDAL's
+    }
     const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
     return driver == nullptr ? "" : GDALGetDriverShortName(driver);
 }

@@ -2,6 +2,8 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_band.h"
+#include "models/heights/web_tiles.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -77,7 +79,56 @@ void check_sources(const path& file, GDALDatasetH dataset) {
 }
 
 Dataset open_named(const std::string& name) {
+    if (Dataset heightmap = open_cesium_heightmap(name)) {
+        return heightmap;
+    }
     return Dataset(GDALOpenEx(name.c_str(), open_flags, nullptr, nullptr, nullptr));
+}
+
+/// The name of a variable at the end of a sub-dataset's: height of NETCDF:"a.nc":height.
+std::string variable_of(const std::string& subdataset) {
+    return subdataset.substr(subdataset.find_last_of(":/") + 1);
+}
+
+std::string chosen_subdataset(
+    const path& file,
+    const std::vector<std::string>& names,
+    std::optional<std::string>& band,
+    std::vector<MapNote>& notes) {
+    if (names.size() == 1) {
+        return names.front();
+    }
+    std::vector<std::string> variables;
+    std::vector<std::string> heights;
+    for (const std::string& name : names) {
+        variables.push_back(variable_of(name));
+        if (band && EQUAL(variables.back().c_str(), band->c_str())) {
+            band.reset();
+            return name;
+        }
+        if (is_name_of_heights(variables.back())) {
+            heights.push_back(name);
+        }
+    }
+    const bool is_cut = variables.size() > most_named;
+    variables.resize(std::min(variables.size(), most_named));
+    if (!band && heights.size() == 1) {
+        notes.push_back({fmt::format(
+            "{}: {} is taken for heights, of {}{}: --band NAME chooses another",
+            file.filename().string(),
+            variable_of(heights.front()),
+            fmt::join(variables, ", "),
+            is_cut ? ", ..." : "")});
+        return heights.front();
+    }
+    error_in(
+        file,
+        fmt::format(
+            "expected one raster, got {}: --band names one of {}{}, or write {} for the file",
+            names.size(),
+            fmt::join(variables, ", "),
+            is_cut ? ", ..." : "",
+            names.front()));
 }
 
 } // namespace
@@ -122,7 +173,11 @@ void check_local_file(const path& file) {
     }
 }
 
-Dataset open_raster_file(const path& file, GdalSession& gdal) {
+Dataset open_raster_file(
+    const path& file,
+    GdalSession& gdal,
+    std::optional<std::string>& band,
+    std::vector<MapNote>& notes) {
     Dataset dataset = open_named(file.string());
     if (!dataset) {
         error_unreadable(
@@ -132,22 +187,13 @@ Dataset open_raster_file(const path& file, GdalSession& gdal) {
                                    : gdal.reason(file));
     }
     if (GDALGetRasterCount(dataset.get()) == 0) {
-        std::vector<std::string> names = subdatasets_of(dataset.get());
-        if (names.size() == 1) {
-            dataset = open_named(names.front());
+        const std::vector<std::string> names = subdatasets_of(dataset.get());
+        if (!names.empty()) {
+            const std::string chosen = chosen_subdataset(file, names, band, notes);
+            dataset = open_named(chosen);
             if (!dataset) {
                 error_unreadable(file, "a height field", gdal.reason(file));
             }
-        } else if (!names.empty()) {
-            const std::size_t count = names.size();
-            names.resize(std::min(count, most_named));
-            error_in(
-                file,
-                fmt::format(
-                    "expected one raster, got {}: name one of them: {}{}",
-                    count,
-                    fmt::join(names, ", "),
-                    count > most_named ? ", ..." : ""));
         }
     }
     check_sources(file, dataset.get());

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "models/heights/gdal_session.h"
+#include "models/heights/height_field.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +18,15 @@ bool is_name_within_file(const std::string& name);
 /// name within one.
 void check_local_file(const std::filesystem::path& file);
 
-/// Opens a raster by whichever of GDAL's drivers knows it; of a file with one sub-dataset, that.
-/// Throws Error: another kind of file, several sub-datasets (they are named), a file that refers to
-/// others that are not on this computer.
-Dataset open_raster_file(const std::filesystem::path& file, GdalSession& gdal);
+/// Opens a raster by whichever of GDAL's drivers knows it. Of a file with sub-datasets, that is the
+/// only one; the one that `band` names, which is then reset; or the only one whose name says
+/// heights (height_band.h), with a note. Throws Error: another kind of file, several sub-datasets
+/// (they are named), a file that refers to others that are not on this computer.
+Dataset open_raster_file(
+    const std::filesystem::path& file,
+    GdalSession& gdal,
+    std::optional<std::string>& band,
+    std::vector<MapNote>& notes);
 
 /// The files of this computer that a raster is read from: itself, and those it refers to. Only
 /// itself where it cannot be opened.

@@ -31,14 +31,14 @@ SourceGrid::SourceGrid(SourcePiece first)
     : map_(first.raster.map)
     , columns_(first.raster.columns)
     , rows_(first.raster.rows)
-    , in_degrees_(first.raster.system != nullptr && OSRIsGeographic(first.raster.system) != 0) {
+    , in_degrees_(first.raster.system && OSRIsGeographic(first.raster.system.get()) != 0) {
     pieces_.push_back(std::move(first));
 }
 
 bool SourceGrid::take(SourcePiece& piece) {
     const std::optional<MapFromGrid>& other = piece.raster.map;
     if (!map_ || !other || !map_->is_upright() || !other->is_upright() ||
-        !same_system(piece.raster.system, system())) {
+        !same_system(piece.raster.system.get(), system())) {
         return false;
     }
     const bool same_step = std::abs(other->x_column / map_->x_column - 1.0) <= step_tolerance &&

@@ -39,7 +39,7 @@ public:
 
     int rows() const { return rows_; }
 
-    SystemHandle system() const { return pieces_.front().raster.system; }
+    SystemHandle system() const { return pieces_.front().raster.system.get(); }
 
     /// Where its samples lie in system(); nothing for a file without georeference.
     const std::optional<MapFromGrid>& map() const { return map_; }

@@ -138,7 +138,6 @@ bool has_length_unit(SystemHandle system) {
 }
 
 void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
-    constexpr double coarsest_degrees = 0.02;
     for (const SourceGrid& grid : grids) {
         const path& own = grid.pieces().front().file;
         const SystemHandle system = grid.system();
@@ -149,17 +148,6 @@ void check_systems(const path& file, const std::vector<SourceGrid>& grids) {
                     "expected a coordinate system, as {} has, got none: --terrain-system says "
                     "which",
                     file.filename().string()));
-        }
-        const MapFromGrid& map = *grid.map();
-        const bool like_degrees = std::abs(map.x0) <= 360.0 && std::abs(map.y0) <= 90.0 &&
-                                  map.steps().x < coarsest_degrees;
-        if (system == nullptr && like_degrees) {
-            error_in(
-                own,
-                fmt::format(
-                    "expected a coordinate system, got none and cells of {:g}, which look like "
-                    "degrees: --terrain-system EPSG:4326 says that they are",
-                    map.steps().x));
         }
         if (!has_length_unit(system) && OSRIsGeographic(system) == 0) {
             error_in(own, "expected a map projection or degrees, got another coordinate system");
@@ -285,6 +273,7 @@ TargetLattice lattice_in_own_frame(const path& file, std::vector<SourceGrid>& gr
     Finest finest = finest_of(grids);
     const MapFromGrid& map = *finest.grid->map();
     finest.sides = map.steps(); // to the last bit
+    lattice.cell_m = finest.sides * lattice.unit_m;
     const bool square = std::abs(finest.sides.x / finest.sides.y - 1.0) <= square_tolerance;
     lattice.is_source = grids.size() == 1 && map.is_upright() && square;
     lattice.step = lattice.is_source ? finest.sides.x : common_step(finest.sides);
@@ -320,7 +309,9 @@ TargetLattice lattice_about_middle(const path& file, std::vector<SourceGrid>& gr
             file,
             fmt::format("{:.0f} x {:.0f} km", 1e-3 * extent.size().x, 1e-3 * extent.size().y));
     }
-    const double side = finest_of(grids).side();
+    const Finest finest = finest_of(grids);
+    const double side = finest.side();
+    lattice.cell_m = finest.sides;
     const glm::dvec2 cells = extent.size() / side;
     lattice.step = 4.0 * cells.x * cells.y <= most_halved ? 0.5 * side : side;
     lay_samples(file, extent, lattice);

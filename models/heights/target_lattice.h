@@ -16,6 +16,7 @@ struct TargetLattice {
     double west = 0.0;   ///< of column 0, in the frame's units
     double south = 0.0;
     double step = 1.0; ///< between samples, in the frame's units
+    glm::dvec2 cell_m{0.0}; ///< sides of the finest source's cells at its middle
     int columns = 0;
     int rows = 0;
     /// All samples are the sources' own, in one grid: nothing is to be resampled.

@@ -8,14 +8,18 @@
 namespace octant {
 
 void* LateLibrary::address_of(const char* name) {
-    std::call_once(once_, [this] { handle_ = ::dlopen(file_, RTLD_LAZY | RTLD_LOCAL); });
-    void* const at = handle_ == nullptr ? nullptr : ::dlsym(handle_, name);
+    void* const at = find(name);
     if (at == nullptr) {
         throw Error(
             std::string("expected ") + file_ +
             (handle_ == nullptr ? "" : std::string(" with ") + name) + " on this system, got none");
     }
     return at;
+}
+
+void* LateLibrary::find(const char* name) {
+    std::call_once(once_, [this] { handle_ = ::dlopen(file_, RTLD_LAZY | RTLD_LOCAL); });
+    return handle_ == nullptr ? nullptr : ::dlsym(handle_, name);
 }
 
 } // namespace octant

@@ -16,6 +16,9 @@ public:
     /// Of a function. Throws Error where the library or the function is not to be had.
     void* address_of(const char* name);
 
+    /// The same of a function that may be missing, also one of a library below; null where it is.
+    void* find(const char* name);
+
 private:
     const char* file_;
     std::once_flag once_;

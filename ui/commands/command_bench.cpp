@@ -2,6 +2,7 @@
 #include "ui/commands/bench.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 
 #include <array>
 #include <cstdio>
@@ -116,7 +117,7 @@ Option again(std::string name, std::string meaning, std::vector<std::string>& va
 std::vector<Option> options_of(BenchCommand& bench) {
     BenchOptions& options = bench.options;
     settings::RunSettings& settings = options.settings;
-    return {
+    std::vector<Option> table = {
         showing(
             "[hills,canyon,background60; with --features: hills]",
             list_option(
@@ -170,6 +171,8 @@ std::vector<Option> options_of(BenchCommand& bench) {
             options.growth),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
+    add_file_options(table, settings.path);
+    return table;
 }
 
 } // namespace

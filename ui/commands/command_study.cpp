@@ -1,6 +1,7 @@
 #include "ui/base/study_output.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
+#include "ui/commands/terrain_options.h"
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
 #include "ui/studies/draw_order/study_hidden_surface.h"
@@ -73,7 +74,7 @@ Command draw_order_study_command() {
 
 Command flicker_command() {
     auto options = std::make_shared<studies::flicker::FlickerStudyOptions>();
-    return {
+    Command command = {
         .name = "flicker",
         .summary = "Triangle control of the quadtree paper: its figures 3, 5, 6, 8 and 9, and how "
                    "quietly previous, damped and exact control hold the count",
@@ -90,13 +91,6 @@ Command flicker_command() {
                  "rugged ground: hills, canyon or a file",
                  options->rugged),
              read_option(
-                 {"terrain-spacing",
-                  "METRES",
-                  "sample spacing of files that do not say",
-                  0.01,
-                  1e5},
-                 options->spacing_m),
-             read_option(
                  {"frames",
                   "N",
                   "frames of the path; a fifth of them at a fixed view",
@@ -106,6 +100,8 @@ Command flicker_command() {
         .footer = "Examples:\n  octant study flicker --out tables\n  octant study flicker --out "
                   "tables --gentle pugetsound.tif --rugged gcanyon.tif",
         .run = [options] { studies::flicker::study_flicker(*options); }};
+    add_file_options(command.options, options->files);
+    return command;
 }
 
 void hidden_surface(studies::draw_order::HiddenSurfaceStudy study, const std::string& only) {
@@ -146,7 +142,7 @@ Command hidden_surface_command() {
     auto study = std::make_shared<studies::draw_order::HiddenSurfaceStudy>();
     auto only = std::make_shared<std::string>("all");
     study->settings.path.terrain = "canyon";
-    return {
+    Command command = {
         .name = "hidden-surface",
         .summary = "Octant order, depth buffer and removal of back faces: frames a second, and "
                    "every pixel's polygon compared",
@@ -156,6 +152,8 @@ Command hidden_surface_command() {
             "Examples:\n  octant study hidden-surface --out tables --only pictures --every 10\n"
             "  octant study hidden-surface --out tables --only rays --every 14 --size 480x270",
         .run = [study, only] { hidden_surface(*study, *only); }};
+    add_file_options(command.options, study->settings.path);
+    return command;
 }
 
 Command pictures_command() {
@@ -200,12 +198,14 @@ std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& optio
 Command popping_command() {
     auto options = std::make_shared<studies::flicker::PoppingStudyOptions>();
     options->settings.path.terrain = "canyon";
-    return {
+    Command command = {
         .name = "popping",
         .summary = "Largest jump of a vertex in any frame of the four paths, and shimmer",
         .options = study_options(*options, popping_options(*options)),
         .footer = "Example:\n  octant study popping --out tables --terrain canyon",
         .run = [options] { studies::flicker::study_popping(*options); }};
+    add_file_options(command.options, options->settings.path);
+    return command;
 }
 
 Command shading_command() {

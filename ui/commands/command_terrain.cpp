@@ -69,13 +69,22 @@ base::Figures figures_of(const models::heights::HeightField& field) {
     return figures;
 }
 
-/// Of ground from files; nothing for files without georeference.
-std::optional<models::heights::Deviation>
-deviation_of(const models::heights::HeightField& field, const TerrainOptions& options) {
+/// Adds what only the files themselves tell, which are read once more.
+void add_source(
+    const models::heights::HeightField& field,
+    const TerrainOptions& options,
+    base::Figures& figures) {
     const models::heights::HeightSource source(
         models::heights::map_inputs({options.terrain}), options.files);
-    return source.deviation_of(
-        [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
+    figures["voids"] = source.count_voids();
+    figures["cell_m"] = source.cell_m().x;
+    figures["cell_north_m"] = source.cell_m().y;
+    if (!source.system_name().empty()) {
+        figures["system"] = source.system_name();
+    }
+    const auto deviation =
+        source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
+    add_trust(field.system, field.half_extent_m(), deviation, figures);
 }
 
 void show(const TerrainOptions& options) {
@@ -87,8 +96,9 @@ void show(const TerrainOptions& options) {
         world::load_height_field(options.terrain, options.files);
     base::Figures figures = figures_of(field);
     if (!settings::is_built_in_ground(options.terrain)) {
-        add_trust(field.system, field.half_extent_m(), deviation_of(field, options), figures);
+        add_source(field, options, figures);
     }
+    figures["notes"] = note_texts(field.notes);
     base::print_figures(figures, options.json);
 }
 
@@ -163,6 +173,14 @@ Command make_command() {
 }
 
 } // namespace
+
+std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes) {
+    std::vector<std::string> texts;
+    for (const models::heights::MapNote& note : notes) {
+        texts.push_back(note.text);
+    }
+    return texts;
+}
 
 void add_trust(
     const std::optional<models::heights::MapSystem>& system,

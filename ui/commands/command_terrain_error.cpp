@@ -33,7 +33,7 @@ void show_error(const ErrorOptions& options) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
     const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files);
+        terrain::load_ground(options.view.terrain, options.view.files, options.quiet);
     ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(ui::terrain::camera_of(options.view));

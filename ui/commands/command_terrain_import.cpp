@@ -138,6 +138,9 @@ void import(const ImportCommand& command) {
     if (!summary.note.empty()) {
         base::say(command.quiet, summary.note);
     }
+    for (const models::heights::MapNote& note : summary.notes) {
+        base::say(command.quiet, note.text);
+    }
     if (!command.json) {
         base::say(
             command.quiet, fmt::format("{}: {}, {:.2f} s", command.out, line_of(summary), whole_s));
@@ -149,6 +152,7 @@ void import(const ImportCommand& command) {
         figures[stage_keys[stage]] = watch.seconds(stage);
     }
     figures["note"] = summary.note;
+    figures["notes"] = note_texts(summary.notes);
     base::print_figures(figures, true);
 }
 

@@ -28,7 +28,7 @@ struct MeshOptions {
 void write_mesh(const MeshOptions& options) {
     const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
     const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files);
+        terrain::load_ground(options.view.terrain, options.view.files, options.quiet);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_as_asked(
         *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -26,6 +27,9 @@ void add_trust(
     const glm::dvec2& half_extent_m,
     const std::optional<models::heights::Deviation>& deviation,
     base::Figures& figures);
+
+/// What notes say.
+std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes);
 
 /// Shows the figures of a file made by import, after checking all of it where `verify`. Throws
 /// Error for a damaged one.

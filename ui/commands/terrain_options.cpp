@@ -16,25 +16,62 @@ void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions&
     add_file_options(table, options.files);
 }
 
-void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
+namespace {
+
+void add_file_rows(
+    std::vector<Option>& table,
+    double& spacing_m,
+    std::optional<double>& height_scale,
+    std::optional<std::string>& system,
+    std::optional<double>& void_value,
+    std::optional<std::string>& band) {
     table.insert(
         table.end(),
         {read_option(
              {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
-             files.spacing_m),
+             spacing_m),
          read_option(
              {"height-scale",
               "METRES",
               "metres a unit of heights, of files that name no unit [1]",
               1e-6,
               1e4},
-             files.height_scale),
+             height_scale),
          read_option(
              {"terrain-system",
               "SYSTEM",
-              "coordinate system of files that name none, such as EPSG:4326, a PROJ string or a "
-              ".prj file [metres]"},
-             files.system)});
+              "coordinate system of files that name none: EPSG:4326, a PROJ string, a .prj file or "
+              "metres [degrees: WGS 84; else metres]"},
+             system),
+         read_option(
+             {"void",
+              "VALUE",
+              "raw number that stands for no data, beside the declared one [found, and said]",
+              -1e38,
+              1e38},
+             void_value),
+         read_option(
+             {"band",
+              "N|NAME",
+              "band that holds heights; terrarium, mapbox: coded in colours [found, and said]"},
+             band)});
+}
+
+} // namespace
+
+void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
+    add_file_rows(
+        table, files.spacing_m, files.height_scale, files.system, files.void_value, files.band);
+}
+
+void add_file_options(std::vector<Option>& table, settings::PathSettings& path) {
+    add_file_rows(
+        table,
+        path.terrain_spacing_m,
+        path.terrain_height_scale,
+        path.terrain_system,
+        path.terrain_void,
+        path.terrain_band);
 }
 
 void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {

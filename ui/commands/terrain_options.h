@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/commands/option.h"
+#include "ui/settings/settings.h"
 #include "ui/terrain/ground_view.h"
 
 #include <vector>
@@ -9,8 +10,10 @@ namespace octant::ui::commands {
 
 // Rows that commands about one mesh of a terrain share. Each adds to a command's table.
 
-/// --terrain-spacing, --height-scale and --terrain-system.
+/// What map files do not say: --terrain-spacing, --height-scale, --terrain-system, --void and
+/// --band. Every command that reads maps has them.
 void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files);
+void add_file_options(std::vector<Option>& table, settings::PathSettings& path);
 
 /// The terrain, and what its files do not say.
 void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options);

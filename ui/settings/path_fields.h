@@ -68,8 +68,23 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::terrain_system>(
         {"terrain-system",
          "SYSTEM",
-         "coordinate system of terrain files that name none, such as EPSG:4326, a PROJ string or a "
-         ".prj file [metres]"},
+         "coordinate system of terrain files that name none: EPSG:4326, a PROJ string, a .prj file "
+         "or metres [degrees: WGS 84; else metres]"},
+        {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
+    setting<&RunSettings::path, &PathSettings::terrain_void>(
+        {"void",
+         "VALUE",
+         "raw number of terrain files that stands for no data, beside the declared one [found, and "
+         "said]",
+         -1e38,
+         1e38},
+        {.group = SettingGroup::Path, .change = SettingsChange::Flight, .start = -9999.0}),
+    setting<&RunSettings::path, &PathSettings::terrain_band>(
+        {"band",
+         "N|NAME",
+         "band of terrain files that holds heights; terrarium, mapbox: coded in colours [found, "
+         "and "
+         "said]"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
     setting<&RunSettings::path, &PathSettings::place>(
         {"place",

@@ -32,6 +32,10 @@ struct PathSettings {
     std::optional<double> terrain_height_scale;
     /// The coordinate system of terrain files that name none; metres if not set.
     std::optional<std::string> terrain_system;
+    /// The raw number of terrain files that stands for no data, beside those that they declare.
+    std::optional<double> terrain_void;
+    /// The band of terrain files that holds heights, by number or name; chosen if not set.
+    std::optional<std::string> terrain_band;
     /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
     /// centre of the map.
     std::optional<std::string> place;

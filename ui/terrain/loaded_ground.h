@@ -35,8 +35,11 @@ private:
     std::variant<models::heights::HeightField, visuals::terrain::GroundTiles> ground_;
 };
 
-/// By name (hills, canyon), imported, or maps as world::load_height_field takes them. Throws Error.
-LoadedGround
-load_ground(const std::string& name_or_file, const models::heights::ImportOptions& options);
+/// By name (hills, canyon), imported, or maps as world::load_height_field takes them; says the
+/// maps' notes on stderr unless `quiet`. Throws Error.
+LoadedGround load_ground(
+    const std::string& name_or_file,
+    const models::heights::ImportOptions& options,
+    bool quiet = false);
 
 } // namespace octant::ui::terrain

@@ -106,6 +106,9 @@ SceneGround ground_of_field(
     DrawnBy drawn_by,
     const RunwayFinder& find_runway) {
     std::vector<std::string> notes;
+    for (const models::heights::MapNote& note : field.notes) {
+        notes.push_back(note.text);
+    }
     std::shared_ptr<const RunwayStrip> runway;
     if (find_runway) {
         check_samples(field.columns(), field.rows());
@@ -170,17 +173,14 @@ ground_settings(const settings::RunSettings& settings, const std::optional<GeoPl
 
 TerrainInputs terrain_inputs(const settings::PathSettings& settings) {
     TerrainInputs inputs{
-        .terrain = settings.terrain,
-        .spacing_m = settings.terrain_spacing_m,
-        .height_scale = settings.terrain_height_scale,
-        .system = settings.terrain_system,
-        .files = {}};
+        .terrain = settings.terrain, .options = import_options(settings), .files = {}};
     for (const std::filesystem::path& file : ground_files(settings.terrain)) {
         add_stamp(file, inputs.files);
     }
     std::error_code none;
-    if (inputs.system && std::filesystem::is_regular_file(*inputs.system, none)) {
-        add_stamp(*inputs.system, inputs.files);
+    const std::optional<std::string>& system = inputs.options.system;
+    if (system && std::filesystem::is_regular_file(*system, none)) {
+        add_stamp(*system, inputs.files);
     }
     return inputs;
 }

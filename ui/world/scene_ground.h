@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
+#include "models/heights/import_options.h"
 #include "models/heights/runway_strip.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/geo_place.h"
@@ -29,9 +30,7 @@ ground_settings(const settings::RunSettings& settings, const std::optional<GeoPl
 struct TerrainInputs {
     /// As PathSettings has them.
     std::string terrain;
-    double spacing_m = 0.0;
-    std::optional<double> height_scale;
-    std::optional<std::string> system;
+    models::heights::ImportOptions options;
     /// All files that the heights and their system come from; none for made ground.
     std::vector<FileStamp> files;
 

@@ -35,7 +35,12 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
 }
 
 models::heights::ImportOptions import_options(const settings::PathSettings& settings) {
-    return {settings.terrain_spacing_m, settings.terrain_height_scale, settings.terrain_system};
+    return {
+        settings.terrain_spacing_m,
+        settings.terrain_height_scale,
+        settings.terrain_system,
+        settings.terrain_void,
+        settings.terrain_band};
 }
 
 } // namespace octant::ui::world

@@ -141,7 +141,7 @@ ImportSummary Import::run() {
     }
     build();
     finish();
-    return {shape_, facts_, plan_.file_bytes, note_};
+    return {shape_, facts_, plan_.file_bytes, note_, source_.notes()};
 }
 
 bool Import::goes_on() {

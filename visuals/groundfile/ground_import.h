@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -39,6 +40,7 @@ struct ImportSummary {
     GroundFacts facts;
     std::size_t bytes = 0; ///< The size of the file.
     std::string note;      ///< What became of an earlier, unfinished import; empty without one.
+    std::vector<models::heights::MapNote> notes; ///< Of the inputs.
 };
 
 /// Makes one mapped file (ground_file.h) of heights that GDAL reads: from one file, or from several

@@ -10,6 +10,7 @@
 
 #include <bit>
 #include <fmt/format.h>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -24,8 +25,13 @@ hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOpt
     hash.add_word(GroundHeader::right_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
     hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale.value_or(0.0)));
-    const std::string system = options.system.value_or("");
-    hash.add(std::as_bytes(std::span(system)));
+    for (const std::optional<std::string>& text : {options.system, options.band}) {
+        hash.add_word(text ? text->size() + 1 : 0);
+        const std::string bytes = text.value_or("");
+        hash.add(std::as_bytes(std::span(bytes)));
+    }
+    hash.add_word(options.void_value ? 1 : 0);
+    hash.add_word(std::bit_cast<std::uint64_t>(options.void_value.value_or(0.0)));
     for (const path& input : inputs) {
         std::error_code code;
         const std::string name = std::filesystem::absolute(input, code).string();

@@ -19,7 +19,7 @@ std::filesystem::path scratch_file(const std::string& name) {
 }
 
 void write_raster(const std::filesystem::path& path, const char* driver, const RasterFile& raster) {
-    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
+    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO"); // writes no sidecar
     GDALAllRegister();
     GDALDatasetH memory = GDALCreate(
         GDALGetDriverByName("MEM"),
@@ -91,6 +91,7 @@ void write_raster(const std::filesystem::path& path, const char* driver, const R
     REQUIRE(copy != nullptr);
     GDALClose(copy);
     GDALClose(memory);
+    CPLSetConfigOption("GDAL_PAM_ENABLED", nullptr);
 }
 
 void truncate_file(const std::filesystem::path& path, std::uintmax_t bytes) {

@@ -124,8 +124,8 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
     std::vector<HeightField> fields;
     fields.push_back(estuary(hills));
     fields.push_back(plain(hills));
-    fields.push_back(world::load_height_field(options.gentle, {options.spacing_m}));
-    fields.push_back(world::load_height_field(options.rugged, {options.spacing_m}));
+    fields.push_back(world::load_height_field(options.gentle, options.files));
+    fields.push_back(world::load_height_field(options.rugged, options.files));
     fields.push_back(high_mountains(hills));
     report::HtmlTable table;
     table.title = "Controls from flats to high mountains, c = 5";

@@ -85,7 +85,9 @@ Change shimmer_along(
 
 report::HtmlTable shimmer_table(const ShimmerOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
-        options.settings.path.terrain, world::import_options(options.settings.path));
+        options.settings.path.terrain,
+        world::import_options(options.settings.path),
+        true); // popping said the notes
     const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";

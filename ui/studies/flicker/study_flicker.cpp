@@ -131,8 +131,8 @@ std::vector<FlickerRun> run_memories(
 
 /// Both fields at once, each by a thread of its own.
 FlickerRuns run_all(const FlickerStudyOptions& options) {
-    FlickerGround gentle(world::load_height_field(options.gentle, {options.spacing_m}));
-    FlickerGround rugged(world::load_height_field(options.rugged, {options.spacing_m}));
+    FlickerGround gentle(world::load_height_field(options.gentle, options.files));
+    FlickerGround rugged(world::load_height_field(options.rugged, options.files));
     const int ways = static_cast<int>(flicker_ways().size());
     const int runs_of_field = (static_cast<int>(flicker_weights.size()) + 1) * ways +
                               static_cast<int>(flicker_gains.size() + flicker_memories.size());

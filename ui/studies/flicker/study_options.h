@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/import_options.h"
 #include "ui/base/study_output.h"
 
 #include <string>
@@ -10,7 +11,7 @@ namespace octant::ui::studies::flicker {
 struct FlickerStudyOptions : base::StudyOutput {
     std::string gentle = "hills";  ///< name or file, as load_height_field takes them
     std::string rugged = "canyon"; ///< name or file, as `gentle`
-    double spacing_m = 30.0;       ///< of height files that name no spacing
+    models::heights::ImportOptions files; ///< what height files do not say
     int frames = 1000;             ///< of the path; a fifth of them, at least 60, at a fixed view
 };
 

@@ -156,7 +156,7 @@ using OfWays = std::array<Jumps, meshings.size()>;
 /// Of every built-in path by every meshing, `jobs` of these at once.
 std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
-        options.settings.path.terrain, world::import_options(options.settings.path));
+        options.settings.path.terrain, world::import_options(options.settings.path), options.quiet);
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
     for (std::size_t path = 0; path < flown.size(); ++path) {

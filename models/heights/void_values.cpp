@@ -1,0 +1,136 @@
+#include "models/heights/void_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace octant::models::heights {
+
+namespace {
+
+/// Distinct numbers that no ground has as a height and that count as voids at most.
+constexpr std::size_t max_absurd = 3;
+
+/// Whether a number is one that a person writes: a whole one of up to ten digits or a power of ten.
+/// Damaged samples are hardly ever.
+bool is_written(double raw) {
+    const double size = std::abs(raw);
+    return (size < 1e10 && size == std::floor(size)) ||
+           static_cast<float>(size) ==
+               static_cast<float>(std::pow(10.0, std::round(std::log10(size))));
+}
+
+std::string samples_text(std::int64_t samples) {
+    return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s");
+}
+
+} // namespace
+
+bool UndeclaredVoids::has(double raw) const {
+    return raw >= wrapped_from || std::ranges::find(values, raw) != values.end();
+}
+
+bool is_usual_void(double raw) {
+    constexpr std::array<double, 14> usual = {
+        -999.0,
+        -9999.0,
+        -10000.0,
+        -32767.0,
+        -32768.0,
+        -99999.0,
+        9999.0,
+        99999.0,
+        32767.0,
+        32768.0, // -32768, -10000, -9999 and -1 as unsigned numbers of 16 bits
+        55536.0,
+        55537.0,
+        65535.0,
+        4294967295.0};
+    return std::ranges::find(usual, raw) != usual.end();
+}
+
+void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
+    const auto found = std::ranges::find(marks, raw, &Mark::raw);
+    if (found != marks.end()) {
+        ++found->samples;
+    } else if (marks.size() <= max_absurd || is_usual_void(raw)) {
+        marks.push_back({raw, height_m, 1});
+    }
+}
+
+/// Whether a number is a negative height that was stored unsigned.
+bool VoidSurvey::is_wrapped(double raw) const {
+    return raw < modulus_ && raw - modulus_ >= lowest_m_ && raw == std::floor(raw);
+}
+
+void VoidSurvey::add(double raw, double height_m) {
+    const bool is_height = height_m >= lowest_m_ && height_m <= highest_m_;
+    if (is_usual_void(raw)) {
+        count(usual_, raw, height_m);
+    } else if (is_height) {
+        ++ordinary_;
+        least_m_ = std::min(least_m_, height_m);
+        greatest_m_ = std::max(greatest_m_, height_m);
+    } else if (is_wrapped(raw)) {
+        wrapped_.raw = wrapped_.samples == 0 ? raw : std::min(wrapped_.raw, raw);
+        greatest_wrapped_ = std::max(greatest_wrapped_, raw);
+        ++wrapped_.samples;
+    } else {
+        count(absurd_, raw, height_m);
+    }
+}
+
+double VoidSurvey::distance_m(double height_m) const {
+    return std::max({least_m_ - height_m, height_m - greatest_m_, 0.0});
+}
+
+UndeclaredVoids VoidSurvey::result() const {
+    const bool has_heights = least_m_ <= greatest_m_;
+    const double range_m = has_heights ? greatest_m_ - least_m_ : 0.0;
+    const double near_m = std::max(50.0, 0.02 * range_m);
+    const double far_m = std::max(1000.0, 0.5 * range_m);
+    UndeclaredVoids voids;
+    std::string counts;
+    const auto take = [&](const Mark& mark) {
+        voids.values.push_back(mark.raw);
+        counts += fmt::format(
+            "{}{} of {:.15g}", counts.empty() ? "" : ", ", samples_text(mark.samples), mark.raw);
+    };
+    for (const Mark& mark : usual_) {
+        if (distance_m(mark.height_m) > near_m) {
+            take(mark);
+        }
+    }
+    std::int64_t absurd = 0;
+    for (const Mark& mark : absurd_) {
+        absurd += mark.samples;
+    }
+    const bool are_few =
+        absurd_.size() <= 1 || (absurd_.size() <= max_absurd && absurd < ordinary_);
+    if (has_heights && are_few) {
+        for (const Mark& mark : absurd_) {
+            if (distance_m(mark.height_m) > far_m && is_written(mark.raw)) {
+                take(mark);
+            }
+        }
+    }
+    if (has_heights && wrapped_.samples > 0 && absurd_.empty()) {
+        voids.wrapped_from = wrapped_.raw;
+        counts += fmt::format(
+            "{}{} from {:.15g} to {:.15g} (negative numbers stored as unsigned ones)",
+            counts.empty() ? "" : ", ",
+            samples_text(wrapped_.samples),
+            wrapped_.raw,
+            greatest_wrapped_);
+    }
+    if (!counts.empty()) {
+        voids.note = fmt::format(
+            "{} count as without data, though the file does not say so: --void VALUE names "
+            "another value",
+            counts);
+    }
+    return voids;
+}
+
+} // namespace octant::models::heights

@@ -1,0 +1,558 @@
+// Maps as strangers send them. Right values are those of gdalinfo and gdallocationinfo
+// (GDAL 3.6.2), which read the same files without any of our code, or are computed by hand.
+#include "models/heights/gdal_session.h"
+#include "models/heights/height_band.h"
+#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
+#include "models/heights/map_inputs.h"
+#include "models/heights/void_values.h"
+#include "tests/models/heights/sample_maps.h"
+#include "tests/scratch.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fstream>
+#include <thread>
+#include <unistd.h>
+
+using namespace octant;
+using namespace octant::models;
+using namespace octant::models::heights;
+using namespace octant::models::heights::test;
+using Catch::Contains;
+using std::filesystem::path;
+
+namespace {
+
+path kept_map(const std::string& name) {
+    return path(OCTANT_SOURCE_DIR) / "tests/data/maps" / name;
+}
+
+/// The notes of a field, one a line.
+std::string notes_text(const HeightField& field) {
+    std::string text;
+    for (const MapNote& note : field.notes) {
+        text += note.text + "\n";
+    }
+    return text;
+}
+
+/// Height of a sample that GDAL counts as column and line from the north-west.
+double height_at(const HeightField& field, int column, int line) {
+    return static_cast<double>(field.height_m(column, field.rows() - 1 - line));
+}
+
+void write_text(const path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+/// 8 x 6 heights from 100 to 147 m, 30 m apart.
+RasterFile small_map() {
+    RasterFile raster;
+    raster.columns = 8;
+    raster.rows = 6;
+    for (int i = 0; i < 48; ++i) {
+        raster.values.push_back(100.0 + i);
+    }
+    raster.transform = {500000.0, 30.0, 0.0, 5000000.0, 0.0, -30.0};
+    raster.system = "EPSG:32632";
+    return raster;
+}
+
+HeightField read_small(const RasterFile& raster, const ImportOptions& options = {}) {
+    const path file = scratch_file("small.tif");
+    write_raster(file, "GTiff", raster);
+    return read_height_field(file, options);
+}
+
+/// A text grid of 3 x 2 samples with these words for heights.
+path ascii_grid(const std::string& heights, const std::string& header = "") {
+    const path file = scratch_file("words.asc");
+    write_text(
+        file,
+        "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 30\n" + header + heights + "\n");
+    return file;
+}
+
+} // namespace
+
+TEST_CASE("a sidecar's value for no data counts, and no sidecar is written") {
+    const path folder = tests::empty_folder("sidecar");
+    for (const char* const name : {"pam-nodata.tif", "pam-nodata.tif.aux.xml"}) {
+        std::filesystem::copy_file(kept_map(name), folder / name);
+    }
+    const HeightField field = read_height_field(folder / "pam-nodata.tif");
+    CHECK(field.filled_voids == 400);
+    CHECK(height_at(field, 35, 12) == Approx(524.885009765625));
+    CHECK(field.notes.empty());
+    std::filesystem::remove(folder / "pam-nodata.tif.aux.xml");
+    read_height_field(folder / "pam-nodata.tif");
+    read_height_field(folder / "pam-nodata.tif");
+    CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
+}
+
+TEST_CASE("a sidecar gives georeference, unit and scale to a file that has none") {
+    RasterFile raster = small_map();
+    raster.transform.clear();
+    raster.system.clear();
+    raster.type = GDT_UInt16;
+    const path file = scratch_file("plain.png");
+    write_raster(file, "PNG", raster);
+    write_text(
+        file.string() + ".aux.xml",
+        "<PAMDataset><SRS>EPSG:32632</SRS><GeoTransform>500000, 25, 0, 5000000, 0, -25"
+        "</GeoTransform><PAMRasterBand band=\"1\"><UnitType>ft</UnitType><Scale>2</Scale>"
+        "<Offset>10</Offset></PAMRasterBand></PAMDataset>");
+    const HeightField field = read_height_field(file);
+    std::filesystem::remove(file.string() + ".aux.xml");
+    CHECK(field.spacing_m() == 25.0);
+    CHECK(field.place);
+    CHECK(height_at(field, 1, 0) == Approx((2.0 * 101.0 + 10.0) * 0.3048));
+}
+
+TEST_CASE("the mask of a dataset and its alpha band tell where there is no data") {
+    const HeightField masked = read_height_field(kept_map("internal-mask.tif"));
+    CHECK(masked.filled_voids == 400);
+    CHECK(masked.lowest_m() > 322.0F);
+    CHECK(height_at(masked, 35, 12) == Approx(524.885009765625));
+    for (const GDALDataType type : {GDT_Int16, GDT_Float32}) { // whole metres are read another way
+        RasterFile raster = small_map();
+        raster.type = type;
+        raster.bands = 2;
+        raster.values.resize(96, 255.0);
+        raster.values[48 + 20] = 0.0;
+        raster.values[20] = 0.0;
+        const path file = scratch_file("alpha.tif");
+        write_raster(file, "GTiff", raster);
+        {
+            const Dataset dataset(GDALOpen(file.c_str(), GA_Update));
+            GDALSetRasterColorInterpretation(GDALGetRasterBand(dataset.get(), 2), GCI_AlphaBand);
+        }
+        const HeightField field = read_height_field(file);
+        CHECK(field.filled_voids == 1);
+        CHECK(height_at(field, 4, 2) == Approx(120.0).margin(0.5));
+    }
+}
+
+TEST_CASE("a mask beside a file, in another format, tells where there is no data") {
+    RasterFile raster = small_map();
+    raster.type = GDT_Int16;
+    const path file = scratch_file("beside.img");
+    write_raster(file, "HFA", raster);
+    {
+        CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", "NO");
+        const Dataset dataset(GDALOpen(file.c_str(), GA_ReadOnly));
+        REQUIRE(GDALCreateDatasetMaskBand(dataset.get(), GMF_PER_DATASET) == CE_None);
+        std::vector<std::uint8_t> there(48, 255);
+        there[0] = 0;
+        REQUIRE(
+            GDALRasterIO(
+                GDALGetMaskBand(GDALGetRasterBand(dataset.get(), 1)),
+                GF_Write,
+                0,
+                0,
+                8,
+                6,
+                there.data(),
+                8,
+                6,
+                GDT_Byte,
+                0,
+                0) == CE_None);
+        CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
+    }
+    CHECK(read_height_field(file).filled_voids == 1);
+    std::filesystem::remove(file.string() + ".msk");
+}
+
+TEST_CASE("undeclared values that no height has are voids, counted in a note") {
+    const HeightField kept = read_height_field(kept_map("minus99999.tif"));
+    CHECK(kept.filled_voids == 400);
+    CHECK_THAT(
+        notes_text(kept), Contains("minus99999.tif: 400 samples of -99999 count as without"));
+    for (const double mark :
+         {-9999.0, -10000.0, -32768.0, -99999.0, 32767.0, 65535.0, -999.0, 1e20, -1e9}) {
+        RasterFile raster = small_map();
+        raster.values[9] = mark;
+        raster.values[30] = mark;
+        const HeightField field = read_small(raster);
+        CAPTURE(mark);
+        CHECK(field.filled_voids == 2);
+        CHECK(field.lowest_m() >= 100.0F);
+        CHECK(field.highest_m() <= 147.0F);
+        CHECK_THAT(notes_text(field), Contains("2 samples of "));
+    }
+}
+
+TEST_CASE("whole metres of 16 bits have their undeclared voids found, too") {
+    for (const double mark : {-32768.0, 32767.0, -9999.0, -10000.0}) {
+        RasterFile raster = small_map();
+        raster.type = GDT_Int16;
+        raster.values[9] = mark;
+        const HeightField field = read_small(raster);
+        CHECK(field.filled_voids == 1);
+        CHECK_THAT(notes_text(field), Contains("1 sample of "));
+    }
+}
+
+TEST_CASE("negative heights that were stored unsigned are voids with a note") {
+    RasterFile raster = small_map();
+    raster.type = GDT_UInt16;
+    raster.values[3] = 65536.0 - 12.0;
+    raster.values[4] = 65536.0 - 3.0;
+    raster.values[5] = 65536.0 - 9999.0;
+    for (const GDALDataType type : {GDT_UInt16, GDT_Float32}) {
+        raster.type = type;
+        CHECK(read_small(raster).filled_voids == 3);
+    }
+    const HeightField field = read_small(raster);
+    CHECK_THAT(
+        notes_text(field), Contains("2 samples from 65524 to 65533 (negative numbers stored"));
+    CHECK_THAT(notes_text(field), Contains("1 sample of 55537"));
+}
+
+TEST_CASE("true heights are no voids, whatever their numbers") {
+    RasterFile trench = small_map();
+    for (std::size_t i = 0; i < trench.values.size(); ++i) {
+        trench.values[i] = -10020.0 + static_cast<double>(i); // passes -10000 and -9999
+    }
+    const HeightField sea = read_small(trench);
+    CHECK(sea.filled_voids == 0);
+    CHECK(sea.notes.empty());
+    RasterFile centimetres = small_map();
+    centimetres.type = GDT_UInt16;
+    for (std::size_t i = 0; i < centimetres.values.size(); ++i) {
+        centimetres.values[i] = 40000.0 + 500.0 * static_cast<double>(i);
+    }
+    CHECK_THROWS_WITH(read_small(centimetres), Contains("--height-scale says how many metres"));
+    ImportOptions options;
+    options.height_scale = 0.01;
+    CHECK(read_small(centimetres, options).highest_m() == Approx(635.0));
+}
+
+TEST_CASE("an option names the value that stands for no data, and nothing else is guessed then") {
+    RasterFile raster = small_map();
+    raster.values[9] = 0.0;
+    raster.values[10] = -9999.0;
+    ImportOptions options;
+    options.void_value = 0.0;
+    const HeightField field = read_small(raster, options);
+    CHECK(field.filled_voids == 1);
+    CHECK(field.lowest_m() == -9999.0F);
+    CHECK(field.notes.empty());
+}
+
+TEST_CASE("a plain PGM has its undeclared voids found and the option's honoured") {
+    const path file = scratch_file("voids.pgm");
+    write_text(file, "P2 3 3 65535 10 11 12 13 65535 15 16 17 18");
+    const HeightField field = read_height_field(file);
+    CHECK(field.filled_voids == 1);
+    CHECK_THAT(notes_text(field), Contains("1 sample of 65535"));
+    ImportOptions options;
+    options.void_value = 10.0;
+    write_text(file, "P2 3 3 255 10 11 12 13 14 15 16 17 18");
+    CHECK(read_height_field(file, options).filled_voids == 1);
+}
+
+TEST_CASE("a damaged number in a text grid is refused with its line") {
+    CHECK_THROWS_WITH(
+        read_height_field(kept_map("letter.asc")),
+        Contains("letter.asc:27: expected a height, got '4O7'"));
+    CHECK_THROWS_WITH(
+        read_height_field(ascii_grid("1 2 3\n4 5x 6")),
+        Contains("words.asc:7: expected a height, got '5x'"));
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 1.5D+02 6")), Contains(":7: "));
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("1 2 3\n4 5e 6")), Contains(":7: "));
+    CHECK_THROWS_WITH(
+        read_height_field(ascii_grid("1 2 3\n4 5")),
+        Contains(":8: expected 6 heights, got the end of the file after 5"));
+    CHECK_THROWS_WITH(
+        read_height_field(ascii_grid("NA 2 3\n4 5 6")),
+        Contains("words.asc:6: expected a number for the first height, got 'NA'"));
+    CHECK_THROWS_WITH(read_height_field(ascii_grid("O1 2 3\n4 5 6")), Contains("words.asc:6: "));
+    const path points = scratch_file("points.xyz");
+    write_text(points, "x y z\n0 0 1\n30 0 2\n0 30 3\n30 30 4O\n");
+    CHECK_THROWS_WITH(
+        read_height_field(points), Contains("points.xyz:5: expected a number, got '4O'"));
+    const path surfer = scratch_file("surfer.grd");
+    write_text(surfer, "DSAA\n2 2\n0 30\n0 30\n1 4\n1 2\n3 NA\n");
+    CHECK_THROWS_WITH(
+        read_height_field(surfer), Contains("surfer.grd:7: expected a height, got 'NA'"));
+}
+
+TEST_CASE("words without data in a text grid are voids, counted in a note") {
+    const HeightField kept = read_height_field(kept_map("na.asc"));
+    CHECK(kept.filled_voids == 1);
+    CHECK(kept.lowest_m() == 322.0F);
+    CHECK_THAT(notes_text(kept), Contains("na.asc: 1 sample with a word such as 'NA'"));
+    for (const char* const word : {"NA", "***", "*****", "null", "NaN", "-nan", "N/A", "1.#QNAN"}) {
+        CAPTURE(word);
+        const HeightField field =
+            read_height_field(ascii_grid(std::string("10 11 12\n13 ") + word + " 15"));
+        CHECK(field.filled_voids == 1);
+        CHECK(field.lowest_m() == 10.0F);
+    }
+    // GDAL takes a word for the value 0: heights of 0 m would be lost.
+    const HeightField sea = read_height_field(ascii_grid("0 0 1\nNA 0 1", "NODATA_value NA\n"));
+    CHECK(sea.filled_voids == 1);
+    // Numbers may be spread over lines in any way; a comma is a decimal point to GDAL, too.
+    CHECK(read_height_field(ascii_grid("1\n2 3 -4,5e0\n+5. 6")).lowest_m() == -4.5F);
+}
+
+TEST_CASE("axes in degrees are never metres, at any spacing") {
+    const HeightField coarse = read_height_field(kept_map("cf-degrees.nc"));
+    CHECK(coarse.spacing_m() > 1000.0);
+    REQUIRE(coarse.place);
+    CHECK(coarse.place->latitude_deg == Approx(46.983).margin(0.01)); // by gdalinfo's corners
+    CHECK(coarse.place->longitude_deg == Approx(6.983).margin(0.01));
+    CHECK_THAT(
+        notes_text(coarse), Contains("axes are in degrees: taken as longitude and latitude"));
+    const HeightSource source({kept_map("cf-degrees.nc")});
+    CHECK(
+        source.cell_m().x ==
+        Approx(111320.0 / 30.0 * std::cos(46.983 * 3.14159265 / 180.0)).epsilon(3e-3));
+    CHECK(source.system_name() == "WGS 84");
+    for (const double cell_deg : {0.0003, 0.02, 0.1, 0.5}) {
+        RasterFile raster = small_map();
+        raster.system.clear();
+        raster.transform = {8.0, cell_deg, 0.0, 47.0, 0.0, -cell_deg};
+        const HeightField field = read_small(raster);
+        CHECK(field.spacing_m() > 0.3 * 111000.0 * cell_deg);
+        CHECK_THAT(
+            notes_text(field), Contains("look like degrees: taken as longitude and latitude"));
+    }
+    RasterFile metres = small_map();
+    metres.system.clear();
+    metres.transform = {8.0, 0.5, 0.0, 47.0, 0.0, -0.5};
+    ImportOptions options;
+    options.system = "metres";
+    CHECK_NOTHROW(check_system(options));
+    CHECK(read_small(metres, options).spacing_m() == 0.5);
+}
+
+TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") {
+    RasterFile raster = small_map();
+    raster.transform = {8.0, 0.01, 0.0, 47.0, 0.0, -0.01};
+    raster.system =
+        "GEOGCS[\"unnamed\",DATUM[\"unknown\",SPHEROID[\"GRS 1980\",6378137,298.257222101]],"
+        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+    const HeightField field = read_small(raster);
+    REQUIRE(field.place);
+    CHECK(field.place->latitude_deg == Approx(46.97).margin(1e-6));
+    CHECK_THAT(notes_text(field), Contains("on a datum that is not named are taken as WGS 84"));
+    raster.system = "EPSG:4326";
+    CHECK(read_small(raster).notes.empty());
+    raster.system = "LOCAL_CS[\"degrees\",UNIT[\"degree\",0.0174532925199433]]";
+    CHECK(read_small(raster).spacing_m() > 300.0);
+}
+
+TEST_CASE("units of heights are recognised by their meaning") {
+    for (const char* const metre :
+         {"m",
+          "Meters",
+          "METRE",
+          "metres",
+          "m asl",
+          "m a.s.l.",
+          "[m]",
+          "Metres above mean sea level"}) {
+        CHECK(metres_from_unit(metre) == 1.0);
+    }
+    for (const char* const foot :
+         {"ft", "Feet", "FOOT", "foot", "feet above MSL", "ft (NAVD88)", "International Foot"}) {
+        CHECK(metres_from_unit(foot) == 0.3048);
+    }
+    for (const char* const survey :
+         {"US_survey_foot",
+          "U.S. Survey Feet",
+          "US survey foot",
+          "us-ft",
+          "ftUS",
+          "Foot_US",
+          "foot (US survey)",
+          "ussurveyft"}) {
+        CHECK(metres_from_unit(survey).value_or(0.0) == Approx(0.3048006096).epsilon(1e-9));
+    }
+    CHECK(metres_from_unit("Kilometers") == 1000.0);
+    CHECK(metres_from_unit("cm") == 0.01);
+    for (const char* const other :
+         {"K", "m/s", "m s-1", "m2", "m\u00b2", "degrees", "percent", "mm/day"}) {
+        CAPTURE(other);
+        CHECK(!metres_from_unit(other));
+    }
+    const HeightField field = read_height_field(kept_map("unit-Meters.tif"));
+    CHECK(height_at(field, 20, 30) == Approx(484.902679443359));
+    CHECK(field.notes.empty());
+}
+
+TEST_CASE("a system in feet whose heights name no unit gets a note") {
+    const HeightField field = read_height_field(kept_map("stateplane-feet.tif"));
+    CHECK(height_at(field, 20, 30) == Approx(1590.88806152344));
+    CHECK_THAT(
+        notes_text(field),
+        Contains("in feet (US survey foot)") && Contains("--height-scale 0.30480061"));
+    ImportOptions options;
+    options.height_scale = 0.30480061;
+    CHECK(read_height_field(kept_map("stateplane-feet.tif"), options).notes.empty());
+}
+
+TEST_CASE("the band whose name says elevation is taken, and an option takes any") {
+    const HeightField field = read_height_field(kept_map("band2-is-elevation.tif"));
+    CHECK(height_at(field, 20, 30) == Approx(484.902679443359));
+    CHECK_THAT(notes_text(field), Contains("band 2 (elevation) is taken for heights"));
+    ImportOptions options;
+    for (const char* const slope : {"1", "slope", "SLOPE"}) {
+        options.band = slope;
+        const HeightField other = read_height_field(kept_map("band2-is-elevation.tif"), options);
+        CHECK(height_at(other, 20, 30) == Approx(1.18597781658173));
+        CHECK(other.notes.empty());
+    }
+    options.band = "3";
+    CHECK_THROWS_WITH(
+        read_height_field(kept_map("band2-is-elevation.tif"), options),
+        Contains("expected a band named by --band, got '3': there are 1 (slope), 2 (elevation)"));
+    RasterFile two = small_map();
+    two.bands = 2;
+    CHECK_THAT(notes_text(read_small(two)), Contains("band 1 of 1, 2 is taken for heights"));
+}
+
+TEST_CASE("three bands of bytes are a picture, one of them is heights if an option says so") {
+    const path file = kept_map("rgb-undefined.tif");
+    CHECK_THROWS_WITH(
+        read_height_field(file),
+        Contains("expected one band of heights, got 3 of 8 bits, which make a"));
+    ImportOptions options;
+    options.band = "2";
+    CHECK(read_height_field(file, options).columns() == 60);
+}
+
+TEST_CASE("Terrarium and Mapbox tiles are decoded and placed by their number") {
+    const HeightField kept = read_height_field(kept_map("terrarium.png"));
+    CHECK(height_at(kept, 10, 20) == Approx(129 * 256 + 143 + 245 / 256.0 - 32768.0));
+    CHECK_THAT(notes_text(kept), Contains("by the rule of Terrarium tiles"));
+    RasterFile mapbox;
+    mapbox.columns = 64;
+    mapbox.rows = 64;
+    mapbox.type = GDT_Byte;
+    mapbox.bands = 3;
+    std::vector<long> codes;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            codes.push_back(std::lround(10.0 * (10000.0 + 300.0 + 25.0 * std::sin(0.1 * x) * y)));
+        }
+    }
+    for (const int shift : {16, 8, 0}) {
+        for (const long code : codes) {
+            mapbox.values.push_back(static_cast<double>((code >> shift) & 255));
+        }
+    }
+    const path folder = tests::empty_folder("tiles") / "9" / "268";
+    std::filesystem::create_directories(folder);
+    write_raster(folder / "179.png", "PNG", mapbox);
+    const HeightSource tile({folder / "179.png"});
+    // Column 268 of 2^9 is at 8.4375 degrees east; row 179 begins 47.5172 degrees north
+    // (OpenStreetMap).
+    REQUIRE(tile.place());
+    CHECK(tile.place()->longitude_deg == Approx(8.4375 + 0.5 * 0.703125).margin(1e-3));
+    CHECK(tile.place()->latitude_deg == Approx(0.5 * (47.5172 + 47.0401)).margin(1e-2));
+    CHECK(
+        tile.height_at(0.0, 0.0).value_or(0.0) ==
+        Approx(300.0 + 25.0 * std::sin(3.15) * 31.5).margin(8.0));
+    CHECK_THAT(tile.notes().front().text, Contains("by the rule of Mapbox tiles"));
+}
+
+TEST_CASE("photographs and drawings are no coded heights") {
+    RasterFile picture;
+    picture.columns = 64;
+    picture.rows = 64;
+    picture.type = GDT_Byte;
+    picture.bands = 3;
+    for (const double part : {128.0, 90.0, 60.0}) { // soft colours in the range of Terrarium's red
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                picture.values.push_back(
+                    part + std::floor(20.0 * std::sin(0.2 * x + part) * std::cos(0.1 * y)));
+            }
+        }
+    }
+    const path file = scratch_file("photo.png");
+    write_raster(file, "PNG", picture);
+    CHECK_THROWS_WITH(read_height_field(file), Contains("got a colour picture"));
+    picture.values.assign(picture.values.size(), 128.0); // grey
+    write_raster(file, "PNG", picture);
+    CHECK_THROWS_WITH(read_height_field(file), Contains("got a colour picture"));
+}
+
+TEST_CASE("Cesium heightmaps are decoded, compressed or not, and placed by their number") {
+    std::string bytes;
+    for (int i = 0; i < 65 * 65; ++i) {
+        const int code = 5 * (1000 + i % 65 + 2 * (i / 65));
+        bytes += static_cast<char>(code & 255);
+        bytes += static_cast<char>(code >> 8);
+    }
+    bytes += std::string(2, '\0');
+    const path folder = tests::empty_folder("cesium") / "12" / "4290";
+    std::filesystem::create_directories(folder);
+    write_text(folder / "3110.terrain", bytes);
+    const HeightSource tile({folder / "3110.terrain"});
+    REQUIRE(tile.place());
+    const double side_deg = 180.0 / 4096.0;
+    CHECK(tile.place()->longitude_deg == Approx(4290.5 * side_deg - 180.0).margin(1e-6));
+    CHECK(tile.place()->latitude_deg == Approx(3110.5 * side_deg - 90.0).margin(1e-3));
+    CHECK(tile.height_at(0.0, 0.0).value_or(0.0) == Approx(32.0 + 64.0).margin(0.1));
+    const path packed = folder.parent_path() / "packed.terrain"; // its name is no number
+    VSILFILE* const out = VSIFOpenL(("/vsigzip/" + packed.string()).c_str(), "wb");
+    VSIFWriteL(bytes.data(), 1, bytes.size(), out);
+    VSIFCloseL(out);
+    const HeightField field = read_height_field(packed);
+    CHECK(!field.place);
+    CHECK(height_at(field, 3, 2) == 7.0);
+    CHECK(map_inputs({folder.string()}).size() == 1);
+    write_text(packed, bytes.substr(0, 5000));
+    CHECK_THROWS_WITH(read_height_field(packed), Contains("such as a quantized mesh"));
+}
+
+TEST_CASE("libraries print nothing on any thread and warn once") {
+    const path file = scratch_file("four.nc");
+    CPLSetConfigOption("GDAL_NETCDF_ASSUME_LONGLAT", nullptr);
+    RasterFile raster = small_map();
+    write_raster(scratch_file("three.tif"), "GTiff", raster);
+    {
+        GDALAllRegister();
+        const Dataset source(
+            GDALOpen(scratch_file("gone").parent_path().append("three.tif").c_str(), GA_ReadOnly));
+        REQUIRE(source);
+        char** options = CSLSetNameValue(nullptr, "FORMAT", "NC4");
+        const Dataset made(GDALCreateCopy(
+            GDALGetDriverByName("netCDF"),
+            file.c_str(),
+            source.get(),
+            FALSE,
+            options,
+            nullptr,
+            nullptr));
+        CSLDestroy(options);
+        REQUIRE(made);
+    }
+    const path said = scratch_file("said.txt");
+    std::fflush(stderr);
+    const int before = ::dup(STDERR_FILENO);
+    std::FILE* const to = std::fopen(said.c_str(), "w");
+    ::dup2(::fileno(to), STDERR_FILENO);
+    for (int i = 0; i < 2; ++i) {
+        std::thread([&file] { read_height_field(file); }).join();
+    }
+    std::fflush(stderr);
+    ::dup2(before, STDERR_FILENO);
+    ::close(before);
+    std::fclose(to);
+    CHECK(std::filesystem::file_size(said) == 0);
+    GdalSession session;
+    session.note_warning("twice\nsaid");
+    session.note_warning("twice\nsaid");
+    CHECK(session.warnings() == std::vector<std::string>{"twice said"});
+}
