@@ -1,6 +1,7 @@
 #include "ui/world/near_ground_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace octant::ui::world {
@@ -25,8 +26,11 @@ std::vector<std::string> near_ground_notes(
     const visuals::scene::GroundSettings& settings,
     std::span<const std::string> given) {
     const std::string why = why_none(world, settings);
+    const Ellipsoid below = ellipsoid_below(world.ground_place);
     const std::string textured =
-        world.scene.ground_texture ? "where a texture colours the ground there is none" : "";
+        world.scene.ground_texture ? "where a texture colours the ground there is none"
+        : !below.is_earth() ? fmt::format("nothing grows or is built on {}", name_of_body(below))
+                            : "";
     std::vector<std::string> notes;
     const auto note = [&](const std::string& option, bool is_on, const std::string& reason) {
         if (is_on && !reason.empty() && std::ranges::find(given, option) != given.end()) {
@@ -37,6 +41,24 @@ std::vector<std::string> near_ground_notes(
     note("--scenery", settings.scenery, why.empty() ? textured : why);
     note("--roads", settings.roads, why.empty() ? textured : why);
     return notes;
+}
+
+std::optional<std::string>
+note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m) {
+    if (!ground_m || eye_m.z >= *ground_m) {
+        return std::nullopt;
+    }
+    constexpr double clear_m = 2.0;
+    return fmt::format(
+        "--eye {0:g},{1:g},{2:g} lies {3:.1f} m under the ground, which is {4:.1f} m high there: "
+        "--eye "
+        "{0:g},{1:g},{5:.0f} lies above it",
+        eye_m.x,
+        eye_m.y,
+        eye_m.z,
+        *ground_m - eye_m.z,
+        *ground_m,
+        std::ceil(*ground_m + clear_m));
 }
 
 } // namespace octant::ui::world

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "ui/world/kept_ground.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
@@ -32,6 +33,25 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
         field.name = std::filesystem::path(name_or_file).filename().string();
     }
     return field;
+}
+
+std::optional<std::string> note_of_few_samples(
+    const std::string& name,
+    const glm::ivec2& samples,
+    int asked_triangles,
+    const std::string& option) {
+    const std::int64_t most = std::int64_t{2} * (samples.x - 1) * (samples.y - 1);
+    if (most >= asked_triangles) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: {} x {} samples make at most {} triangles, and {} are asked for: {}",
+        name,
+        samples.x,
+        samples.y,
+        most,
+        asked_triangles,
+        option);
 }
 
 models::heights::ImportOptions import_options(const settings::PathSettings& settings) {
