@@ -2,7 +2,6 @@
 
 #include "ui/base/progress.h"
 #include "ui/settings/terrain_name.h"
-#include "ui/world/near_ground_notes.h"
 #include "ui/world/terrain_file.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/terrain/ground_builder.h"

@@ -1,7 +1,6 @@
 #include "ui/world/near_ground_notes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace octant::ui::world {
@@ -41,24 +40,6 @@ std::vector<std::string> near_ground_notes(
     note("--scenery", settings.scenery, why.empty() ? textured : why);
     note("--roads", settings.roads, why.empty() ? textured : why);
     return notes;
-}
-
-std::optional<std::string>
-note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m) {
-    if (!ground_m || eye_m.z >= *ground_m) {
-        return std::nullopt;
-    }
-    constexpr double clear_m = 2.0;
-    return fmt::format(
-        "--eye {0:g},{1:g},{2:g} lies {3:.1f} m under the ground, which is {4:.1f} m high there: "
-        "--eye "
-        "{0:g},{1:g},{5:.0f} lies above it",
-        eye_m.x,
-        eye_m.y,
-        eye_m.z,
-        *ground_m - eye_m.z,
-        *ground_m,
-        std::ceil(*ground_m + clear_m));
 }
 
 } // namespace octant::ui::world

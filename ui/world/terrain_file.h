@@ -5,6 +5,7 @@
 #include "ui/settings/settings.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <optional>
 #include <string>
@@ -23,6 +24,11 @@ std::optional<std::string> note_of_few_samples(
     const glm::ivec2& samples,
     int asked_triangles,
     const std::string& option);
+
+/// What a person should be told whose eye point lies under the ground, which is so high there;
+/// nothing where it does not.
+std::optional<std::string>
+note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
 
 /// What settings say of files that do not say it themselves.
 models::heights::ImportOptions import_options(const settings::PathSettings& settings);

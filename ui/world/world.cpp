@@ -9,10 +9,10 @@
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/airfield.h"
 #include "ui/world/loaded_path.h"
-#include "ui/world/near_ground_notes.h"
 #include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
+#include "ui/world/terrain_file.h"
 
 #include <glm/common.hpp>
 

@@ -1,4 +1,3 @@
-#include "ui/world/near_ground_notes.h"
 #include "ui/world/terrain_file.h"
 
 #include <catch2/catch.hpp>
