@@ -304,11 +304,11 @@ std::optional<SeamStep> step_of(const Placed& a, const Placed& b, Measured at, d
     const double usual_m = median_size_of(at.usual_m);
     const auto alike = std::ranges::count_if(
         at.steps_m, [&](double each_m) { return std::signbit(each_m) == std::signbit(step_m); });
-    constexpr double mostly_alike = 0.75;
+    constexpr double all_alike = 0.9;
     const double least_m = std::max(1.0, 0.05 * cell_m);
     const bool is_step =
-        std::abs(step_m) >= std::max(least_m, usual_m) &&
-        static_cast<double>(alike) >= mostly_alike * static_cast<double>(at.steps_m.size());
+        std::abs(step_m) >= std::max(least_m, 2.0 * usual_m) &&
+        static_cast<double>(alike) >= all_alike * static_cast<double>(at.steps_m.size());
     if (!is_step) {
         return std::nullopt;
     }
