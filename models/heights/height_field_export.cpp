@@ -2,6 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
+#include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 
@@ -45,19 +46,15 @@ private:
 };
 
 void set_system(GDALDatasetH dataset, const HeightField& field) {
-    const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
     if (field.place) {
-        const std::string text = fmt::format(
-            "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m",
-            field.place->latitude_deg,
-            field.place->longitude_deg);
-        OSRImportFromProj4(system, text.c_str());
+        GDALSetSpatialRef(dataset, system_about(*field.place).get());
     } else {
+        const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
         OSRSetLocalCS(system, "metres east and north of the map centre");
         OSRSetLinearUnits(system, "metre", 1.0);
+        GDALSetSpatialRef(dataset, system);
+        OSRRelease(system);
     }
-    GDALSetSpatialRef(dataset, system);
-    OSRRelease(system);
 }
 
 void set_frame(GDALDatasetH dataset, const HeightField& field) {

@@ -45,14 +45,21 @@ double height_of(double raw, const OpenRaster& raster) {
     return plain ? raw : raw * raster.scale_m + raster.offset_m;
 }
 
-bool is_believed(double height_m) {
-    return height_m >= lowest_import_m && height_m <= highest_import_m;
+/// The heights that are believed on a body.
+glm::dvec2 believed_m(const Ellipsoid& ellipsoid) {
+    return ellipsoid.is_earth() ? glm::dvec2(lowest_import_m, highest_import_m)
+                                : glm::dvec2(-highest_elsewhere_m, highest_elsewhere_m);
+}
+
+bool is_believed(double height_m, const Ellipsoid& ellipsoid) {
+    const glm::dvec2 range_m = believed_m(ellipsoid);
+    return height_m >= range_m.x && height_m <= range_m.y;
 }
 
 /// Whether a number must be looked at among all others of its raster before it counts as a height.
 bool is_doubtful(double raw, double height_m, const OpenRaster& raster) {
     const bool may_be_mark = !raster.no_data && !raster.given_void;
-    return !is_believed(height_m) || (may_be_mark && is_usual_void(raw));
+    return !is_believed(height_m, raster.ellipsoid) || (may_be_mark && is_usual_void(raw));
 }
 
 std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset) {
@@ -134,6 +141,10 @@ void read_window(
         raster.from_south ? line_size : -line_size,
         nullptr);
     if (result != CE_None || gdal.failed()) {
+        const std::string cut_short = cut_short_text(file, raster.datasets.front().get());
+        if (!cut_short.empty()) {
+            error_unreadable(file, "a height field", cut_short);
+        }
         error_unreadable(file, "a height field", gdal.reason(file));
     }
 }
@@ -174,7 +185,8 @@ undeclared_voids(const path& file, const OpenRaster& raster, const GdalSession& 
         raster.undeclared.emplace();
     }
     if (!raster.undeclared) {
-        VoidSurvey survey(lowest_import_m, highest_import_m, modulus_of(raster.band));
+        const glm::dvec2 range_m = believed_m(raster.ellipsoid);
+        VoidSurvey survey(range_m.x, range_m.y, modulus_of(raster.band));
         std::vector<double> line(static_cast<std::size_t>(raster.columns));
         for (int row = 0; row < raster.rows; ++row) {
             read_raw_line(file, raster, {0, raster.columns, row, 1}, line, gdal);
@@ -201,7 +213,7 @@ float height_from_raw(
         if (undeclared_voids(file, raster, gdal).has(raw)) {
             return std::numeric_limits<float>::quiet_NaN();
         }
-        check_height(file, height_m, raw, raster.names_unit);
+        check_height(file, height_m, raw, raster.names_unit, raster.ellipsoid);
     }
     return static_cast<float>(height_m);
 }
@@ -371,6 +383,70 @@ void take_text(const path& file, const std::string& driver, OpenRaster& raster) 
     }
 }
 
+/// The first height that a few lines of the raster have, as the file says it; nothing where they
+/// are empty.
+std::optional<double>
+some_height_m(const path& file, const OpenRaster& raster, const GdalSession& gdal) {
+    std::vector<double> line(static_cast<std::size_t>(raster.columns));
+    for (const int eighth : {4, 2, 6, 1, 7}) {
+        const GridWindow window{0, raster.columns, raster.rows * eighth / 8, 1};
+        read_raw_line(file, raster, window, line, gdal);
+        for (const double raw : line) {
+            if (!std::isnan(raw) && !is_usual_void(raw)) {
+                return height_of(raw, raster);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// Planetary archives often have heights as distances from the centre: these become heights above
+/// the equator's radius. All ground of a planet lies within highest_elsewhere_m of that.
+void take_distances(const path& file, OpenRaster& raster, const GdalSession& gdal) {
+    const double radius_m = raster.ellipsoid.semi_major_m;
+    if (raster.ellipsoid.is_earth() || radius_m < 4.0 * highest_elsewhere_m) {
+        return;
+    }
+    const auto height_m = some_height_m(file, raster, gdal);
+    if (height_m && std::abs(*height_m - radius_m) <= highest_elsewhere_m) {
+        raster.offset_m -= radius_m;
+        note(
+            file,
+            raster,
+            fmt::format(
+                "heights count from the centre of {}; {} m are taken off them",
+                name_of_body(raster.ellipsoid),
+                radius_m));
+    }
+}
+
+/// Some drivers read zeros where a file of plain numbers ends too soon.
+void check_whole(const path& file, GDALDatasetH dataset) {
+    const bool tells_itself =
+        std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset))) == "GTiff";
+    const std::string cut_short = tells_itself ? std::string() : cut_short_text(file, dataset);
+    if (!cut_short.empty()) {
+        error_unreadable(file, "a height field", cut_short);
+    }
+}
+
+/// Whether heights count from the ellipsoid and not from the sea, as the system says.
+bool is_ellipsoidal(SystemHandle system) {
+    const char* const datum = OSRGetAttrValue(system, "VERT_DATUM", 0);
+    return datum == nullptr ? OSRGetAxesCount(system) == 3
+                            : std::string_view(datum).find("llipsoid") != std::string_view::npos;
+}
+
+void note_ellipsoid(const path& file, OpenRaster& raster) {
+    if (raster.system && raster.ellipsoid.is_earth() && is_ellipsoidal(raster.system.get())) {
+        note(
+            file,
+            raster,
+            "heights count from the ellipsoid, and the sea lies up to 100 m above or below it: "
+            "--water-level METRES says where");
+    }
+}
+
 } // namespace
 
 void check_import_size(const path& file, int columns, int rows) {
@@ -387,15 +463,17 @@ void check_import_size(const path& file, int columns, int rows) {
     }
 }
 
-void check_height(const path& file, double height_m, double raw, bool names_unit) {
-    if (!is_believed(height_m)) {
+void check_height(
+    const path& file, double height_m, double raw, bool names_unit, const Ellipsoid& ellipsoid) {
+    if (!is_believed(height_m, ellipsoid)) {
+        const glm::dvec2 range_m = believed_m(ellipsoid);
         error_in(
             file,
             fmt::format(
                 "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {:.15g} says that it "
                 "stands for no data",
-                lowest_import_m,
-                highest_import_m,
+                range_m.x,
+                range_m.y,
                 height_m,
                 names_unit ? "" : "--height-scale says how many metres a unit is, ",
                 raw));
@@ -406,6 +484,7 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     OpenRaster raster;
     ImportOptions own = options;
     raster.datasets.push_back(open_raster_file(file, gdal, own.band, raster.notes));
+    check_whole(file, raster.datasets.back().get());
     HeightBand band = height_band_of(file, raster.datasets.back().get(), own);
     if (band.decoded) {
         raster.datasets.push_back(std::move(band.decoded));
@@ -431,12 +510,15 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     if (const auto transform = transform_of(file, dataset)) {
         take_transform(*transform, raster);
         raster.system = system_of_raster(file, dataset, options, raster);
+        raster.ellipsoid = raster.system ? ellipsoid_of(wkt_of(raster.system.get())) : Ellipsoid();
     }
     const GDALDriverH reader = GDALGetDatasetDriver(raster.datasets.front().get());
     const std::string driver = reader == nullptr ? "" : GDALGetDriverShortName(reader);
     if (is_text_grid(driver)) {
         take_text(file, driver, raster);
     }
+    take_distances(file, raster, gdal);
+    note_ellipsoid(file, raster);
     const GDALDataType type = GDALGetRasterDataType(raster.band);
     raster.whole_metres = (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 &&
                           raster.offset_m == 0.0 && raster.text_voids.samples == 0;

@@ -36,6 +36,7 @@ struct OpenRaster {
     bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
     std::vector<MapNote> notes;     ///< what a person should be told of the file
     std::optional<MapFromGrid> map; ///< nothing for a file without georeference
+    Ellipsoid ellipsoid;            ///< of its system; WGS 84 without one
     Reference system;               ///< null where lengths are metres without a place on the earth
 };
 
@@ -53,10 +54,15 @@ inline constexpr std::int16_t void_metres = std::numeric_limits<std::int16_t>::m
 /// Throws Error unless both are from 2 to largest_import_samples.
 void check_import_size(const std::filesystem::path& file, int columns, int rows);
 
-/// Throws Error unless the height is within the bounds of read_height_field. The error names the
-/// options that can help: --void with the raw number, and --height-scale unless the file names the
-/// unit of its heights.
-void check_height(const std::filesystem::path& file, double height_m, double raw, bool names_unit);
+/// Throws Error unless the height is within the bounds of import_options.h for this body. The
+/// error names the options that can help: --void with the raw number, and --height-scale unless the
+/// file names the unit of its heights.
+void check_height(
+    const std::filesystem::path& file,
+    double height_m,
+    double raw,
+    bool names_unit,
+    const Ellipsoid& ellipsoid = {});
 
 /// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
 /// which is not checked.

@@ -2,6 +2,7 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/height_raster.h"
+#include "models/heights/map_doubts.h"
 #include "models/heights/plain_pgm.h"
 #include "models/heights/raster_file.h"
 #include "models/heights/resampler.h"
@@ -10,6 +11,7 @@
 #include "sim/base/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
@@ -82,10 +84,19 @@ struct HeightSource::Content {
     double spacing_m = 0.0;
     std::optional<GeoPlace> place;
     std::optional<MapSystem> system;
+    std::optional<SpikeFinder> spikes;
 
     void open(const ImportOptions& options);
     void take_picture(int columns, int rows, double spacing);
     void find_place();
+    void read(int first_row, std::span<float> heights_m);
+    std::string name() const;
+
+    glm::dvec2 metres_of(const glm::dvec2& column_row) const;
+    std::string words_of(const glm::dvec2& at_m) const;
+    double own_height_m(const Spike& spike) const;
+    void add_spikes(std::vector<MapNote>& notes) const;
+    void add_seams(std::vector<MapNote>& notes) const;
 };
 
 void HeightSource::Content::open(const ImportOptions& options) {
@@ -140,12 +151,112 @@ void HeightSource::Content::find_place() {
         return;
     }
     system = lattice.system();
-    const Reference globe = globe_system();
+    const Reference globe = globe_system(ellipsoid_of(system->wkt));
     const Transformation to_globe = between(lattice.frame.get(), globe.get());
     const auto middle =
         to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
     if (middle && std::abs(middle->y) <= 90.0) {
-        place = GeoPlace{middle->y, middle->x};
+        place = GeoPlace{middle->y, middle->x, ellipsoid_of(system->wkt)};
+    }
+}
+
+std::string HeightSource::Content::name() const {
+    const std::string first = files.front().filename().string();
+    const std::size_t more = files.size() - 1;
+    return more == 0 ? first : fmt::format("{} and {} more", first, more);
+}
+
+/// East and north of the centre.
+glm::dvec2 HeightSource::Content::metres_of(const glm::dvec2& column_row) const {
+    return (column_row - 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1)) * spacing_m;
+}
+
+/// A place for people: by latitude and longitude where they are known.
+std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
+    std::string geo;
+    if (place) {
+        const Reference globe = globe_system(place->ellipsoid);
+        const glm::dvec2 centre(system->centre_x, system->centre_y);
+        const auto there =
+            moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
+        geo = there ? fmt::format("{:.5f}, {:.5f}, ", there->y, there->x) : "";
+    }
+    return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
+}
+
+/// The height that the file itself has at a spike or right beside it.
+double HeightSource::Content::own_height_m(const Spike& spike) const {
+    float own_m = spike.height_m;
+    glm::dvec2 at = glm::dvec2(lattice.west, lattice.south) +
+                    glm::dvec2(spike.column, spike.row) * lattice.step;
+    for (const SourceGrid& grid : grids) {
+        glm::dvec2 there = at;
+        grid.grid_from_frame({&there.x, 1}, {&there.y, 1});
+        const int column = static_cast<int>(std::lround(there.x)) - 1;
+        const int row = static_cast<int>(std::lround(there.y)) - 1;
+        std::array<float, 9> near_m = {};
+        grid.read({column, 3, row, 3}, near_m, *gdal);
+        for (const float height_m : near_m) {
+            const bool is_beyond = spike.above_m > 0.0F ? height_m > own_m : height_m < own_m;
+            own_m = is_beyond ? height_m : own_m;
+        }
+    }
+    return own_m;
+}
+
+void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
+    constexpr std::size_t most_told = 3;
+    std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
+    std::ranges::stable_sort(found, [](const Spike& a, const Spike& b) {
+        return std::abs(a.above_m) > std::abs(b.above_m);
+    });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Spike& spike = found[i];
+        const glm::dvec2 at_m = metres_of({spike.column, spike.row});
+        if (i >= most_told) {
+            notes.back().places_m.push_back(at_m);
+            continue;
+        }
+        const double own_m = lattice.is_source ? spike.height_m : own_height_m(spike);
+        notes.push_back(
+            {fmt::format(
+                 "{}: a height of {:.6g} m stands alone, {:.0f} m {} all around it, at {}: --void "
+                 "{:.6g} leaves it out",
+                 name(),
+                 own_m,
+                 std::abs(spike.above_m),
+                 spike.above_m > 0.0F ? "above" : "below",
+                 words_of(at_m),
+                 own_m),
+             {at_m}});
+    }
+    if (found.size() > most_told) {
+        notes.back().text = fmt::format(
+            "{}; {} more heights stand alone",
+            notes.back().text,
+            spikes->count() - static_cast<std::int64_t>(most_told));
+    }
+}
+
+void HeightSource::Content::add_seams(std::vector<MapNote>& notes) const {
+    const double cell_m = std::min(lattice.cell_m.x, lattice.cell_m.y);
+    for (const SeamStep& seam : steps_at_seams(grids, cell_m, *gdal)) {
+        MapNote note;
+        for (glm::dvec2 at : seam.column_row) {
+            seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
+            note.places_m.push_back(
+                metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
+        }
+        note.text = fmt::format(
+            "{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
+            "slope on "
+            "both sides, about {}: --terrain with one of them alone has no step",
+            seam.a->file.filename().string(),
+            seam.b->file.filename().string(),
+            std::abs(seam.rise_m),
+            std::abs(seam.step_m),
+            words_of(note.places_m[note.places_m.size() / 2]));
+        notes.push_back(std::move(note));
     }
 }
 
@@ -154,6 +265,7 @@ HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options
     assert(!files.empty());
     content_->files = std::move(files);
     content_->open(options);
+    content_->spikes.emplace(columns(), rows(), spacing_m());
 }
 
 HeightSource::~HeightSource() = default;
@@ -179,9 +291,7 @@ std::optional<MapSystem> HeightSource::system() const {
 }
 
 std::string HeightSource::name() const {
-    const std::string first = content_->files.front().filename().string();
-    const std::size_t more = content_->files.size() - 1;
-    return more == 0 ? first : fmt::format("{} and {} more", first, more);
+    return content_->name();
 }
 
 std::string HeightSource::system_name() const {
@@ -206,6 +316,11 @@ std::vector<MapNote> HeightSource::notes() const {
         for (const std::string& warning : content_->gdal->warnings()) {
             notes.push_back({fmt::format("{}: GDAL warns: {}", name(), warning)});
         }
+    }
+    content_->add_spikes(notes);
+    if (content_->gdal) { // a plain PGM has none
+        content_->add_seams(notes);
+        content_->gdal->forget();
     }
     return notes;
 }
@@ -255,28 +370,41 @@ std::optional<Deviation> HeightSource::deviation_of(const GroundAt& ground) cons
     return deviation_from_source(content_->grids, content_->lattice, ground, *content_->gdal);
 }
 
-void HeightSource::read(int first_row, std::span<float> heights_m) {
-    if (content_->whole) {
-        const std::size_t first =
-            static_cast<std::size_t>(first_row) * static_cast<std::size_t>(columns());
+void HeightSource::Content::read(int first_row, std::span<float> heights_m) {
+    const auto width = static_cast<std::size_t>(lattice.columns);
+    if (whole) {
+        const std::size_t first = static_cast<std::size_t>(first_row) * width;
         std::copy_n(
-            content_->whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first),
+            whole->heights_m.begin() + static_cast<std::ptrdiff_t>(first),
             heights_m.size(),
             heights_m.begin());
-        return;
+    } else if (resampler) {
+        resampler->read(first_row, heights_m, *gdal);
+    } else {
+        const int count = static_cast<int>(heights_m.size() / width);
+        grids.front().read({0, lattice.columns, first_row, count}, heights_m, *gdal);
     }
-    if (content_->resampler) {
-        content_->resampler->read(first_row, heights_m, *content_->gdal);
-        return;
-    }
-    const int count = static_cast<int>(heights_m.size() / static_cast<std::size_t>(columns()));
-    content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
+}
+
+void HeightSource::read(int first_row, std::span<float> heights_m) {
+    content_->read(first_row, heights_m);
+    content_->spikes->take(first_row, heights_m);
 }
 
 void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     assert(whole_metres());
-    const int count = static_cast<int>(heights_m.size() / static_cast<std::size_t>(columns()));
+    const auto width = static_cast<std::size_t>(columns());
+    const int count = static_cast<int>(heights_m.size() / width);
     content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
+    std::vector<float> row(width);
+    for (int i = 0; i < count; ++i) {
+        const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);
+        std::ranges::transform(metres, row.begin(), [](std::int16_t height_m) {
+            return height_m == void_metres ? std::numeric_limits<float>::quiet_NaN()
+                                           : static_cast<float>(height_m);
+        });
+        content_->spikes->take(first_row + i, row);
+    }
 }
 
 } // namespace octant::models::heights

@@ -27,8 +27,12 @@ struct ImportOptions {
 /// Largest width and height that is read, samples.
 inline constexpr int largest_import_samples = 20000;
 
-/// Heights that are believed, metres. A file with others is refused.
+/// Heights that are believed on the earth, metres. A file with others is refused.
 inline constexpr double lowest_import_m = -12000.0;
 inline constexpr double highest_import_m = 9000.0;
+
+/// Heights that are believed elsewhere, up and down from the ellipsoid: Olympus Mons on Mars is
+/// 21.2 km high, the deepest basin of Vesta 22 km deep.
+inline constexpr double highest_elsewhere_m = 25000.0;
 
 } // namespace octant::models::heights

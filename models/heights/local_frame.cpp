@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -31,9 +32,9 @@ Reference reference_from_proj(const std::string& text) {
 }
 
 /// The way on the ground between two places that lie close together, metres east and north.
-glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg) {
-    using wgs84::e2;
-    constexpr double equator_m = wgs84::semi_major_m;
+glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg, const Ellipsoid& ellipsoid) {
+    const double e2 = ellipsoid.e2();
+    const double equator_m = ellipsoid.semi_major_m;
     constexpr double rad = std::numbers::pi / 180.0;
     const double latitude = 0.5 * (from_deg.y + to_deg.y) * rad;
     const double root = std::sqrt(1.0 - e2 * std::sin(latitude) * std::sin(latitude));
@@ -42,6 +43,14 @@ glm::dvec2 way_m(const glm::dvec2& from_deg, const glm::dvec2& to_deg) {
     const double east_deg = std::remainder(to_deg.x - from_deg.x, 360.0);
     return {
         east_deg * rad * across_m * std::cos(latitude), (to_deg.y - from_deg.y) * rad * along_m};
+}
+
+/// How PROJ is told of an ellipsoid.
+std::string proj_text(const Ellipsoid& ellipsoid) {
+    return ellipsoid.is_earth()
+               ? "+datum=WGS84"
+               : fmt::format(
+                     "+a={:.17g} +b={:.17g}", ellipsoid.semi_major_m, ellipsoid.semi_minor_m());
 }
 
 } // namespace
@@ -74,8 +83,29 @@ std::string wkt_of(SystemHandle system) {
     return wkt;
 }
 
-Reference globe_system() {
-    return reference_from_proj("+proj=longlat +datum=WGS84 +no_defs");
+Ellipsoid ellipsoid_of(const std::string& wkt) {
+    std::size_t at = wkt.find("SPHEROID[");
+    at = at == std::string::npos ? wkt.find("ELLIPSOID[") : at;
+    at = at == std::string::npos ? at : wkt.find("\",", at);
+    if (at == std::string::npos) {
+        return {};
+    }
+    Ellipsoid named{0.0, 0.0};
+    double inverse_flattening = 0.0; // of a sphere
+    const char* const end = wkt.data() + wkt.size();
+    const auto major = std::from_chars(wkt.data() + at + 2, end, named.semi_major_m);
+    if (major.ptr < end) {
+        std::from_chars(major.ptr + 1, end, inverse_flattening);
+    }
+    named.flattening = inverse_flattening > 1.0 ? 1.0 / inverse_flattening : 0.0;
+    constexpr double smallest_m = 1000.0;
+    constexpr double largest_m = 1e9;
+    const bool is_sound = named.semi_major_m >= smallest_m && named.semi_major_m <= largest_m;
+    return !is_sound || named.is_earth() ? Ellipsoid() : named;
+}
+
+Reference globe_system(const Ellipsoid& ellipsoid) {
+    return reference_from_proj(fmt::format("+proj=longlat {} +no_defs", proj_text(ellipsoid)));
 }
 
 Reference system_named(const std::string& name) {
@@ -105,10 +135,10 @@ Reference reference_of(SystemHandle system) {
 
 Reference system_about(const GeoPlace& place) {
     return reference_from_proj(fmt::format(
-        "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m "
-        "+no_defs",
+        "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
         place.latitude_deg,
-        place.longitude_deg));
+        place.longitude_deg,
+        proj_text(place.ellipsoid)));
 }
 
 Transformation between(SystemHandle from, SystemHandle to) {
@@ -142,7 +172,8 @@ distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m) 
     if (!own) {
         return std::nullopt;
     }
-    const Reference globe = globe_system();
+    const Ellipsoid ellipsoid = ellipsoid_of(wkt_of(own.get()));
+    const Reference globe = globe_system(ellipsoid);
     const Transformation to_globe = between(own.get(), globe.get());
     if (!to_globe) {
         return std::nullopt;
@@ -160,11 +191,11 @@ distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m) 
                 return std::nullopt;
             }
             for (const auto& to : {*east, *north}) {
-                const glm::dvec2 way = way_m(*at, to);
+                const glm::dvec2 way = way_m(*at, to, ellipsoid);
                 worst.scale_percent = std::max(
                     worst.scale_percent, 100.0 * std::abs(step_m / std::hypot(way.x, way.y) - 1.0));
             }
-            const glm::dvec2 up = way_m(*at, *north);
+            const glm::dvec2 up = way_m(*at, *north, ellipsoid);
             worst.turn_deg = std::max(
                 worst.turn_deg, std::abs(std::atan2(up.x, up.y)) * 180.0 / std::numbers::pi);
         }

@@ -52,8 +52,12 @@ struct MapFromGrid {
 /// A system as well-known text; empty when it cannot be written.
 std::string wkt_of(SystemHandle system);
 
-/// WGS 84 in degrees, longitude first.
-Reference globe_system();
+/// The ellipsoid that a system counts latitudes on, from its text; WGS 84 for every system of the
+/// earth and for one that names no ellipsoid.
+Ellipsoid ellipsoid_of(const std::string& wkt);
+
+/// An ellipsoid's latitude and longitude in degrees, longitude first.
+Reference globe_system(const Ellipsoid& ellipsoid);
 
 /// What ImportOptions::system says of files whose axes are in metres without a place on the earth.
 inline constexpr std::string_view no_system_but_metres = "metres";
@@ -67,7 +71,7 @@ Reference system_of(const MapSystem& system);
 /// A copy of a system that lives as long as it is wanted.
 Reference reference_of(SystemHandle system);
 
-/// The transverse Mercator projection of scale 1 that touches WGS 84 at a place: x is east and y is
+/// The transverse Mercator projection of scale 1 that touches a place: x is east and y is
 /// north of it, in metres. Null where there is none.
 Reference system_about(const GeoPlace& place);
 

@@ -22,7 +22,7 @@ MapFrame::MapFrame(const MapSystem& system, const GeoPlace& middle)
     , about_(middle) {
     const GdalSession gdal;
     const Reference own = system_of(system);
-    const Reference globe = globe_system();
+    const Reference globe = globe_system(middle.ellipsoid);
     if (own) {
         from_globe_ = between(globe.get(), own.get());
         to_globe_ = between(own.get(), globe.get());
@@ -45,7 +45,7 @@ GeoPlace MapFrame::geo_from_local(const glm::dvec2& east_north_m) const {
     const bool asks = to_globe_ && glm::length(east_north_m) <= furthest_m;
     const GdalSession gdal;
     const auto at = asks ? moved(to_globe_, centre + east_north_m / system_.unit_m) : std::nullopt;
-    return at ? GeoPlace{std::clamp(at->y, -90.0, 90.0), at->x}
+    return at ? GeoPlace{std::clamp(at->y, -90.0, 90.0), at->x, about_.origin().ellipsoid}
               : about_.geo_from_local(east_north_m);
 }
 

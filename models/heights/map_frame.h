@@ -9,9 +9,9 @@
 
 namespace octant::models::heights {
 
-/// How ground lies on the earth that is laid out along the axes of a coordinate system, by the
-/// system itself. Far from the ground, or where the system ends, places are those of the
-/// TransverseMercator frame at the ground's middle.
+/// How ground lies on the earth or another planet that is laid out along the axes of a coordinate
+/// system, by the system itself. Far from the ground, or where the system ends, places are those of
+/// the TransverseMercator frame at the ground's middle.
 class MapFrame final : public EarthFrame {
 public:
     /// `system` names a system that knows its place on the earth, `middle` is the ground's there.

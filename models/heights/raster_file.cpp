@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fstream>
 #include <string_view>
 #include <unistd.h>
 
@@ -78,6 +81,15 @@ void check_sources(const path& file, GDALDatasetH dataset) {
     }
 }
 
+/// What a file begins with.
+std::string first_bytes(const path& file) {
+    std::string bytes(8, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
+    return bytes;
+}
+
 Dataset open_named(const std::string& name) {
     if (Dataset heightmap = open_cesium_heightmap(name)) {
         return heightmap;
@@ -131,6 +143,94 @@ std::string chosen_subdataset(
             names.front()));
 }
 
+/// Of the largest file behind a raster that is no label, which is the one with its numbers.
+std::uintmax_t bytes_of(GDALDatasetH dataset) {
+    constexpr std::array<std::string_view, 6> labels = {
+        ".xml", ".hdr", ".prj", ".lbl", ".LBL", ".stx"};
+    std::uintmax_t largest = 0;
+    for (const std::string& name : taken(GDALGetFileList(dataset))) {
+        std::error_code code;
+        const std::uintmax_t bytes = std::filesystem::file_size(name, code);
+        const bool is_label = std::ranges::any_of(
+            labels, [&name](std::string_view ending) { return name.ends_with(ending); });
+        largest = code || is_label ? largest : std::max(largest, bytes);
+    }
+    return largest;
+}
+
+/// Where the last block of a GeoTIFF ends.
+std::uintmax_t end_of_blocks(GDALDatasetH dataset) {
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+    int width = 1;
+    int height = 1;
+    GDALGetBlockSize(band, &width, &height);
+    const auto number = [&](const char* what, int x, int y) -> std::uintmax_t {
+        const char* const text =
+            GDALGetMetadataItem(band, fmt::format("BLOCK_{}_{}_{}", what, x, y).c_str(), "TIFF");
+        return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+    };
+    std::uintmax_t end = 0;
+    for (int y = 0; y * height < GDALGetRasterYSize(dataset); ++y) {
+        for (int x = 0; x * width < GDALGetRasterXSize(dataset); ++x) {
+            end = std::max(end, number("OFFSET", x, y) + number("SIZE", x, y));
+        }
+    }
+    return end;
+}
+
+/// How many bytes of a label an ISIS cube has before its numbers.
+std::uintmax_t bytes_of_label(GDALDatasetH dataset) {
+    char** const label = GDALGetMetadata(dataset, "json:ISIS3");
+    const std::string_view text = CSLCount(label) == 0 ? "" : label[0];
+    constexpr std::string_view key = "\"StartByte\":";
+    const std::size_t at = text.find(key);
+    return at == std::string_view::npos
+               ? 0
+               : std::max(std::strtoull(text.data() + at + key.size(), nullptr, 10), 1ULL) - 1;
+}
+
+/// Whether a format has its heights as plain numbers one after the other.
+bool is_plain(std::string_view driver, const path& file) {
+    constexpr std::array<std::string_view, 10> plain = {
+        "EHdr", "ENVI", "ISIS2", "ISIS3", "PDS", "PDS4", "VICAR", "GSBG", "GS7BG", "BT"};
+    constexpr std::string_view classic_netcdf = "CDF";
+    return std::ranges::find(plain, driver) != plain.end() ||
+           (driver == "netCDF" && first_bytes(file).starts_with(classic_netcdf));
+}
+
+/// What is wrong with a file that no driver opens: one that ends too soon.
+std::string cut_short_unopened(const path& file) {
+    std::error_code code;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, code);
+    const std::string ending = file.extension().string();
+    if (code) {
+        return {};
+    }
+    if (ending == ".hgt" || ending == ".HGT") {
+        constexpr std::uintmax_t coarse = std::uintmax_t{2} * 1201 * 1201;
+        constexpr std::uintmax_t fine = std::uintmax_t{2} * 3601 * 3601;
+        return fmt::format(
+            "only the first {} of the {} bytes of a .hgt tile",
+            bytes,
+            bytes <= coarse ? coarse : fine);
+    }
+    // A TIFF begins with where its description lies, in the byte order of its first two letters.
+    const std::string first = first_bytes(file);
+    const bool is_tiff = first.starts_with(std::string_view("II*\0", 4)) ||
+                         first.starts_with(std::string_view("MM\0*", 4));
+    if (!is_tiff || first.size() < 8) {
+        return {};
+    }
+    std::uintmax_t described_at = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t from_high = first.front() == 'M' ? 4 + i : 7 - i;
+        described_at = described_at << 8U | static_cast<unsigned char>(first[from_high]);
+    }
+    return described_at < bytes
+               ? std::string()
+               : fmt::format("only the first {} of its more than {} bytes", bytes, described_at);
+}
+
 } // namespace
 
 bool is_name_within_file(const std::string& name) {
@@ -180,6 +280,10 @@ Dataset open_raster_file(
     std::vector<MapNote>& notes) {
     Dataset dataset = open_named(file.string());
     if (!dataset) {
+        const std::string cut_short = cut_short_unopened(file);
+        if (!cut_short.empty()) {
+            error_unreadable(file, "a height field", cut_short);
+        }
         error_unreadable(
             file,
             "a height field",
@@ -199,6 +303,24 @@ Dataset open_raster_file(
     check_sources(file, dataset.get());
     gdal.forget();
     return dataset;
+}
+
+std::string cut_short_text(const path& file, void* dataset) {
+    const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
+    std::uintmax_t expected = 0;
+    if (driver == "GTiff") {
+        expected = end_of_blocks(dataset);
+    } else if (is_plain(driver, file)) {
+        const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(dataset, 1));
+        expected = bytes_of_label(dataset) +
+                   static_cast<std::uintmax_t>(GDALGetRasterXSize(dataset)) *
+                       static_cast<std::uintmax_t>(GDALGetRasterYSize(dataset)) *
+                       static_cast<std::uintmax_t>(GDALGetDataTypeSizeBytes(type));
+    }
+    const std::uintmax_t bytes = bytes_of(dataset);
+    return bytes == 0 || bytes >= expected
+               ? std::string()
+               : fmt::format("only the first {} of its {} bytes", bytes, expected);
 }
 
 std::vector<path> files_behind(const path& file) {

@@ -28,6 +28,10 @@ Dataset open_raster_file(
     std::optional<std::string>& band,
     std::vector<MapNote>& notes);
 
+/// "only the first N of its M bytes" for a raster whose heights lie beyond the end of its file, as
+/// its own description says: GeoTIFF, and formats that have heights as plain numbers. Empty else.
+std::string cut_short_text(const std::filesystem::path& file, void* dataset);
+
 /// The files of this computer that a raster is read from: itself, and those it refers to. Only
 /// itself where it cannot be opened.
 std::vector<std::filesystem::path> files_behind(const std::filesystem::path& file);

@@ -82,12 +82,18 @@ Bounds rectangle_of(const Outline& outline) {
 }
 
 constexpr std::string_view no_way_to_globe =
-    "a coordinate system that does not lead to WGS 84, as that of another planet";
+    "a coordinate system that does not lead to the latitude and longitude of one planet";
 constexpr std::string_view no_places = "edges that have no places there";
+
+/// The ellipsoid of the first grid, on which all lie.
+Ellipsoid ellipsoid_of(const std::vector<SourceGrid>& grids) {
+    return grids.front().pieces().front().raster.ellipsoid;
+}
 
 /// The middle of all grids on the globe.
 GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
-    const Reference globe = globe_system();
+    const Ellipsoid ellipsoid = ellipsoid_of(grids);
+    const Reference globe = globe_system(ellipsoid);
     Bounds all;
     std::optional<double> first_deg;
     for (SourceGrid& grid : grids) {
@@ -120,7 +126,7 @@ GeoPlace middle_of(const path& file, std::vector<SourceGrid>& grids) {
                 all.size().y,
                 middle.y));
     }
-    return {middle.y, std::remainder(middle.x, 360.0)};
+    return {middle.y, std::remainder(middle.x, 360.0), ellipsoid};
 }
 
 /// The sides of a grid's cells at its middle, in the frame's units.
@@ -169,7 +175,7 @@ bool keeps_own_frame(const path& file, std::vector<SourceGrid>& grids) {
             return false;
         }
     }
-    const Reference globe = globe_system();
+    const Reference globe = globe_system(ellipsoid_of(grids));
     if (own == nullptr || !grids.front().look_from(globe.get())) {
         return true;
     }

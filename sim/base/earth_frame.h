@@ -14,8 +14,8 @@ struct FramePlace {
     double north_turn_rad = 0.0;
 };
 
-/// How flat ground lies on the earth: where places are in its axes, x east and y north in metres.
-/// For one thread at a time.
+/// How flat ground lies on the earth, or on the planet whose ellipsoid its origin names: where
+/// places are in its axes, x east and y north in metres. For one thread at a time.
 class EarthFrame {
 public:
     virtual ~EarthFrame() = default;
@@ -27,10 +27,11 @@ public:
     /// Where x and y are 0.
     virtual GeoPlace origin() const = 0;
 
-    /// Finite for every place on the earth, and true up to 5,000 km from the origin.
+    /// The ellipsoid of `place` is not looked at: its latitude and longitude are taken as the
+    /// frame's. Finite for every place on the earth, and true up to 5,000 km from the origin.
     virtual glm::dvec2 local_from_geo(const GeoPlace& place) const = 0;
 
-    /// Undoes local_from_geo() there; always a place on the earth.
+    /// Undoes local_from_geo() there; always a place on its ellipsoid.
     virtual GeoPlace geo_from_local(const glm::dvec2& east_north_m) const = 0;
 
     FramePlace place_of(const GeoPlace& place) const;

@@ -20,28 +20,11 @@ namespace octant {
 
 namespace {
 
-using wgs84::e2;
-constexpr double n = wgs84::flattening / (2.0 - wgs84::flattening);
-constexpr double n2 = n * n;
-constexpr double n3 = n2 * n;
-constexpr double n4 = n2 * n2;
-constexpr double mean_radius_m = wgs84::semi_major_m / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
 /// Of xi and eta, radians: beyond, the series loses its sense.
 constexpr double furthest_across = 3.0;
 constexpr double furthest_along = 10.0;
 
-using Series = std::array<double, 4>;
-
-constexpr Series from_sphere{
-    n / 2.0 - 2.0 / 3.0 * n2 + 5.0 / 16.0 * n3 + 41.0 / 180.0 * n4,
-    13.0 / 48.0 * n2 - 3.0 / 5.0 * n3 + 557.0 / 1440.0 * n4,
-    61.0 / 240.0 * n3 - 103.0 / 140.0 * n4,
-    49561.0 / 161280.0 * n4};
-constexpr Series to_sphere{
-    -n / 2.0 + 2.0 / 3.0 * n2 - 37.0 / 96.0 * n3 + 1.0 / 360.0 * n4,
-    -1.0 / 48.0 * n2 - 1.0 / 15.0 * n3 + 437.0 / 1440.0 * n4,
-    -17.0 / 480.0 * n3 + 37.0 / 840.0 * n4,
-    -4397.0 / 161280.0 * n4};
+using Series = TransverseMercator::Series;
 
 /// xi + i eta, along and across, brought from one form of the earth to the other: the series' sines
 /// of 2, 4, 6 and 8 zeta are summed by Clenshaw's rule.
@@ -58,17 +41,17 @@ std::complex<double> brought(const std::complex<double>& zeta, const Series& ser
 }
 
 /// Tangent of the conformal latitude from that of the geodetic one.
-double conformal(double tau) {
+double conformal(double tau, double e2) {
     const double e = std::sqrt(e2);
     const double length = std::hypot(1.0, tau);
     const double sigma = std::sinh(e * std::atanh(e * tau / length));
     return tau * std::hypot(1.0, sigma) - sigma * length;
 }
 
-double geodetic(double conformal_tau) {
+double geodetic(double conformal_tau, double e2) {
     double tau = conformal_tau / (1.0 - e2);
     for (int i = 0; i < 5; ++i) { // Newton's: three do
-        const double now = conformal(tau);
+        const double now = conformal(tau, e2);
         const double length = std::hypot(1.0, tau);
         const double change = (conformal_tau - now) / std::hypot(1.0, now) *
                               (1.0 + (1.0 - e2) * tau * tau) / ((1.0 - e2) * length);
@@ -77,21 +60,37 @@ double geodetic(double conformal_tau) {
     return tau;
 }
 
-/// Metres along the meridian (real) and across it, a longitude away from it.
-std::complex<double> metres_from(double latitude_deg, double away_rad) {
-    const double tau = conformal(std::tan(rad_from_deg(latitude_deg)));
+} // namespace
+
+TransverseMercator::TransverseMercator(const GeoPlace& origin)
+    : origin_(origin) {
+    const double flattening = origin.ellipsoid.flattening;
+    const double n = flattening / (2.0 - flattening);
+    const double n2 = n * n;
+    const double n3 = n2 * n;
+    const double n4 = n2 * n2;
+    mean_radius_m_ = origin.ellipsoid.semi_major_m / (1.0 + n) * (1.0 + n2 / 4.0 + n4 / 64.0);
+    from_sphere_ = {
+        n / 2.0 - 2.0 / 3.0 * n2 + 5.0 / 16.0 * n3 + 41.0 / 180.0 * n4,
+        13.0 / 48.0 * n2 - 3.0 / 5.0 * n3 + 557.0 / 1440.0 * n4,
+        61.0 / 240.0 * n3 - 103.0 / 140.0 * n4,
+        49561.0 / 161280.0 * n4};
+    to_sphere_ = {
+        -n / 2.0 + 2.0 / 3.0 * n2 - 37.0 / 96.0 * n3 + 1.0 / 360.0 * n4,
+        -1.0 / 48.0 * n2 - 1.0 / 15.0 * n3 + 437.0 / 1440.0 * n4,
+        -17.0 / 480.0 * n3 + 37.0 / 840.0 * n4,
+        -4397.0 / 161280.0 * n4};
+    north_of_equator_m_ = metres_from(origin.latitude_deg, 0.0).real();
+}
+
+std::complex<double> TransverseMercator::metres_from(double latitude_deg, double away_rad) const {
+    const double tau = conformal(std::tan(rad_from_deg(latitude_deg)), origin_.ellipsoid.e2());
     const double length = std::hypot(1.0, tau);
     const double most = std::tanh(furthest_across);
     const double across = std::clamp(std::sin(away_rad) / length, -most, most);
     const std::complex<double> on_sphere(std::atan2(tau, std::cos(away_rad)), std::atanh(across));
-    return mean_radius_m * brought(on_sphere, from_sphere);
+    return mean_radius_m_ * brought(on_sphere, from_sphere_);
 }
-
-} // namespace
-
-TransverseMercator::TransverseMercator(const GeoPlace& origin)
-    : origin_(origin)
-    , north_of_equator_m_(metres_from(origin.latitude_deg, 0.0).real()) {}
 
 glm::dvec2 TransverseMercator::local_from_geo(const GeoPlace& place) const {
     const double away_rad =
@@ -101,12 +100,12 @@ glm::dvec2 TransverseMercator::local_from_geo(const GeoPlace& place) const {
 }
 
 GeoPlace TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) const {
-    const double along = (east_north_m.y + north_of_equator_m_) / mean_radius_m;
-    const double across = east_north_m.x / mean_radius_m;
+    const double along = (east_north_m.y + north_of_equator_m_) / mean_radius_m_;
+    const double across = east_north_m.x / mean_radius_m_;
     const std::complex<double> on_sphere = brought(
         {std::clamp(along, -furthest_along, furthest_along),
          std::clamp(across, -furthest_across, furthest_across)},
-        to_sphere);
+        to_sphere_);
     const double beside = std::sinh(on_sphere.imag());
     const double ahead = std::cos(on_sphere.real());
     const double from_pole = std::hypot(beside, ahead);
@@ -114,8 +113,9 @@ GeoPlace TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) cons
     const double tau = std::sin(on_sphere.real()) / std::max(from_pole, at_pole);
     const double longitude_deg = origin_.longitude_deg + deg_from_rad(std::atan2(beside, ahead));
     return {
-        std::clamp(deg_from_rad(std::atan(geodetic(tau))), -90.0, 90.0),
-        std::remainder(longitude_deg, 360.0)};
+        std::clamp(deg_from_rad(std::atan(geodetic(tau, origin_.ellipsoid.e2()))), -90.0, 90.0),
+        std::remainder(longitude_deg, 360.0),
+        origin_.ellipsoid};
 }
 
 const EarthFrame& frame_or_at_zero(const EarthFrame* frame) {

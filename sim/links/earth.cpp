@@ -12,10 +12,10 @@ namespace octant::sim::links {
 
 namespace {
 
-using wgs84::e2;
-using wgs84::flattening;
-using wgs84::semi_major_m;
-constexpr double semi_minor_m = semi_major_m * (1.0 - flattening);
+constexpr double e2 = wgs84.e2();
+constexpr double flattening = wgs84.flattening;
+constexpr double semi_major_m = wgs84.semi_major_m;
+constexpr double semi_minor_m = wgs84.semi_minor_m();
 constexpr double second_e2 = e2 / (1.0 - e2);
 
 double prime_vertical_m(double latitude_rad) {

@@ -35,3 +35,18 @@ TEST_CASE("a path carried to another frame stays over its places, with its true 
     CHECK(first.velocity_mps.x == Approx(100.0 * std::sin(turn_rad)));
     CHECK(first.velocity_mps.z == 5.0);
 }
+
+TEST_CASE("a track on Mars keeps its latitudes, and its speed fits its places") {
+    const TransverseMercator from({20.0, 10.0});
+    const TransverseMercator to({20.0, 10.0, {3396190.0, 0.0}});
+    sim::AircraftState state;
+    state.velocity_mps = glm::dvec3(100.0, 0.0, 7.0);
+    sim::AircraftState later = state;
+    later.time_s = 10.0;
+    later.position_m = glm::dvec3(1000.0, 0.0, 70.0);
+    const sim::Trajectory carried = flightpaths::carried(sim::Trajectory({state, later}), from, to);
+    const sim::AircraftState& second = carried.samples()[1];
+    CHECK(second.position_m.x == Approx(1000.0 * 3396190.0 / 6378137.0).epsilon(2e-3));
+    CHECK(second.velocity_mps.x * 10.0 == Approx(second.position_m.x).epsilon(2e-3));
+    CHECK(second.velocity_mps.z == 7.0);
+}

@@ -11,7 +11,10 @@
 #include "ui/commands/commands.h"
 #include "ui/commands/read_option.h"
 #include "ui/commands/terrain_options.h"
+#include "ui/report/png_file.h"
 #include "ui/settings/terrain_name.h"
+#include "ui/terrain/loaded_ground.h"
+#include "ui/terrain/map_picture.h"
 #include "ui/world/terrain_file.h"
 
 #include <algorithm>
@@ -32,6 +35,7 @@ struct TerrainOptions {
     bool json = false;
     bool quiet = false;
     bool verify = false;
+    std::string picture;
     std::string kind = "hills";
     models::made::MadeOptions made;
     int seed = 1;
@@ -89,6 +93,11 @@ void add_source(
 
 void show(const TerrainOptions& options) {
     if (settings::is_imported_ground(options.terrain)) {
+        if (!options.picture.empty()) {
+            const terrain::LoadedGround ground =
+                terrain::load_ground(options.terrain, options.files);
+            report::write_png(options.picture, terrain::map_picture(ground.samples(), {}).view());
+        }
         show_ground_file(options.terrain, options.verify, options.json);
         return;
     }
@@ -99,6 +108,11 @@ void show(const TerrainOptions& options) {
         add_source(field, options, figures);
     }
     figures["notes"] = note_texts(field.notes);
+    if (!options.picture.empty()) {
+        const visuals::terrain::GroundSamples samples(field);
+        report::write_png(options.picture, terrain::map_picture(samples, field.notes).view());
+        figures["picture"] = options.picture;
+    }
     base::print_figures(figures, options.json);
 }
 
@@ -145,6 +159,12 @@ Command info_command() {
                  "NAME|FILE",
                  "hills, canyon, an imported ground, or maps that GDAL reads",
                  options->terrain)),
+             text_option(
+                 "--picture",
+                 "OUT.png",
+                 "draw it from above with a legend of heights; red rings mark the places of the "
+                 "notes, by their number",
+                 options->picture),
              flag("--json", "as JSON", options->json),
              flag("--verify", "check all of an imported ground", options->verify)},
         .footer = "Example:\n  octant terrain info map.tif --json",

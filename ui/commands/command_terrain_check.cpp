@@ -22,11 +22,11 @@ struct CheckOptions {
     bool json = false;
 };
 
-void check(const CheckOptions& options) {
-    const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files);
+void check(CheckOptions options) {
+    const terrain::LoadedGround ground = terrain::load_ground(options.view);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
+    asked.earth_radius_m = options.view.earth_radius_m;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;
     const ui::terrain::TerrainFaults faults = ui::terrain::check_terrain(*maker, asked);
     if (options.json) {
@@ -78,7 +78,7 @@ std::vector<Option> options_of(CheckOptions& options) {
               0,
               1e6},
              asked.draw_every),
-         curved_option(asked.earth_radius_m),
+         curved_option(options.view.curved),
          flag("--json", "as JSON", options.json),
          flag("--quiet", "no progress", asked.quiet)});
     return table;

@@ -28,12 +28,11 @@ struct ErrorOptions {
     bool quiet = false;
 };
 
-void show_error(const ErrorOptions& options) {
+void show_error(ErrorOptions options) {
     if (options.compare && !options.solve_px) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
-    const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files, options.quiet);
+    const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(ui::terrain::camera_of(options.view));

@@ -25,10 +25,9 @@ struct MeshOptions {
     bool quiet = false;
 };
 
-void write_mesh(const MeshOptions& options) {
+void write_mesh(MeshOptions options) {
     const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
-    const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files, options.quiet);
+    const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_as_asked(
         *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);

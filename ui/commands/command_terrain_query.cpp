@@ -70,7 +70,7 @@ std::vector<ui::terrain::PointAnswer> answers_of_source(
     return answers;
 }
 
-void query(const QueryOptions& options) {
+void query(QueryOptions options) {
     if (options.from_m.has_value() != options.to_m.has_value()) {
         throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
     }
@@ -78,8 +78,7 @@ void query(const QueryOptions& options) {
     if (points.empty() && !options.from_m) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
-    const terrain::LoadedGround ground =
-        terrain::load_ground(options.view.terrain, options.view.files);
+    const terrain::LoadedGround ground = terrain::load_ground(options.view);
     const visuals::terrain::GroundSamples samples = ground.samples();
     ui::terrain::Answers answers;
     if (options.as_drawn) {
@@ -100,7 +99,7 @@ void query(const QueryOptions& options) {
                 samples,
                 *options.from_m,
                 *options.to_m,
-                options.flat ? 0.0 : visuals::terrain::earth_radius_m);
+                options.flat ? 0.0 : ground.mean_radius_m());
         }
     }
     std::fputs(ui::terrain::text_of_answers(answers, options.json).c_str(), stdout);
@@ -132,7 +131,8 @@ std::vector<Option> options_of(QueryOptions& options) {
          read_option({"to", "X,Y,Z", "where it ends", -far_m, far_m}, options.to_m),
          flag(
              "--flat",
-             "lines of sight over a flat earth; else it curves, R = 6371 km",
+             "lines of sight over a flat earth; else it curves, R = 6371 km (on the Moon 1737 km, "
+             "and so on)",
              options.flat),
          flag(
              "--as-drawn",

@@ -1,7 +1,6 @@
 #include "ui/commands/terrain_options.h"
 
 #include "ui/commands/read_option.h"
-#include "visuals/terrain/ground_query.h"
 
 namespace octant::ui::commands {
 
@@ -91,7 +90,7 @@ void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& op
          read_option(
              {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px),
          read_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg),
-         curved_option(options.earth_radius_m)});
+         curved_option(options.curved)});
 }
 
 void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
@@ -123,14 +122,11 @@ void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& 
              options.resolution_c)});
 }
 
-Option curved_option(double& radius_m) {
-    return {
-        .name = "--curved",
-        .meaning = "lower the ground by d^2 / 2R as it is in flight (screen-error meshes)",
-        .takes = Takes::Nothing,
-        .read = [&radius_m](const Words& words) {
-            radius_m = words.front() == "true" ? visuals::terrain::earth_radius_m : 0.0;
-        }};
+Option curved_option(bool& curved) {
+    return flag(
+        "--curved",
+        "lower the ground by d^2 / 2R as it is in flight (screen-error meshes)",
+        curved);
 }
 
 } // namespace octant::ui::commands

@@ -27,7 +27,6 @@ void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& op
 /// How fine it is: --error-px, --triangles and --resolution-c.
 void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& options);
 
-/// --curved, which makes `radius_m` the Earth's.
-Option curved_option(double& radius_m);
+Option curved_option(bool& curved);
 
 } // namespace octant::ui::commands

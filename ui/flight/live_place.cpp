@@ -140,6 +140,10 @@ std::vector<std::string> LivePlace::lines() const {
             placed_->origin().latitude_deg,
             placed_->origin().longitude_deg));
     }
+    if (const Ellipsoid below = ellipsoid_below(origin()); !below.is_earth()) {
+        lines.push_back(
+            fmt::format("latitudes and longitudes are taken as places on {}", name_of_body(below)));
+    }
     if (off_the_map_) {
         lines.emplace_back("off the map");
     }

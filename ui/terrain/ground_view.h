@@ -21,8 +21,9 @@ struct GroundViewOptions {
     std::optional<glm::dvec3> eye_m;
     std::optional<glm::dvec3> look_m;
     glm::ivec2 size_px{1280, 720};
-    double fov_deg = 45.0; ///< vertical
-    double earth_radius_m = 0.0;
+    double fov_deg = 45.0;       ///< vertical
+    bool curved = false;         ///< whether the ground is lowered by d^2 / 2R
+    double earth_radius_m = 0.0; ///< R of the loaded ground; 0 = flat
 };
 
 /// Which mesh of the ground is made, and how finely.

@@ -5,6 +5,7 @@
 #include "ui/world/terrain_file.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/ground_query.h"
 
 namespace octant::ui::terrain {
 
@@ -12,6 +13,14 @@ namespace terrain = visuals::terrain;
 
 terrain::GroundSamples LoadedGround::samples() const {
     return std::visit([](const auto& ground) { return terrain::GroundSamples(ground); }, ground_);
+}
+
+double LoadedGround::mean_radius_m() const {
+    const models::heights::HeightField* const read = field();
+    return ellipsoid_below(
+               read != nullptr ? read->place
+                               : std::get<terrain::GroundTiles>(ground_).facts().place)
+        .mean_radius_m();
 }
 
 terrain::GroundTiles LoadedGround::tiles() const {
@@ -29,6 +38,18 @@ LoadedGround load_ground(
         base::say(quiet, note.text);
     }
     return LoadedGround(std::move(field));
+}
+
+LoadedGround load_ground(GroundViewOptions& options, bool quiet) {
+    LoadedGround ground = load_ground(options.terrain, options.files, quiet);
+    options.earth_radius_m = options.curved ? ground.mean_radius_m() : 0.0;
+    if (options.eye_m) {
+        const auto low = world::note_of_low_eye(
+            *options.eye_m,
+            terrain::ground_height_m(ground.samples(), options.eye_m->x, options.eye_m->y));
+        base::say(quiet || !low, low.value_or(""));
+    }
+    return ground;
 }
 
 } // namespace octant::ui::terrain

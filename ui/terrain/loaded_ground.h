@@ -2,6 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
+#include "ui/terrain/ground_view.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -28,6 +29,9 @@ public:
         return std::get_if<models::heights::HeightField>(&ground_);
     }
 
+    /// By which it curves: that of the planet on which it lies, of the earth for made ground.
+    double mean_radius_m() const;
+
     /// What screen-error meshes are made of: built here from a field that was read.
     visuals::terrain::GroundTiles tiles() const;
 
@@ -41,5 +45,9 @@ LoadedGround load_ground(
     const std::string& name_or_file,
     const models::heights::ImportOptions& options,
     bool quiet = false);
+
+/// The terrain of these options, whose `earth_radius_m` is set where the ground is to be curved.
+/// Says on stderr, unless `quiet`, where the eye point lies under the ground.
+LoadedGround load_ground(GroundViewOptions& options, bool quiet = false);
 
 } // namespace octant::ui::terrain

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,7 +107,10 @@ RunwayFinder runway_finder(
         const Flight first = script ? place_flight(settings, *script, ground, told_later)
                                     : live_flight(settings, ground);
         known = {first.place_m, first.heading_rad};
-        const heights::RunwayWish wish = wish_of(first.trajectory, settings.air.water_level_m);
+        const bool has_water = ellipsoid_below(field.place).is_earth();
+        const heights::RunwayWish wish = wish_of(
+            first.trajectory,
+            has_water ? settings.air.water_level_m : -std::numeric_limits<double>::infinity());
         const auto site = heights::runway_site(field, wish);
         check_site(site);
         notes.push_back(note_of(*site, wish));

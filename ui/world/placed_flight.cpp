@@ -29,10 +29,19 @@ bool lies_at_its_place(
 
 /// A track that lies over this ground where it was flown, in the ground's axes; another one as it
 /// is.
-LoadedPath
-in_axes_of(const GroundBelow& ground, const settings::RunSettings& settings, LoadedPath loaded) {
+LoadedPath in_axes_of(
+    const GroundBelow& ground,
+    const settings::RunSettings& settings,
+    LoadedPath loaded,
+    std::vector<std::string>& notes) {
     if (lies_at_its_place(settings, loaded, ground)) {
         const TransverseMercator own(*loaded.origin);
+        const Ellipsoid ellipsoid = ground.frame->origin().ellipsoid;
+        if (!ellipsoid.is_earth()) {
+            notes.push_back(fmt::format(
+                "the track's latitudes and longitudes are taken as places on {}",
+                name_of_body(ellipsoid)));
+        }
         loaded.trajectory = flightpaths::carried(loaded.trajectory, own, *ground.frame);
         for (sim::Trajectory& other : loaded.others) {
             other = flightpaths::carried(other, own, *ground.frame);
@@ -165,7 +174,7 @@ Flight place_flight(
     const GroundBelow& ground,
     std::vector<std::string>& notes,
     const std::optional<KnownPlace>& known) {
-    loaded = in_axes_of(ground, settings, std::move(loaded));
+    loaded = in_axes_of(ground, settings, std::move(loaded), notes);
     flightpaths::Placement placement = placement_of(settings, loaded, ground);
     if (known) {
         placement.place_m = known->place_m;
@@ -204,8 +213,8 @@ sim::Trajectory own_path(
     const GroundBelow& ground,
     const Flight& first,
     std::vector<std::string>& notes) {
-    const LoadedPath loaded =
-        in_axes_of(ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient));
+    const LoadedPath loaded = in_axes_of(
+        ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
     add(notes, loaded.notes);
     flightpaths::Placement placement = placement_of(settings, loaded, ground);
     if (!lies_at_its_place(settings, loaded, ground)) {

@@ -5,6 +5,8 @@
 #include "sim/base/error.h"
 #include "ui/world/kept_ground.h"
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
@@ -32,6 +34,43 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
         field.name = std::filesystem::path(name_or_file).filename().string();
     }
     return field;
+}
+
+std::optional<std::string> note_of_few_samples(
+    const std::string& name,
+    const glm::ivec2& samples,
+    int asked_triangles,
+    const std::string& option) {
+    const std::int64_t most = std::int64_t{2} * (samples.x - 1) * (samples.y - 1);
+    if (most >= asked_triangles) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "{}: {} x {} samples make at most {} triangles, and {} are asked for: {}",
+        name,
+        samples.x,
+        samples.y,
+        most,
+        asked_triangles,
+        option);
+}
+
+std::optional<std::string>
+note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m) {
+    if (!ground_m || eye_m.z >= *ground_m) {
+        return std::nullopt;
+    }
+    constexpr double clear_m = 2.0;
+    return fmt::format(
+        "--eye {0:g},{1:g},{2:g} lies {3:.1f} m under the ground, which is {4:.1f} m high there: "
+        "--eye "
+        "{0:g},{1:g},{5:.0f} lies above it",
+        eye_m.x,
+        eye_m.y,
+        eye_m.z,
+        *ground_m - eye_m.z,
+        *ground_m,
+        std::ceil(*ground_m + clear_m));
 }
 
 models::heights::ImportOptions import_options(const settings::PathSettings& settings) {

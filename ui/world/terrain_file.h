@@ -4,6 +4,10 @@
 #include "models/heights/import_options.h"
 #include "ui/settings/settings.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
 #include <string>
 
 namespace octant::ui::world {
@@ -12,6 +16,19 @@ namespace octant::ui::world {
 /// takes them. Throws Error for a name that is neither, listing the built-in ones.
 models::heights::HeightField
 load_height_field(const std::string& name_or_file, const models::heights::ImportOptions& options);
+
+/// What a person should be told who asks for more triangles than the samples of a ground make;
+/// nothing where they suffice. `option`: one that cures it.
+std::optional<std::string> note_of_few_samples(
+    const std::string& name,
+    const glm::ivec2& samples,
+    int asked_triangles,
+    const std::string& option);
+
+/// What a person should be told whose eye point lies under the ground, which is so high there;
+/// nothing where it does not.
+std::optional<std::string>
+note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
 
 /// What settings say of files that do not say it themselves.
 models::heights::ImportOptions import_options(const settings::PathSettings& settings);

@@ -13,6 +13,7 @@
 #include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/sun_of_time.h"
+#include "ui/world/terrain_file.h"
 
 #include <glm/common.hpp>
 
@@ -310,6 +311,12 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
         world.notes.push_back(std::move(*night));
     }
     world.points = fixed_points(settings, world);
+    if (settings.view.kind == scene::View::Free) {
+        const glm::dvec3& eye_m = world.points.free_eye_m;
+        if (auto low = note_of_low_eye(eye_m, ground.ground->height_at(eye_m.x, eye_m.y))) {
+            world.notes.push_back(std::move(*low));
+        }
+    }
     const bool from_tower =
         settings.view.kind == scene::View::Tower || settings.view.inset == scene::View::Tower;
     if (is_live && from_tower && !settings.view.eye_m) {

@@ -2,6 +2,7 @@
 // checked before it is used, and a hash of the layout refuses files of another release.
 #include "visuals/groundfile/ground_header.h"
 
+#include "models/heights/local_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/utf8.h"
@@ -204,6 +205,9 @@ GroundFacts facts_of(const GroundHeader& h) {
             h.system.centre_x,
             h.system.centre_y,
             h.system.unit_m};
+    }
+    if (facts.place && facts.system) {
+        facts.place->ellipsoid = models::heights::ellipsoid_of(facts.system->wkt);
     }
     if (h.deviation.places > 0) {
         facts.deviation =

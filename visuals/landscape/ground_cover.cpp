@@ -49,11 +49,12 @@ constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
 constexpr float shrub_share = 0.35F; ///< of ground where they grow
 constexpr glm::vec3 hedge(0.19F, 0.29F, 0.13F);
 constexpr scene::Cover snow_on_ground{snow_colour, 0.03F};
-constexpr float band_m = 85.0F;   ///< thickness of a stratum of arid rock ...
-constexpr float ledge_m = 13.0F;  ///< ... of a layer within it ...
-constexpr float bed_m = 3.5F;     ///< ... and of a bed within that
-constexpr float field_m = 260.0F; ///< east to west ...
-constexpr float row_m = 180.0F;   ///< ... and south to north
+constexpr float bare_rock_share = 0.78F; ///< of the brightness of dust, without it
+constexpr float band_m = 85.0F;          ///< thickness of a stratum of arid rock ...
+constexpr float ledge_m = 13.0F;         ///< ... of a layer within it ...
+constexpr float bed_m = 3.5F;            ///< ... and of a bed within that
+constexpr float field_m = 260.0F;        ///< east to west ...
+constexpr float row_m = 180.0F;          ///< ... and south to north
 
 /// Whole-number noise in [0, 1): the same bits on every machine.
 float lattice_noise(int column, int row) {
@@ -273,6 +274,12 @@ glm::vec3 arid(const Site& site) {
     return glm::mix(grown, rock, arid_rock(site)) * (1.0F + 0.10F * site.patches);
 }
 
+glm::vec3 dusty(const Site& site, const glm::vec3& dust) {
+    const glm::vec3 level = dust * mottled(site, 300.0F, 0.09F);
+    const glm::vec3 rock = bare_rock_share * dust * mottled(site, 40.0F, 0.09F);
+    return glm::mix(level, rock, arid_rock(site)) * (1.0F + 0.10F * site.patches);
+}
+
 std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers() {
     return {
         scene::Cover{forest, 0.17F},
@@ -289,6 +296,14 @@ std::array<scene::Cover, scene::CoverContrast::covers> arid_covers() {
         snow_on_ground};
 }
 
+std::array<scene::Cover, scene::CoverContrast::covers> dusty_covers(const glm::vec3& dust) {
+    return {
+        scene::Cover{dust, 0.05F},
+        scene::Cover{dust, 0.09F},
+        scene::Cover{bare_rock_share * dust, 0.15F},
+        snow_on_ground};
+}
+
 float temperate_mixture(const Site& site) {
     const Cover cover = cover_of(site);
     const float grown = glm::mix(level_number, grown_number, cover.wooded);
@@ -298,6 +313,10 @@ float temperate_mixture(const Site& site) {
 float arid_mixture(const Site& site) {
     const float grown = glm::mix(level_number, grown_number, shrub_share * shrubs_of(site));
     return glm::mix(grown, rock_number, arid_rock(site));
+}
+
+float dusty_mixture(const Site& site) {
+    return glm::mix(level_number, rock_number, arid_rock(site));
 }
 
 } // namespace octant::visuals::landscape

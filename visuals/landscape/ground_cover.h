@@ -63,6 +63,10 @@ float shrubs_of(const Site& site);
 /// Own colour of desert ground, display values.
 glm::vec3 arid(const Site& site);
 
+/// Own colour of ground on which nothing but this dust lies, display values: bare where it is
+/// steep.
+glm::vec3 dusty(const Site& site, const glm::vec3& dust);
+
 constexpr glm::vec3 snow_colour(0.93F, 0.94F, 0.96F);
 
 /// The covers of ground for scene::CoverContrast, by their numbers: woods or shrubs, meadows or
@@ -73,9 +77,11 @@ constexpr float rock_number = 192.0F;
 constexpr float snow_number = 255.0F;
 std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers();
 std::array<scene::Cover, scene::CoverContrast::covers> arid_covers();
+std::array<scene::Cover, scene::CoverContrast::covers> dusty_covers(const glm::vec3& dust);
 
-/// What temperate() and arid() are mixed of, as such a number; at least grown_number.
+/// What temperate(), arid() and dusty() are mixed of, as such a number; at least grown_number.
 float temperate_mixture(const Site& site);
 float arid_mixture(const Site& site);
+float dusty_mixture(const Site& site);
 
 } // namespace octant::visuals::landscape

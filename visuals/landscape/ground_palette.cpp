@@ -56,8 +56,12 @@ relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& set
 }
 
 nature::Climate climate_at(const std::optional<GeoPlace>& place) {
-    return place ? nature::climate_of(place->latitude_deg, place->longitude_deg)
-                 : nature::Climate();
+    if (!place) {
+        return {};
+    }
+    return place->ellipsoid.is_earth()
+               ? nature::climate_of(place->latitude_deg, place->longitude_deg)
+               : nature::climate_elsewhere(place->ellipsoid);
 }
 
 GroundPalette::GroundPalette(
@@ -77,6 +81,9 @@ glm::vec3 GroundPalette::own(const GroundPoint& point, float footprint_m) const 
     Site site = site_of(point, footprint_m, water_m_);
     if (is_water(point)) {
         return glm::mix(water_colour, shallow_water, point.shore);
+    }
+    if (climate_.dust) {
+        return dusty(site, *climate_.dust);
     }
     const float white = snow_cover(site, point.normal, climate_);
     if (climate_.arid) {
@@ -104,6 +111,9 @@ float GroundPalette::covers(const GroundPoint& point, float footprint_m) const {
         return 0.0F;
     }
     Site site = site_of(point, footprint_m, water_m_);
+    if (climate_.dust) {
+        return dusty_mixture(site);
+    }
     const float white = snow_cover(site, point.normal, climate_);
     if (climate_.arid) {
         return glm::mix(arid_mixture(site), snow_number, white);
@@ -114,11 +124,14 @@ float GroundPalette::covers(const GroundPoint& point, float footprint_m) const {
 }
 
 scene::CoverContrast GroundPalette::contrast() const {
+    if (climate_.dust) {
+        return scene::CoverContrast(dusty_covers(*climate_.dust));
+    }
     return scene::CoverContrast(climate_.arid ? arid_covers() : temperate_covers());
 }
 
 bool GroundPalette::is_water(const GroundPoint& point) const {
-    return point.height_m <= water_m_ && 1.0F - point.normal.z < 1e-4F;
+    return !climate_.dust && point.height_m <= water_m_ && 1.0F - point.normal.z < 1e-4F;
 }
 
 nature::Growth GroundPalette::growth(const GroundPoint& point, float footprint_m) const {
@@ -126,7 +139,7 @@ nature::Growth GroundPalette::growth(const GroundPoint& point, float footprint_m
     growth.sun = left_at(point, footprint_m).sun;
     Site site = site_of(point, footprint_m, water_m_);
     const float white = snow_cover(site, point.normal, climate_);
-    if (is_water(point) || site.steepness > 0.16F || white > 0.5F) {
+    if (climate_.dust || is_water(point) || site.steepness > 0.16F || white > 0.5F) {
         return growth;
     }
     if (climate_.arid) {

@@ -31,7 +31,7 @@ glm::vec3 light_on(const glm::vec3& normal, const nature::Daylight& day);
 std::shared_ptr<const nature::ReliefLight>
 relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
 
-/// What grows at a place; of made ground where there is none.
+/// What grows at a place; of made ground where there is none. Nothing grows off the earth.
 nature::Climate climate_at(const std::optional<GeoPlace>& place);
 
 /// Whether ground has the same colours under both: its sun, water and palette.

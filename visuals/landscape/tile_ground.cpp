@@ -51,7 +51,8 @@ nature::LightLeft TileGround::light_left(double x_m, double y_m) const {
 }
 
 std::shared_ptr<const roads::RoadNetwork> TileGround::road_network() const {
-    return roads_->on(*tiles_, runway().get());
+    const bool has_people = ellipsoid_below(tiles_->facts().place).is_earth();
+    return has_people ? roads_->on(*tiles_, runway().get()) : nullptr;
 }
 
 std::optional<GroundSource> TileGround::source() const {

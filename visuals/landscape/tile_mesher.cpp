@@ -7,7 +7,6 @@
 #include "visuals/roads/road_network.h"
 #include "visuals/terrain/error_mesher.h"
 #include "visuals/terrain/ground_prefetcher.h"
-#include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <algorithm>
@@ -56,7 +55,9 @@ public:
         textured_ = settings.textured;
         lead_roads(settings.ground.roads && !settings.textured);
         is_coloured_ = false;
-        earth_radius_m_ = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+        earth_radius_m_ = settings.ground.earth_curvature
+                              ? ellipsoid_below(ground_->tiles().facts().place).mean_radius_m()
+                              : 0.0;
     }
 
     bool move_to(const std::shared_ptr<const Ground>& ground) override {

@@ -1,5 +1,11 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+
 namespace octant::visuals::nature {
 
 /// What grows where, and from where snow stays, by height above the water level.
@@ -8,9 +14,15 @@ struct Climate {
     float snow_line_m = 2350.0F;
     bool arid = false;
     float poleward = 0.0F; ///< 1 where north is the shaded side, -1 where south is; 0 = no side
+    /// Display colour of the dust on another planet or moon, where there is nothing else: no water,
+    /// plants, snow or people. Nothing on the earth.
+    std::optional<glm::vec3> dust = {};
 };
 
 /// Of a place on the earth, degrees.
 Climate climate_of(double latitude_deg, double longitude_deg);
+
+/// Of a planet or moon that is not the earth: rust on Mars, grey elsewhere.
+Climate climate_elsewhere(const Ellipsoid& ellipsoid);
 
 } // namespace octant::visuals::nature

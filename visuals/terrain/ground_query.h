@@ -12,8 +12,6 @@ namespace octant::visuals::terrain {
 // lines are intersected with it exactly, cell by cell. The earth's curvature lowers everything at a
 // horizontal distance d from the eye by d^2 / (2 R); R = 0 is a flat earth.
 
-inline constexpr double earth_radius_m = 6371000.0;
-
 /// The height of the ground; nothing outside the field.
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m);
 

@@ -69,7 +69,7 @@ void use(const std::filesystem::path& file) {
     const terrain::GroundSamples samples(ground);
     terrain::ground_height_m(samples, 1.0, -1.0);
     const glm::dvec3 end_m(samples.half_extent_m(), 200.0);
-    terrain::sight_between(samples, -end_m, end_m, terrain::earth_radius_m);
+    terrain::sight_between(samples, -end_m, end_m, octant::wgs84.mean_radius_m());
     groundfile::hash_of_ground(file);
     groundfile::verify_ground(file, 1);
 }

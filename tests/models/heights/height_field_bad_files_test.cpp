@@ -103,7 +103,10 @@ TEST_CASE("an empty file and files of other kinds are refused") {
         "</VRTRasterBand></VRTDataset>",
         "expected heights on this computer, got a reference to "
         "'/vsicurl/http://localhost/a.tif'");
-    check_text_refused("N51E000.hgt", std::string(1000, '\0'), other);
+    check_text_refused(
+        "N51E000.hgt",
+        std::string(1000, '\0'),
+        std::string(unreadable) + "only the first 1000 of the 2884802 bytes of a .hgt tile");
 }
 
 TEST_CASE("damaged files are refused in one line that begins the same for every format") {
@@ -236,12 +239,6 @@ TEST_CASE("grids that cannot be laid on the ground are refused") {
     pole.system = "EPSG:4326";
     pole.transform = {0.0, 0.05, 0.0, 90.5, 0.0, -0.05};
     check_raster_refused(pole, no_frame + "edges that have no places there");
-    RasterFile moon = flat(20, 20);
-    moon.system = "+proj=longlat +R=1737400 +no_defs";
-    moon.transform = {10.0, 0.003, 0.0, 20.0, 0.0, -0.003};
-    check_raster_refused(
-        moon,
-        no_frame + "a coordinate system that does not lead to WGS 84, as that of another planet");
     RasterFile flattened = flat(4, 4);
     flattened.transform = {500000.0, 10.0, 10.0, 5000000.0, 10.0, 10.0};
     check_raster_refused(flattened, "expected a cell size that is a number, got 10 x 10");

@@ -39,3 +39,28 @@ TEST_CASE("made ground has the summers of middle latitudes") {
     const nature::Growth middle = growth_in(nature::climate_of(45.0, 8.0));
     CHECK(made.houses == middle.houses);
 }
+
+TEST_CASE("on Mars and the Moon there is no water, nothing grows, and the Moon is grey") {
+    const nature::Climate mars = landscape::climate_at(GeoPlace{45.0, 8.0, {3396190.0, 0.0}});
+    const nature::Climate moon = landscape::climate_at(GeoPlace{45.0, 8.0, {1737400.0, 0.0}});
+    CHECK(growth_in(mars).houses + growth_in(mars).broadleaves + growth_in(mars).shrubs == 0.0F);
+    scene::AirSettings temperate;
+    temperate.palette = scene::Palette::Temperate;
+    landscape::GroundPoint level{300.0F, 300.0F, -4000.0F};
+    level.normal = {0.0F, 0.0F, 1.0F};
+    CHECK(landscape::GroundPalette({}, nature::Climate()).is_water(level));
+    for (const nature::Climate& climate : {mars, moon}) {
+        const landscape::GroundPalette palette(temperate, climate);
+        CHECK_FALSE(palette.is_water(level));
+        CHECK(palette.covers(level, 30.0F) >= 64.0F);
+        level.height_m = 21000.0F;
+        const glm::vec3 colour = palette.own(level, 30.0F);
+        CHECK(colour.x >= colour.y); // neither green nor snow
+        CHECK(colour.x < 0.8F);
+        level.height_m = -4000.0F;
+    }
+    const glm::vec3 grey = landscape::GroundPalette({}, moon).own(level, 30.0F);
+    CHECK(grey.x < 1.1F * grey.z);
+    const glm::vec3 rust = landscape::GroundPalette({}, mars).own(level, 30.0F);
+    CHECK(rust.x > 1.6F * rust.z);
+}

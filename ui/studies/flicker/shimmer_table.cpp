@@ -51,7 +51,8 @@ void add_change(report::HtmlTable& table, const std::string& path, const Change&
 Change shimmer_along(
     const ShimmerOptions& options,
     const settings::RunSettings& flown,
-    const terrain::GroundSamples& ground) {
+    const ui::terrain::LoadedGround& ground) {
+    const terrain::GroundSamples samples = ground.samples();
     const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
     std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
     for (std::size_t k = 0; k < samplings.size(); ++k) {
@@ -60,13 +61,13 @@ Change shimmer_along(
         settings.ground.geomorphs = samplings[k].geomorphs;
         sessions[k] = std::make_unique<flight::Session>(settings);
     }
-    const double radius_m = flown.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+    const double radius_m = flown.ground.earth_curvature ? ground.mean_radius_m() : 0.0;
     base::Progress progress(flown.path.name, static_cast<int>(cameras.size()), options.quiet);
     Change change;
     const auto step = static_cast<std::size_t>(options.every);
     for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
         const std::vector<SamePlace> places =
-            same_places(ground, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
+            same_places(samples, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
         for (std::size_t k = 0; k < samplings.size(); ++k) {
             flight::Session& session = *sessions[k];
             session.draw(static_cast<int>(frame));
@@ -88,7 +89,6 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         options.settings.path.terrain,
         world::import_options(options.settings.path),
         true); // popping said the notes
-    const terrain::GroundSamples samples = ground.samples();
     report::HtmlTable table;
     table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
     table.header = {
@@ -107,7 +107,7 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
         settings.path.name = std::string(base::built_in_paths[i]);
         settings.surface.shadows = false;
         settings.ground.mesh = scene::GroundMetric::ScreenError;
-        changes[i] = shimmer_along(of_path, settings, samples);
+        changes[i] = shimmer_along(of_path, settings, ground);
     });
     Change all;
     for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -133,6 +133,14 @@ std::vector<FlickerRun> run_memories(
 FlickerRuns run_all(const FlickerStudyOptions& options) {
     FlickerGround gentle(world::load_height_field(options.gentle, options.files));
     FlickerGround rugged(world::load_height_field(options.rugged, options.files));
+    for (const FlickerGround* const ground : {&gentle, &rugged}) {
+        const auto few = world::note_of_few_samples(
+            ground->field.name,
+            {ground->field.columns(), ground->field.rows()},
+            FlickerSettings{}.target_triangles,
+            "--gentle and --rugged with larger maps");
+        base::say(options.quiet || !few, few.value_or(""));
+    }
     const int ways = static_cast<int>(flicker_ways().size());
     const int runs_of_field = (static_cast<int>(flicker_weights.size()) + 1) * ways +
                               static_cast<int>(flicker_gains.size() + flicker_memories.size());

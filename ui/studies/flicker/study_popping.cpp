@@ -83,7 +83,7 @@ MeshOfFrame given_ground(
     const Meshing& way) {
     ui::terrain::GroundViewOptions seen;
     seen.size_px = settings.view.size_px;
-    seen.earth_radius_m = settings.ground.earth_curvature ? terrain::earth_radius_m : 0.0;
+    seen.earth_radius_m = settings.ground.earth_curvature ? ground.mean_radius_m() : 0.0;
     const std::shared_ptr<ui::terrain::MeshMaker> maker =
         ui::terrain::make_mesh_maker(ground, mesh_options(settings, way));
     return
@@ -157,6 +157,14 @@ using OfWays = std::array<Jumps, meshings.size()>;
 std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
         options.settings.path.terrain, world::import_options(options.settings.path), options.quiet);
+    const terrain::GroundSamples samples = ground.samples();
+    const int asked = scene::triangle_target(options.settings);
+    const auto few = world::note_of_few_samples(
+        options.settings.path.terrain,
+        {samples.columns(), samples.rows()},
+        asked,
+        "--triangles with fewer, or --terrain with a larger map");
+    base::say(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
     for (std::size_t path = 0; path < flown.size(); ++path) {
