@@ -15,7 +15,8 @@ namespace octant::sim::links {
 
 namespace {
 
-constexpr double slow_clock_mps = 3.0; ///< below, the way is no measure of time
+constexpr double slow_clock_mps = 0.5;    ///< below, the way is no measure of time
+constexpr double slow_to_judge_mps = 3.0; ///< below, places that scatter do not refute a velocity
 constexpr int repeats_that_stand = 3;
 constexpr double max_velocity_error = 0.3;
 
@@ -154,7 +155,7 @@ bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, doub
         (sample.state.position_m - track_.last().state.position_m) / step_s;
     const glm::dvec3& told_mps = sample.state.velocity_mps;
     const double max_mps = std::max(glm::length(moved_mps), glm::length(told_mps));
-    if (max_mps > slow_clock_mps) {
+    if (max_mps > slow_to_judge_mps) {
         constexpr double share = 0.05;
         const double error = glm::length(moved_mps - told_mps) / max_mps;
         velocity_error_ += share * (error - velocity_error_);
