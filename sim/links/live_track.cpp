@@ -89,8 +89,10 @@ void LiveTrack::blend(AircraftState& state, double sender_s, double passed_s) {
     }
     const double left = std::exp(-std::max(passed_s, 0.0) / blend_s);
     const glm::dquat none(1.0, 0.0, 0.0, 0.0);
-    state.position_m += left * error_m;
-    if (waits) {
+    // What stands for want of samples stands altogether.
+    const bool rests = stale_ && state.position_m == then.position_m;
+    state.position_m += rests ? error_m : left * error_m;
+    if (waits && !rests) {
         state.position_m +=
             std::max(ahead_m - max_slowdown * moved_m - left * ahead_m, 0.0) * ahead;
     }

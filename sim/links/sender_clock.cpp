@@ -85,9 +85,12 @@ long PacketSpacing::add(double distance_s) {
     const double ratio = distance_s / std::max(period_s_, min_step_s);
     const bool counts =
         regular_ && ratio > 1.5 && ratio < max_ratio && off_whole(ratio) <= max_off_whole;
+    constexpr double min_next_ratio = 0.7; // else the sender catches up
+    const long missed = ratio >= min_next_ratio ? missing_ : 0;
+    missing_ = counts ? std::lround(ratio) - 1 : 0;
     push(count_, distance_s);
     learn();
-    return counts ? std::lround(ratio) - 1 : 0;
+    return missed;
 }
 
 bool PacketSpacing::fill(double before_s) {
@@ -101,9 +104,11 @@ bool PacketSpacing::fill(double before_s) {
             if (std::min(after_older_s, before_newer_s) < same * period_s_) {
                 return false;
             }
+            const bool is_newest = i + 1 == count_;
+            missing_ = is_newest ? std::max(missing_ - 1, 0L) : missing_;
             distances_s_[i] = before_newer_s;
             push(i, after_older_s);
-            return true;
+            return !is_newest;
         }
         newer_s = older_s;
     }
@@ -257,7 +262,8 @@ std::optional<double> SenderClock::by_ticks(double arrival_s, const TimeClue& cl
 /// then stays within half and double.
 SenderClock::Step SenderClock::by_way(double arrival_s, double way_m) {
     if (way_m <= 0.0) {
-        return {Source::Way, std::min(way_m / std::max(way_fit_.speed_mps(), min_speed_mps), 0.0)};
+        const double back_s = way_fit_.is_ready() ? way_m / way_fit_.speed_mps() : -min_step_s;
+        return {Source::Way, way_m < 0.0 ? std::max(back_s, -0.5 * restart_s) : 0.0};
     }
     const bool was_ready = way_fit_.is_ready();
     const double before_s = was_ready ? way_fit_.time_s(way_m_) : 0.0;

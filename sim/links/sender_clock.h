@@ -29,7 +29,8 @@ struct TimeClue {
 class PacketSpacing {
 public:
     /// Takes the distance of a packet from the newest one before, in seconds, above 0. Returns how
-    /// many packets are missing in it.
+    /// many packets were missing before that one: a sender that was only late catches up with the
+    /// next packet.
     long add(double distance_s);
 
     /// Takes a packet that was sent so long before the newest one. Returns whether it is one that
@@ -52,6 +53,7 @@ private:
     std::size_t count_ = 0;
     double period_s_ = 0.0;
     bool regular_ = false;
+    long missing_ = 0; ///< in the newest distance
 };
 
 /// When a vehicle was at a place of its way, from the way that it covered by each arrival: a

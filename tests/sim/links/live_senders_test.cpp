@@ -398,6 +398,12 @@ TEST_CASE("bursts, stalls of the network and doubled packets leave no frame back
     }
 }
 
+TEST_CASE("packets of a quick sender that overtake one another all the time are put in order") {
+    const Shown found = shown({.rate_hz = 100.0}, {.jitter_s = 0.02}, 60.0);
+    check_smooth(found, 0.1);
+    CHECK(found.rms_m < 1.0);
+}
+
 TEST_CASE("speed that changes, slow vehicles and noisy places are followed without velocities") {
     const Sender swings{.flight = {.swing_mps = 20.0}, .rate_hz = 20.0, .uneven = 0.6};
     check_smooth(shown(swings, {}, 60.0), 0.03);
