@@ -48,10 +48,30 @@ void PacketSpacing::push(std::size_t place, double distance_s) {
     ++count_;
 }
 
+/// Whether what is longer comes again and again after as many distances: the sender leaves it out.
+bool PacketSpacing::has_pattern(double longer_s) const {
+    constexpr int min_gaps = 4;
+    std::size_t last = capacity;
+    std::size_t min_apart = capacity;
+    std::size_t max_apart = 0;
+    int gaps = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (distances_s_[i] < longer_s) {
+            continue;
+        }
+        if (gaps++ > 0) {
+            min_apart = std::min(min_apart, i - last);
+            max_apart = std::max(max_apart, i - last);
+        }
+        last = i;
+    }
+    return gaps >= min_gaps && max_apart <= min_apart + 1;
+}
+
 /// The period is sought about the distance that a quarter of all do not reach: lost packets leave
 /// it as it is, where they are fewer than half.
 void PacketSpacing::learn() {
-    constexpr std::size_t min_count = 16;
+    constexpr std::size_t min_count = 32;
     constexpr double min_whole = 0.9;
     constexpr double min_single = 0.55;
     const auto begin = distances_s_.begin();
@@ -76,7 +96,8 @@ void PacketSpacing::learn() {
             ++whole;
         }
     });
-    regular_ = whole >= min_whole * count && single >= min_single * count;
+    regular_ =
+        whole >= min_whole * count && single >= min_single * count && !has_pattern(1.5 * *quarter);
     period_s_ = regular_ ? sum_s / whole : period_s_;
 }
 

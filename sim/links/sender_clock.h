@@ -47,6 +47,7 @@ private:
     static constexpr std::size_t capacity = 64;
 
     void push(std::size_t place, double distance_s);
+    bool has_pattern(double longer_s) const;
     void learn();
 
     std::array<double, capacity> distances_s_{}; ///< the newest one is the last

@@ -195,7 +195,10 @@ FlightEnd FlightRecorder::finish(const Session& session, const std::string& stop
             tracks_.reset();
             write_tracks(*options_.folder, session.world(), flown_until_s_);
         }
-        live_tracks_.reset();
+        if (live_tracks_) {
+            live_tracks_->flush();
+            live_tracks_.reset();
+        }
         end.notes.push_back(write_report(*options_.folder));
     } else {
         end.statistics = times_.statistics();

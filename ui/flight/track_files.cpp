@@ -122,10 +122,14 @@ void LiveTracks::add(const sim::AircraftState& state, bool is_flown, const Earth
         acmi_.append(flightpaths::acmi_state(state, header_, is_first));
     }
     if (!flushed_s_ || state.time_s - *flushed_s_ >= flush_every_s) {
-        csv_.flush();
-        acmi_.flush();
+        flush();
         flushed_s_ = state.time_s;
     }
+}
+
+void LiveTracks::flush() {
+    csv_.flush();
+    acmi_.flush();
 }
 
 } // namespace octant::ui::flight

@@ -62,6 +62,9 @@ public:
     /// the world lies on the earth, null where that is not known. Throws Error (disk full).
     void add(const sim::AircraftState& state, bool is_flown, const EarthFrame* frame);
 
+    /// Hands everything to the system. Throws Error (disk full).
+    void flush();
+
 private:
     GrowingFile csv_;
     GrowingFile acmi_;
