@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace octant::flightpaths {
 
@@ -79,26 +80,33 @@ std::string acmi_transform(const sim::AircraftState& state, const EarthFrame& fr
 
 } // namespace
 
+std::string track_csv_names() {
+    return "t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,tas_mps,n_g,"
+           "v_north_mps,v_east_mps,v_up_mps\n";
+}
+
+std::string track_csv_line(const sim::AircraftState& state) {
+    const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
+    return fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        fixed(state.time_s, 6),
+        fixed(state.position_m.y, 4),
+        fixed(state.position_m.x, 4),
+        fixed(state.position_m.z, 4),
+        fixed(deg_from_rad(angles.roll_rad), 4),
+        fixed(deg_from_rad(angles.pitch_rad), 4),
+        compass(angles.heading_rad, 4),
+        fixed(glm::length(state.velocity_mps), 4),
+        fixed(state.load_factor, 4),
+        fixed(state.velocity_mps.y, 4),
+        fixed(state.velocity_mps.x, 4),
+        fixed(state.velocity_mps.z, 4));
+}
+
 std::string track_csv(const sim::Trajectory& trajectory) {
-    std::string text = "t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,tas_mps,n_g,"
-                       "v_north_mps,v_east_mps,v_up_mps\n";
+    std::string text = track_csv_names();
     for (const sim::AircraftState& state : trajectory.samples()) {
-        const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
-        fmt::format_to(
-            std::back_inserter(text),
-            "{},{},{},{},{},{},{},{},{},{},{},{}\n",
-            fixed(state.time_s, 6),
-            fixed(state.position_m.y, 4),
-            fixed(state.position_m.x, 4),
-            fixed(state.position_m.z, 4),
-            fixed(deg_from_rad(angles.roll_rad), 4),
-            fixed(deg_from_rad(angles.pitch_rad), 4),
-            compass(angles.heading_rad, 4),
-            fixed(glm::length(state.velocity_mps), 4),
-            fixed(state.load_factor, 4),
-            fixed(state.velocity_mps.y, 4),
-            fixed(state.velocity_mps.x, 4),
-            fixed(state.velocity_mps.z, 4));
+        text += track_csv_line(state);
     }
     return text;
 }
@@ -128,26 +136,33 @@ std::string exact_track_csv(const sim::Trajectory& trajectory) {
     return text;
 }
 
-std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
-    const EarthFrame& frame = frame_or_at_zero(header.frame);
-    std::string text = fmt::format(
+std::string acmi_head(const AcmiHeader& header) {
+    const GeoPlace origin = frame_or_at_zero(header.frame).origin();
+    return fmt::format(
         "FileType=text/acmi/tacview\nFileVersion=2.2\n"
         "0,ReferenceTime=2026-01-01T00:00:00Z\n"
         "0,DataSource=Octant\n0,DataRecorder=Octant\n0,Title={}\n"
         "0,ReferenceLongitude={}\n0,ReferenceLatitude={}\n",
         acmi_text(header.title),
-        fixed(frame.origin().longitude_deg, 7),
-        fixed(frame.origin().latitude_deg, 7));
+        fixed(origin.longitude_deg, 7),
+        fixed(origin.latitude_deg, 7));
+}
+
+std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header, bool is_first) {
+    return fmt::format(
+        "#{}\n1,{}{},TAS={}\n",
+        fixed(state.time_s, 3),
+        acmi_transform(state, frame_or_at_zero(header.frame)),
+        is_first ? "," + properties_of(header) + ",Color=Blue" : "",
+        fixed(glm::length(state.velocity_mps), 1));
+}
+
+std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
+    std::string text = acmi_head(header);
     auto bookmark = header.bookmarks.begin();
     bool first = true;
     for (const sim::AircraftState& state : trajectory.samples()) {
-        text += fmt::format("#{}\n1,", fixed(state.time_s, 3));
-        text += acmi_transform(state, frame);
-        if (first) {
-            text += "," + properties_of(header) + ",Color=Blue";
-            first = false;
-        }
-        text += fmt::format(",TAS={}\n", fixed(glm::length(state.velocity_mps), 1));
+        text += acmi_state(state, header, std::exchange(first, false));
         for (; bookmark != header.bookmarks.end() && bookmark->time_s <= state.time_s + 1e-9;
              ++bookmark) {
             text += fmt::format("0,Event=Bookmark|1|{}\n", acmi_text(bookmark->label));

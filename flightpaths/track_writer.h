@@ -15,6 +15,10 @@ namespace octant::flightpaths {
 /// the same states back within 1e-3 (m, m/s, rad, g).
 std::string track_csv(const sim::Trajectory& trajectory);
 
+/// The line of the names that it begins with, and that of a state.
+std::string track_csv_names();
+std::string track_csv_line(const sim::AircraftState& state);
+
 /// A flight as comma-separated text that repeats it: t_s, north_m, east_m, alt_m, v_north_mps,
 /// v_east_mps, v_up_mps, n_g, q_w, q_x, q_y, q_z, each number with as many digits as it takes.
 /// read_recorded_track gives the same states back to the last bit, if the reader takes them at all
@@ -36,5 +40,9 @@ struct AcmiHeader {
 /// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local
 /// map. The reference time is fixed, so that the same flight gives the same bytes.
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
+
+/// What it begins with, and what it says of a state, without bookmarks; more of the first one.
+std::string acmi_head(const AcmiHeader& header);
+std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header, bool is_first);
 
 } // namespace octant::flightpaths

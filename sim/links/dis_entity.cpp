@@ -35,6 +35,7 @@ constexpr std::size_t marking_at = 128;
 /// clock is absolute.
 constexpr double parts_an_hour = 2147483648.0;
 constexpr double hour_s = 3600.0;
+constexpr double heartbeat_timeout_s = 12.0; ///< 2.4 heartbeats of 5 s, the standard's default
 
 Verdict check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
@@ -111,6 +112,7 @@ Verdict decode_dis(Bytes datagram, DisEntity& entity) {
     entity.fix.ticks = reader.at<std::uint32_t>(timestamp_at);
     entity.fix.tick_s = hour_s / (2.0 * parts_an_hour);
     entity.fix.velocity_is_meant = true;
+    entity.fix.carried_on_s = heartbeat_timeout_s;
     entity.fix.vehicle = static_cast<std::uint64_t>(entity.site) << 32U |
                          static_cast<std::uint64_t>(entity.application) << 16U | entity.entity;
     verdict.fault = fault_of(entity.fix);

@@ -28,6 +28,8 @@ struct Fix {
     std::optional<glm::dvec3> velocity_ned_mps;
     /// The velocity is how it is to go on, zero too.
     bool velocity_is_meant = false;
+    /// How long the protocol has the motion go on without a further packet; 0 = it does not say.
+    double carried_on_s = 0.0;
     /// North, east, down; zero where the protocol has none.
     glm::dvec3 acceleration_ned_mps2{0.0};
     /// About the body's axes, where the protocol has it.

@@ -14,16 +14,17 @@ struct LiveSample {
     AircraftState state;
     glm::dvec3 world_radps{0.0}; ///< rate of turn in world axes
     glm::dvec3 world_mps2{0.0};  ///< acceleration
+    double carried_on_s = 0.5;   ///< how long the motion may go on beyond it
+    double accelerated_s = 0.5;  ///< how long it accelerates beyond it
 };
 
 /// The motion of one vehicle, put together from samples that come late, in bursts or not at all.
 /// Between samples it lies on their curve; beyond the last one it goes on by velocity and rate of
-/// turn for at most extrapolated_s, then it stands. What new samples put right is blended in over
-/// about 0.15 s, unless it is too far for that.
+/// turn for as long as that sample allows, then it stands. What new samples put right is blended in
+/// over about 0.15 s, unless it is too far for that; what lies behind along the flight is waited
+/// for at less speed, so that nothing flies backwards.
 class LiveTrack {
 public:
-    static constexpr double extrapolated_s = 0.5;
-
     /// A sample after all others (asserted). Those that are near one another in time give way, so
     /// that memory is bounded.
     void add(const LiveSample& sample);
@@ -31,6 +32,9 @@ public:
     bool empty() const { return samples_.empty(); }
 
     const LiveSample& last() const { return samples_.back(); }
+
+    /// Those of the last seconds, in the order of time.
+    const std::deque<LiveSample>& samples() const { return samples_; }
 
     /// Forgets all: the next sample begins another motion.
     void clear();
@@ -48,6 +52,7 @@ public:
 private:
     AircraftState raw_at(double sender_s) const;
     AircraftState beyond(double sender_s) const;
+    void blend(AircraftState& state, double sender_s, double passed_s);
 
     std::deque<LiveSample> samples_;
     std::optional<AircraftState> shown_;

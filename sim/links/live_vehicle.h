@@ -58,10 +58,15 @@ public:
     long taken() const { return taken_; }
 
 private:
+    bool is_repeated(const Fix& fix, const glm::dvec3& world_m, double arrival_s);
+    bool stands() const;
+    bool is_elsewhere(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const;
     TimeClue clue_of(const Fix& fix, const glm::dvec3& world_m);
-    glm::dvec3 velocity_of(const Fix& fix, const glm::dvec3& world_m, double step_s);
+    std::optional<double> way_of(const glm::dvec3& way_m) const;
+    void set_motion(const Fix& fix, LiveSample& sample, double step_s);
+    bool trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s);
+    glm::dvec3 turn_of(const Fix& fix, const LiveSample& sample) const;
     double speed_rate_of(const glm::dvec3& velocity_mps, double step_s) const;
-    glm::dvec3 turn_of(const Fix& fix, const glm::dquat& body_to_world, double step_s) const;
 
     VehicleKey key_;
     SenderClock clock_;
@@ -70,6 +75,8 @@ private:
     double last_arrival_s_ = 0.0;
     double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
     int repeats_ = 0;             ///< fixes in a row that say the same place
+    int usual_repeats_ = 0;       ///< of a sender whose places change less often than it sends
+    double moved_at_s_ = 0.0;     ///< arrival of the last fix that said another place
     bool hidden_ = false;
     long late_ = 0;
     long taken_ = 0;

@@ -1,129 +1,408 @@
 #include "sim/links/sender_clock.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace octant::sim::links {
 
 namespace {
 
 /// A longer silence of packets without a clock counts as time that passed at the sender too.
-constexpr double longest_gap_s = 0.25;
+constexpr double max_gap_s = 0.25;
 constexpr double restart_s = 2.0;
-constexpr double least_step_s = 1e-6; ///< what is nearer counts as the same time
-constexpr double most_missing = 1e6;  ///< packets in one gap
+constexpr double min_step_s = 1e-6; ///< what is nearer counts as the same time
 constexpr int late_before_restart = 10;
-constexpr double bucket_s = 0.25; ///< the least delay is that of twelve of them
+constexpr int restarts_before_distrust = 3;
+constexpr double min_bucket_s = 0.25; ///< the least delay is that of twelve of them
 constexpr double quick_fall_s = 0.1;
-constexpr double slowest_rise = 0.05; ///< seconds a second
+constexpr double max_rise = 0.05; ///< seconds a second
 constexpr double unit_after_s = 1.0;
-constexpr double motion_after_s = 1.0;
-constexpr double most_motion_error = 0.2;
+constexpr double max_pace_error = 0.3;
+constexpr double min_speed_mps = 0.3; ///< below, the way is no measure of time
+
+/// By how much a ratio is off a whole number.
+double off_whole(double ratio) {
+    return std::abs(ratio - std::round(ratio));
+}
+
+constexpr double max_off_whole = 0.15;
 
 } // namespace
+
+void PacketSpacing::push(std::size_t place, double distance_s) {
+    if (count_ == capacity) {
+        if (place == 0) {
+            return;
+        }
+        std::copy(distances_s_.begin() + 1, distances_s_.end(), distances_s_.begin());
+        --count_;
+        --place;
+    }
+    const auto at = distances_s_.begin() + static_cast<std::ptrdiff_t>(place);
+    const auto end = distances_s_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::copy_backward(at, end, end + 1);
+    *at = distance_s;
+    ++count_;
+}
+
+/// Whether what is longer comes again and again after as many distances: the sender leaves it out.
+bool PacketSpacing::has_pattern(double longer_s) const {
+    constexpr int min_gaps = 4;
+    std::size_t last = capacity;
+    std::size_t min_apart = capacity;
+    std::size_t max_apart = 0;
+    int gaps = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (distances_s_[i] < longer_s) {
+            continue;
+        }
+        if (gaps++ > 0) {
+            min_apart = std::min(min_apart, i - last);
+            max_apart = std::max(max_apart, i - last);
+        }
+        last = i;
+    }
+    return gaps >= min_gaps && max_apart <= min_apart + 1;
+}
+
+/// The period is sought about the distance that a quarter of all do not reach: lost packets leave
+/// it as it is, where they are fewer than half.
+void PacketSpacing::learn() {
+    constexpr std::size_t min_count = 32;
+    constexpr double min_whole = 0.9;
+    constexpr double min_single = 0.55;
+    const auto begin = distances_s_.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(count_);
+    const auto count = static_cast<double>(count_);
+    period_s_ = std::accumulate(begin, end, 0.0) / count;
+    regular_ = false;
+    if (count_ < min_count) {
+        return;
+    }
+    std::array<double, capacity> sorted = distances_s_;
+    const auto quarter = sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 4);
+    std::nth_element(sorted.begin(), quarter, sorted.begin() + static_cast<std::ptrdiff_t>(count_));
+    double sum_s = 0.0;
+    int whole = 0;
+    int single = 0;
+    std::for_each(begin, end, [&, about_s = *quarter](double distance_s) {
+        const double ratio = distance_s / about_s;
+        if (ratio >= 0.5 && off_whole(ratio) <= max_off_whole) {
+            sum_s += distance_s / std::round(ratio);
+            single += ratio < 1.5 ? 1 : 0;
+            ++whole;
+        }
+    });
+    regular_ =
+        whole >= min_whole * count && single >= min_single * count && !has_pattern(1.5 * *quarter);
+    period_s_ = regular_ ? sum_s / whole : period_s_;
+}
+
+long PacketSpacing::add(double distance_s) {
+    constexpr double max_ratio = 11.5;
+    const double ratio = distance_s / std::max(period_s_, min_step_s);
+    const bool counts =
+        regular_ && ratio > 1.5 && ratio < max_ratio && off_whole(ratio) <= max_off_whole;
+    constexpr double min_next_ratio = 0.7; // else the sender catches up
+    const long missed = ratio >= min_next_ratio ? missing_ : 0;
+    missing_ = counts ? std::lround(ratio) - 1 : 0;
+    push(count_, distance_s);
+    learn();
+    return missed;
+}
+
+bool PacketSpacing::fill(double before_s) {
+    constexpr double same = 0.3; // of a period
+    double newer_s = 0.0;
+    for (std::size_t i = count_; regular_ && i-- > 0;) {
+        const double older_s = newer_s + distances_s_[i];
+        if (before_s < older_s) {
+            const double after_older_s = older_s - before_s;
+            const double before_newer_s = before_s - newer_s;
+            if (std::min(after_older_s, before_newer_s) < same * period_s_) {
+                return false;
+            }
+            const bool is_newest = i + 1 == count_;
+            missing_ = is_newest ? std::max(missing_ - 1, 0L) : missing_;
+            distances_s_[i] = before_newer_s;
+            push(i, after_older_s);
+            return !is_newest;
+        }
+        newer_s = older_s;
+    }
+    return false;
+}
+
+void WayFit::add(double arrival_s, double way_m) {
+    constexpr double length_s = 3.0;
+    constexpr std::size_t max_points = 128;
+    constexpr double min_apart_s = length_s / max_points;
+    const std::size_t count = points_.size();
+    if (count > 1 && points_.back().arrival_s - points_[count - 2].arrival_s < min_apart_s) {
+        points_.pop_back();
+    }
+    points_.push_back({arrival_s, way_m});
+    const auto old = std::ranges::find_if(
+        points_, [&](const Point& point) { return point.arrival_s >= arrival_s - length_s; });
+    points_.erase(points_.begin(), old);
+    fit();
+}
+
+void WayFit::fit() {
+    constexpr std::size_t min_points = 5;
+    constexpr double min_length_s = 0.4;
+    constexpr std::size_t min_curved_points = 10;
+    constexpr double min_curved_length_s = 1.2;
+    constexpr int passes = 3;
+    const double length_s = points_.back().arrival_s - points_.front().arrival_s;
+    ready_ = points_.size() >= min_points && length_s >= min_length_s;
+    const bool curved = points_.size() >= min_curved_points && length_s >= min_curved_length_s;
+    std::ranges::for_each(points_, [](Point& point) { point.weight = 1.0; });
+    for (int pass = 0; ready_ && pass < passes; ++pass) {
+        ready_ = solve(curved) && speed_mps() >= min_speed_mps;
+        if (ready_ && pass + 1 < passes) {
+            weigh();
+        }
+    }
+}
+
+/// Returns false where the points do not determine a line or parabola.
+bool WayFit::solve(bool curved) {
+    ParabolaFit<double> sums;
+    const Point& last = points_.back();
+    for (const Point& point : points_) {
+        sums.add(point.arrival_s - last.arrival_s, point.way_m - last.way_m, point.weight);
+    }
+    const auto solved = curved ? sums.parabola() : sums.line();
+    fitted_ = solved.value_or(Parabola<double>{});
+    fitted_.value += last.way_m;
+    return solved.has_value();
+}
+
+/// Packets far off the fit count less, by Cauchy's weight.
+void WayFit::weigh() {
+    constexpr double min_scale_s = 0.002;
+    double sum_s = 0.0;
+    for (Point& point : points_) {
+        point.weight = std::abs(point.arrival_s - time_s(point.way_m));
+        sum_s += point.weight;
+    }
+    const double scale_s = 2.0 * std::max(sum_s / static_cast<double>(points_.size()), min_scale_s);
+    for (Point& point : points_) {
+        const double share = point.weight / scale_s;
+        point.weight = 1.0 / (1.0 + share * share);
+    }
+}
+
+double WayFit::time_s(double way_m) const {
+    assert(ready_);
+    // The root of the parabola that is near the last arrival.
+    const double left_m = way_m - fitted_.value;
+    const double square = fitted_.slope * fitted_.slope + 4.0 * fitted_.bend * left_m;
+    const double root = std::sqrt(std::max(square, 0.25 * fitted_.slope * fitted_.slope));
+    return points_.back().arrival_s + 2.0 * left_m / (fitted_.slope + root);
+}
+
+void PaceCheck::add(double arrived_s, double passed_s) {
+    arrived_s_ += arrived_s;
+    passed_s_ += passed_s;
+    constexpr double first_s = 1.0;
+    constexpr double later_s = 3.0;
+    if (arrived_s_ >= (judged_ ? later_s : first_s)) {
+        wrong_ = std::abs(passed_s_ / arrived_s_ - 1.0) > max_pace_error;
+        judged_ = true;
+        arrived_s_ = 0.0;
+        passed_s_ = 0.0;
+    }
+}
 
 void SenderClock::begin(double arrival_s, const TimeClue& clue) {
     const double before_s = begun_ ? sender_s_ : 0.0;
     const long lost = lost_;
+    const int restarts = begun_ ? restarts_in_a_row_ + 1 : 0;
+    const bool useless = sent_is_useless_ || restarts >= restarts_before_distrust;
     *this = {};
     begun_ = true;
     lost_ = lost;
+    restarts_in_a_row_ = restarts;
+    sent_is_useless_ = useless;
     // Goes on so that what is shown never meets older times again.
     sender_s_ = before_s + (before_s > 0.0 ? restart_s : 0.0);
     last_arrival_s_ = arrival_s;
     last_sent_s_ = clue.sent_s.value_or(0.0);
     last_ticks_ = clue.ticks.value_or(0);
     ticks_since_s_ = arrival_s;
-    motion_since_s_ = arrival_s;
+    begin_offset(arrival_s);
+    follow(arrival_s);
+}
+
+void SenderClock::begin_offset(double arrival_s) {
     least_s_.fill(std::numeric_limits<double>::infinity());
     offset_s_ = arrival_s - sender_s_;
-    bucket_ = static_cast<long>(std::floor(arrival_s / bucket_s));
-    follow(arrival_s);
+    bucket_since_s_ = arrival_s;
 }
 
 /// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the
 /// arrivals of a second.
 std::optional<double> SenderClock::by_ticks(double arrival_s, const TimeClue& clue) {
     const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
+    if (ticks_pace_.is_wrong()) {
+        seconds_a_tick_ = 0.0;
+        ticks_pace_ = {};
+    }
+    if (seconds_a_tick_ > 0.0) {
+        return change * seconds_a_tick_;
+    }
     ++ticks_seen_;
     ticks_changed_ += change != 0 ? 1 : 0;
     ticks_passed_ += std::max(change, 0);
     const double since_s = arrival_s - ticks_since_s_;
-    if (seconds_a_tick_ == 0.0 && since_s >= unit_after_s && ticks_passed_ > 0.0) {
+    if (since_s < unit_after_s) {
+        return std::nullopt;
+    }
+    if (ticks_passed_ > 0.0) {
         // A clock that stands still for most packets is too coarse to tell them apart.
         const bool fine = 10 * ticks_changed_ >= 9 * ticks_seen_;
         const double unit_s = clue.tick_s > 0.0
                                   ? clue.tick_s
                                   : std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
         const double error = std::abs(unit_s * ticks_passed_ / since_s - 1.0);
-        constexpr double most_error = 0.3;
-        seconds_a_tick_ = fine && error < most_error ? unit_s : -1.0;
+        seconds_a_tick_ = fine && error < max_pace_error ? unit_s : 0.0;
     }
+    ticks_since_s_ = arrival_s;
+    ticks_passed_ = 0.0;
+    ticks_changed_ = 0;
+    ticks_seen_ = 0;
     return seconds_a_tick_ > 0.0 ? std::optional(change * seconds_a_tick_) : std::nullopt;
 }
 
-/// Seconds that passed at the sender since the last packet; nothing where the clues do not say.
-std::optional<double> SenderClock::passed_s(double arrival_s, const TimeClue& clue) {
-    const std::optional<double> ticked = clue.ticks ? by_ticks(arrival_s, clue) : std::nullopt;
-    if (clue.sent_s) {
-        return *clue.sent_s - last_sent_s_;
+/// By the speed that the way has itself. The time that the fit gives is followed as far as speed
+/// then stays within half and double.
+SenderClock::Step SenderClock::by_way(double arrival_s, double way_m) {
+    if (way_m <= 0.0) {
+        const double back_s = way_fit_.is_ready() ? way_m / way_fit_.speed_mps() : -min_step_s;
+        return {Source::Way, way_m < 0.0 ? std::max(back_s, -0.5 * restart_s) : 0.0};
     }
-    if (ticked) {
-        return ticked;
+    const bool was_ready = way_fit_.is_ready();
+    const double before_s = was_ready ? way_fit_.time_s(way_m_) : 0.0;
+    way_m_ += way_m;
+    way_fit_.add(arrival_s, way_m_);
+    if (!was_ready || !way_fit_.is_ready()) {
+        way_shift_s_.reset();
+        return by_arrivals(arrival_s);
     }
-    if (!clue.moved_s || motion_refuted_) {
-        return std::nullopt;
-    }
-    motion_passed_s_ += *clue.moved_s;
-    const double since_s = arrival_s - motion_since_s_;
-    if (since_s >= motion_after_s) {
-        const double error = std::abs(motion_passed_s_ / since_s - 1.0);
-        motion_refuted_ = error > most_motion_error;
-        motion_since_s_ = arrival_s;
-        motion_passed_s_ = 0.0;
-    }
-    return clue.moved_s;
+    arrival_shift_s_.reset();
+    way_shift_s_ = way_shift_s_.value_or(sender_s_ - before_s);
+    const double even_s = way_m / way_fit_.speed_mps();
+    const double fitted_s = way_fit_.time_s(way_m_) + *way_shift_s_ - sender_s_;
+    return {Source::Way, std::clamp(fitted_s, 0.5 * even_s, 2.0 * even_s), even_s};
 }
 
-void SenderClock::learn_period(double step_s, double arrival_s) {
-    ++arrivals_;
-    const double between_s = arrival_s - last_arrival_s_;
-    constexpr long most = 200;
-    const double share = 1.0 / static_cast<double>(std::min(arrivals_, most));
-    const double observed_s = step_s > 0.0 ? step_s : between_s;
-    if (period_s_ > 0.0 && arrivals_ > 20 && observed_s > 1.5 * period_s_) {
-        const long missing = std::lround(std::min(observed_s / period_s_, most_missing)) - 1;
-        lost_ += step_s > 0.0 ? missing : 0;
-        if (step_s > 0.0) {
-            return; // The distance of neighbours is what is learned.
-        }
+/// By arrivals, made even over about ten packets.
+SenderClock::Step SenderClock::by_arrivals(double arrival_s) {
+    const double between_s = std::max(arrival_s - last_arrival_s_, min_step_s);
+    const double period_s = spacing_.period_s();
+    constexpr double many = 3.0;
+    if (!spacing_.is_settled() || between_s > std::max(max_gap_s, many * period_s)) {
+        arrival_shift_s_ = sender_s_ + between_s - arrival_s;
+        return {Source::Arrivals, between_s, between_s};
     }
-    period_s_ += share * (observed_s - period_s_);
+    constexpr double share = 0.1;
+    arrival_shift_s_ = arrival_shift_s_.value_or(sender_s_ - last_arrival_s_);
+    const double behind_s = arrival_s + *arrival_shift_s_ - sender_s_ - period_s;
+    const double step_s = std::max(period_s + share * behind_s, share * period_s);
+    return {Source::Arrivals, std::max(step_s, min_step_s), between_s};
+}
+
+/// Time that passed at the sender since the last packet, by the best clue.
+SenderClock::Step SenderClock::step_of(double arrival_s, const TimeClue& clue) {
+    const std::optional<double> ticked = clue.ticks ? by_ticks(arrival_s, clue) : std::nullopt;
+    const auto told = [](Source source, double passed_s) {
+        const double step_s = std::abs(passed_s) < min_step_s ? 0.0 : passed_s;
+        return Step{source, step_s, step_s};
+    };
+    const bool by_speed = clue.moved_s && !told_speed_pace_.is_wrong();
+    const bool sent = clue.sent_s && !sent_is_useless_ && !sent_pace_.is_wrong();
+    if (!sent && !ticked && !by_speed && clue.way_m) {
+        return by_way(arrival_s, *clue.way_m);
+    }
+    way_fit_ = {};
+    way_m_ = 0.0;
+    way_shift_s_.reset();
+    if (!sent && !ticked && !by_speed) {
+        return by_arrivals(arrival_s);
+    }
+    arrival_shift_s_.reset();
+    return sent     ? told(Source::SentTime, *clue.sent_s - last_sent_s_)
+           : ticked ? told(Source::Ticks, *ticked)
+                    : told(Source::ToldSpeed, *clue.moved_s);
 }
 
 /// Follows the least delay of the last seconds: downwards quickly, upwards slowly.
 void SenderClock::follow(double arrival_s) {
     const double delay_s = arrival_s - sender_s_;
-    const auto now = static_cast<long>(std::floor(arrival_s / bucket_s));
-    for (bucket_ = std::max(bucket_, now - static_cast<long>(buckets)); bucket_ < now; ++bucket_) {
-        const long next = bucket_ + 1;
-        if (now - next < static_cast<long>(buckets)) {
-            least_s_[static_cast<std::size_t>(next) % buckets] =
-                std::numeric_limits<double>::infinity();
+    const double bucket_s = std::max(min_bucket_s, period_s());
+    const double passed = std::floor((arrival_s - bucket_since_s_) / bucket_s);
+    if (passed > 0.0) {
+        bucket_since_s_ += passed * bucket_s;
+        for (double i = 0.0; i < std::min(passed, static_cast<double>(buckets)); i += 1.0) {
+            bucket_ = (bucket_ + 1) % buckets;
+            least_s_[bucket_] = std::numeric_limits<double>::infinity();
         }
     }
-    double& own = least_s_[static_cast<std::size_t>(now) % buckets];
-    own = std::min(own, delay_s);
-    const double least_s = *std::min_element(least_s_.begin(), least_s_.end());
+    least_s_[bucket_] = std::min(least_s_[bucket_], delay_s);
+    const double least_s = *std::ranges::min_element(least_s_);
     const double since_s = std::max(arrival_s - last_arrival_s_, 0.0);
     if (least_s < offset_s_) {
         offset_s_ += (least_s - offset_s_) * (1.0 - std::exp(-since_s / quick_fall_s));
     } else {
-        offset_s_ += std::min(least_s - offset_s_, slowest_rise * since_s);
+        offset_s_ += std::min(least_s - offset_s_, max_rise * since_s);
     }
     constexpr double jitter_share = 0.02;
     jitter_s_ += jitter_share * (std::max(delay_s - least_s, 0.0) - jitter_s_);
+}
+
+/// Where a clock turns out to be wrong, what was made of it goes.
+void SenderClock::check_pace(double arrival_s, const TimeClue& clue) {
+    const double between_s = arrival_s - last_arrival_s_;
+    const auto wrong = [this] {
+        return sent_pace_.is_wrong() || ticks_pace_.is_wrong() || told_speed_pace_.is_wrong();
+    };
+    const bool was_wrong = wrong();
+    if (clue.sent_s) {
+        sent_pace_.add(between_s, *clue.sent_s - last_sent_s_);
+    }
+    if (clue.ticks && seconds_a_tick_ > 0.0) {
+        const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
+        ticks_pace_.add(between_s, change * seconds_a_tick_);
+    }
+    if (clue.moved_s) {
+        told_speed_pace_.add(between_s, *clue.moved_s);
+    }
+    if (wrong() && !was_wrong) {
+        begin_offset(arrival_s);
+        spacing_ = {};
+    }
+}
+
+/// Whether the packet is one that comes too late; counts it as found where it had counted as lost.
+/// A clock that stands is not asked any more.
+bool SenderClock::is_late(const Step& step) {
+    if (step.passed_s > 0.0 || step.passed_s <= -restart_s) {
+        return false;
+    }
+    const bool too_many = ++late_in_a_row_ >= late_before_restart;
+    if (step.passed_s < 0.0 && !too_many) {
+        lost_ -= spacing_.fill(-step.passed_s) && lost_ > 0 ? 1 : 0;
+    }
+    const bool stands = step.passed_s == 0.0 && too_many;
+    sent_is_useless_ = sent_is_useless_ || (stands && step.source == Source::SentTime);
+    seconds_a_tick_ = stands && step.source == Source::Ticks ? 0.0 : seconds_a_tick_;
+    const bool has_clock = step.source == Source::SentTime || step.source == Source::Ticks;
+    return !too_many || (stands && has_clock);
 }
 
 SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
@@ -132,30 +411,25 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
         return Order::Restarts;
     }
     arrival_s = std::max(arrival_s, last_arrival_s_);
-    const std::optional<double> told_s = passed_s(arrival_s, clue);
-    double step_s = 0.0;
-    if (told_s) {
-        step_s = *told_s > 0.0 && *told_s < least_step_s ? 0.0 : *told_s;
-        if (step_s <= 0.0 && step_s > -restart_s && ++late_in_a_row_ < late_before_restart) {
-            lost_ -= step_s < 0.0 && lost_ > 0 ? 1 : 0;
-            return Order::Late;
-        }
-        if (step_s <= 0.0 || step_s > std::max(restart_s, 2.0 * (arrival_s - last_arrival_s_))) {
-            begin(arrival_s, clue);
-            return Order::Restarts;
-        }
-    } else {
-        const double between_s = arrival_s - last_arrival_s_;
-        step_s = between_s > longest_gap_s || period_s_ <= 0.0 ? between_s : period_s_;
-        step_s = std::max(step_s, least_step_s);
+    const Step step = step_of(arrival_s, clue);
+    if (is_late(step)) {
+        return Order::Late;
+    }
+    const double max_step_s = std::max(restart_s, 2.0 * (arrival_s - last_arrival_s_));
+    if (step.passed_s <= 0.0 || step.passed_s > max_step_s) {
+        begin(arrival_s, clue);
+        return Order::Restarts;
     }
     late_in_a_row_ = 0;
-    learn_period(told_s ? step_s : 0.0, arrival_s);
-    sender_s_ += step_s;
+    restarts_in_a_row_ = 0;
+    const long missing = spacing_.add(step.distance_s);
+    lost_ += step.source == Source::Arrivals ? 0 : missing;
+    sender_s_ += step.passed_s;
+    check_pace(arrival_s, clue);
     follow(arrival_s);
     last_arrival_s_ = arrival_s;
-    last_sent_s_ = clue.sent_s.value_or(0.0);
-    last_ticks_ = clue.ticks.value_or(0);
+    last_sent_s_ = clue.sent_s.value_or(last_sent_s_);
+    last_ticks_ = clue.ticks.value_or(last_ticks_);
     return Order::Next;
 }
 

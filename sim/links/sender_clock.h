@@ -1,26 +1,118 @@
 #pragma once
 
+#include "sim/links/parabola_fit.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace octant::sim::links {
 
-/// What a packet tells of the time that has passed at its sender since the packet before.
+/// What a packet tells of the time that has passed at its sender since the last packet that was
+/// Next or Restarts.
 struct TimeClue {
     std::optional<double> sent_s;       ///< the sender's clock
     std::optional<std::uint32_t> ticks; ///< a clock that wraps around
     double tick_s = 0.0;                ///< its unit; 0 = to be found out
     /// How long the way from the last place takes at the speed that the packet says.
     std::optional<double> moved_s;
+    /// The way from the last place in metres, negative where it runs back.
+    std::optional<double> way_m;
+};
+
+/// The distances of the newest packets in the sender's time, and how many are missing between them.
+/// Packets count as missing only where nine tenths of the distances are whole multiples of one
+/// period and most are one period: at a sender of uneven rate a long distance is no loss. More than
+/// ten in a row are a silence, of which nobody knows whether the sender sent.
+class PacketSpacing {
+public:
+    /// Takes the distance of a packet from the newest one before, in seconds, above 0. Returns how
+    /// many packets were missing before that one: a sender that was only late catches up with the
+    /// next packet.
+    long add(double distance_s);
+
+    /// Takes a packet that was sent so long before the newest one. Returns whether it is one that
+    /// counted as missing, not one that is known.
+    bool fill(double before_s);
+
+    /// The period of a regular sender, else the mean distance; seconds, 0 until known.
+    double period_s() const { return period_s_; }
+
+    /// Whether there are enough distances for their mean to say something.
+    bool is_settled() const { return count_ >= 8; }
+
+private:
+    static constexpr std::size_t capacity = 64;
+
+    void push(std::size_t place, double distance_s);
+    bool has_pattern(double longer_s) const;
+    void learn();
+
+    std::array<double, capacity> distances_s_{}; ///< the newest one is the last
+    std::size_t count_ = 0;
+    double period_s_ = 0.0;
+    bool regular_ = false;
+    long missing_ = 0; ///< in the newest distance
+};
+
+/// When a vehicle was at a place of its way, from the way that it covered by each arrival: a
+/// parabola through the last three seconds, in which packets that are late count little. It holds
+/// where packets come in bursts, and where the sender's rate is uneven.
+class WayFit {
+public:
+    /// Takes the whole way up to a packet, in metres, and its arrival; arrivals do not go back.
+    void add(double arrival_s, double way_m);
+
+    /// Whether there is enough to go by, and the vehicle is fast enough.
+    bool is_ready() const { return ready_; }
+
+    /// The time of a place near the last one, by the receiver's clock. is_ready() (asserted).
+    double time_s(double way_m) const;
+
+    /// The speed at the last packet. is_ready() (asserted).
+    double speed_mps() const { return fitted_.slope; }
+
+private:
+    struct Point {
+        double arrival_s = 0.0;
+        double way_m = 0.0;
+        double weight = 1.0;
+    };
+
+    void fit();
+    bool solve(bool curved);
+    void weigh();
+
+    std::vector<Point> points_;
+    bool ready_ = false;
+    Parabola<double> fitted_; ///< the way by time from the last arrival
+};
+
+/// Whether a clock keeps pace with arrivals: judged after one second, then every three.
+class PaceCheck {
+public:
+    /// Takes what passed between two packets by arrivals and by the clock.
+    void add(double arrived_s, double passed_s);
+
+    /// Whether the clock ran more than 30 % too fast or slow when it was judged last.
+    bool is_wrong() const { return wrong_; }
+
+private:
+    double arrived_s_ = 0.0;
+    double passed_s_ = 0.0;
+    bool judged_ = false;
+    bool wrong_ = false;
 };
 
 /// Finds out when packets were sent, by our clock, from when they came: they come in bursts, at
 /// rates that nobody announced. The sender's time runs by its own clock where packets tell one
-/// whose unit can be found, else by the vehicle's own motion (the way covered over the speed), else
-/// by the mean distance of arrivals. Ours from it: the least delay of the last seconds, followed
-/// slowly. A function of the calls alone; no clock is read.
+/// whose unit can be found, else by the vehicle's own motion (the way covered over the speed that
+/// is told, else over the speed that the way itself has), else by the mean distance of arrivals. A
+/// clock that does not keep pace with arrivals is not followed. Our time from the sender's: the
+/// least delay of the last seconds, followed slowly. A function of the calls alone; no clock is
+/// read.
 class SenderClock {
 public:
     enum class Order {
@@ -39,45 +131,67 @@ public:
     double sender_from_ours_s(double ours_s) const { return ours_s - offset_s_; }
 
     /// Mean distance of packets, seconds; 0 until known.
-    double period_s() const { return period_s_; }
+    double period_s() const { return spacing_.period_s(); }
 
     /// How much later than the quickest packets come: the mean over some of them, seconds.
     double jitter_s() const { return jitter_s_; }
 
-    /// Packets that the sender's clock says were sent and never came.
+    /// Packets that were sent and never came, as far as the sender's time tells.
     long lost() const { return lost_; }
 
 private:
     static constexpr std::size_t buckets = 12;
 
-    std::optional<double> passed_s(double arrival_s, const TimeClue& clue);
+    /// By what the time between two packets is known.
+    enum class Source { SentTime, Ticks, ToldSpeed, Way, Arrivals };
+
+    /// The time since the last packet.
+    struct Step {
+        Source source = Source::Arrivals;
+        double passed_s = 0.0;
+        double distance_s = 0.0; ///< the same without what delays have done to it
+    };
+
+    Step step_of(double arrival_s, const TimeClue& clue);
     std::optional<double> by_ticks(double arrival_s, const TimeClue& clue);
-    void learn_period(double step_s, double arrival_s);
+    Step by_way(double arrival_s, double way_m);
+    Step by_arrivals(double arrival_s);
+    bool is_late(const Step& step);
+    void check_pace(double arrival_s, const TimeClue& clue);
     void follow(double arrival_s);
+    void begin_offset(double arrival_s);
     void begin(double arrival_s, const TimeClue& clue);
 
     bool begun_ = false;
     double sender_s_ = 0.0;
     double last_arrival_s_ = 0.0;
     double last_sent_s_ = 0.0;
+    PaceCheck sent_pace_;
+    /// The sender's clock stands, or makes it begin anew with each packet.
+    bool sent_is_useless_ = false;
     std::uint32_t last_ticks_ = 0;
-    // The unit of the ticks.
+    // What the last second says of the unit of the ticks.
     double ticks_since_s_ = 0.0;
     double ticks_passed_ = 0.0;
     long ticks_changed_ = 0;
     long ticks_seen_ = 0;
     double seconds_a_tick_ = 0.0; ///< 0 = not known
-    // Whether the motion can be trusted.
-    double motion_since_s_ = 0.0;
-    double motion_passed_s_ = 0.0;
-    bool motion_refuted_ = false;
-    double period_s_ = 0.0;
-    long arrivals_ = 0;
+    PaceCheck ticks_pace_;
+    PaceCheck told_speed_pace_;
+    WayFit way_fit_;
+    double way_m_ = 0.0;
+    /// The sender's time less that of the fit; nothing where the fit does not count.
+    std::optional<double> way_shift_s_;
+    /// The sender's time less arrivals; nothing where those do not count.
+    std::optional<double> arrival_shift_s_;
+    PacketSpacing spacing_;
     int late_in_a_row_ = 0;
+    int restarts_in_a_row_ = 0;
     long lost_ = 0;
     // By how much sender and receiver differ, from the least delays of late.
     std::array<double, buckets> least_s_{};
-    long bucket_ = 0;
+    std::size_t bucket_ = 0;
+    double bucket_since_s_ = 0.0;
     double offset_s_ = 0.0;
     double jitter_s_ = 0.0;
 };

@@ -141,6 +141,9 @@ std::string fly_frames(
         progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
+    for (const std::string& line : sender.channel_lines()) {
+        base::say(false, line);
+    }
     return frame == session.frames()
                ? std::string()
                : fmt::format(

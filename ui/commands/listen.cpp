@@ -61,7 +61,6 @@ public:
         if (options.record.folder) {
             listener_.record_into(*options.record.folder);
         }
-        session_.simulation().start_log();
     }
 
     flight::FlightEnd fly() {

@@ -46,7 +46,6 @@ FlownPackets fly_packets(
     const std::size_t frames = std::min(file.frames.size(), replay.decisions.size());
     auto live = std::make_unique<flight::LiveFlight>(file.options, session.world());
     session.follow(*live);
-    session.simulation().start_log();
     base::Progress progress(session.world().flight.title, static_cast<int>(frames), quiet);
     std::size_t frame = 0;
     for (; frame < frames && !(base::StopSignals::came() && frame > 0); ++frame) {

@@ -5,6 +5,7 @@
 #include "sim/base/text_file.h"
 #include "sim/links/cigi_host.h"
 #include "ui/base/stop_signals.h"
+#include "ui/base/stopwatch.h"
 #include "ui/flight/session_fix.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_entities = 48; // of one packet that receivers take
+constexpr int max_missed_in_a_row = 5;    ///< frames, then a channel is not waited for
 
 links::CigiEntityControl
 entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
@@ -102,26 +104,49 @@ void CigiChannels::add(const std::string& target) {
     channels_.push_back(channel);
 }
 
+/// The channel that answers from there. Messages do not say which channel sends them: an address
+/// without a channel is the way back of the first one on that machine that does not answer yet.
+CigiChannels::Channel* CigiChannels::answering(const links::Source& source) {
+    auto channel = std::ranges::find(channels_, source, &Channel::peer);
+    if (channel == channels_.end()) {
+        channel = std::ranges::find(channels_, std::optional(source), &Channel::answers_from);
+    }
+    if (channel == channels_.end()) {
+        channel = std::ranges::find_if(channels_, [&source](const Channel& each) {
+            const bool is_free = !each.answers_from || each.missed_in_a_row >= max_missed_in_a_row;
+            return is_free && each.peer.address == source.address;
+        });
+    }
+    return channel == channels_.end() ? nullptr : &*channel;
+}
+
 /// Takes what has come: who shows what.
 void CigiChannels::listen() {
     heard_.clear();
     socket_->drain(links::Protocol::Cigi, 0.0, heard_);
     for (const links::Datagram& packet : heard_) {
-        const auto channel = std::ranges::find(channels_, packet.source, &Channel::peer);
         const auto frame = links::start_of_frame_of(packet.bytes);
-        if (channel != channels_.end() && frame) {
-            channel->answers = true;
+        Channel* const channel = frame ? answering(packet.source) : nullptr;
+        if (channel != nullptr) {
+            channel->answers_from = packet.source;
+            channel->missed_in_a_row =
+                channel->shows == frame->host_frame ? channel->missed_in_a_row : 0;
             channel->shows = frame->host_frame;
             channel->ig_frame = frame->ig_frame;
         }
     }
 }
 
+bool CigiChannels::is_there(const Channel& channel) const {
+    return channel.shows == host_frame_;
+}
+
 std::vector<std::string> CigiChannels::await_first(const std::function<void()>& meanwhile) {
     const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
     const auto all_answer = [this] {
         listen();
-        return std::ranges::all_of(channels_, &Channel::answers);
+        return std::ranges::all_of(
+            channels_, [](const Channel& channel) { return channel.answers_from.has_value(); });
     };
     while (!channels_.empty() && !all_answer() && Clock::now() < end &&
            !base::StopSignals::came()) {
@@ -130,7 +155,7 @@ std::vector<std::string> CigiChannels::await_first(const std::function<void()>& 
     }
     std::vector<std::string> lines;
     for (const Channel& channel : channels_) {
-        if (!channel.answers) {
+        if (!channel.answers_from) {
             lines.push_back(fmt::format(
                 "{}: no Start of Frame came to port {}; it is not waited for",
                 links::text_of(channel.peer),
@@ -171,34 +196,84 @@ void CigiChannels::send(const Session& session) {
     }
     listen();
     ++host_frame_;
-    for (const Channel& channel : channels_) {
-        socket_->send(channel.peer, message_for(session, channel.ig_frame));
+    for (Channel& channel : channels_) {
+        channel.message = message_for(session, channel.ig_frame);
+        socket_->send(channel.peer, channel.message);
     }
     before_.assign(session.states().begin(), session.states().end());
 }
 
-int CigiChannels::await_pictures() {
-    const Clock::time_point end = Clock::now() + std::chrono::seconds(1);
-    const auto is_there = [this](const Channel& channel) {
-        return !channel.answers || channel.shows == host_frame_;
-    };
-    const auto all_are_there = [&] {
-        listen();
-        return std::ranges::all_of(channels_, is_there);
-    };
-    while (!channels_.empty() && !all_are_there() && Clock::now() < end) {
-        std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
-    std::optional<std::uint32_t> first;
-    std::uint32_t last = 0;
+/// To those that are not there, and to those behind relays, of which it is not known whose answers
+/// are whose.
+void CigiChannels::send_again() {
     for (Channel& channel : channels_) {
-        if (channel.answers) {
-            first = std::min(first.value_or(channel.shows), channel.shows);
-            last = std::max(last, channel.shows);
-            channel.answers = is_there(channel);
+        const bool is_relayed = channel.answers_from && *channel.answers_from != channel.peer;
+        if (channel.answers_from && (is_relayed || !is_there(channel))) {
+            socket_->send(channel.peer, channel.message);
+            ++channel.sent_again;
         }
     }
-    return first ? static_cast<int>(last - *first) : -1;
+}
+
+/// Whether those that answer and missed at most so many frames in a row show what was sent last.
+bool CigiChannels::all_are_there(int max_missed) const {
+    return std::ranges::all_of(channels_, [&](const Channel& channel) {
+        return !channel.answers_from || channel.missed_in_a_row > max_missed || is_there(channel);
+    });
+}
+
+int CigiChannels::await_pictures() {
+    if (channels_.empty()) {
+        return -1;
+    }
+    constexpr double max_wait_s = 1.0;
+    constexpr double max_wait_after_miss_s = 0.1;
+    constexpr double min_again_s = 0.02;
+    constexpr double max_again_s = 0.3;
+    const base::Stopwatch since_sent;
+    double again_s = std::clamp(2.0 * usual_wait_s_, min_again_s, max_again_s);
+    bool sent_again = false;
+    for (listen();; listen()) {
+        const double waited_s = since_sent.s();
+        const bool all = waited_s < max_wait_after_miss_s;
+        const bool there = all_are_there(all ? max_missed_in_a_row - 1 : 0);
+        if (there || waited_s > max_wait_s) {
+            usual_wait_s_ = std::max(sent_again ? 0.0 : waited_s, 0.9 * usual_wait_s_);
+            break;
+        }
+        if (waited_s > again_s) {
+            send_again();
+            sent_again = true;
+            again_s *= 2.0;
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    std::optional<std::uint32_t> skew;
+    for (Channel& channel : channels_) {
+        if (channel.answers_from) {
+            const std::uint32_t behind = host_frame_ - channel.shows;
+            skew = std::max(skew.value_or(0), behind);
+            channel.missed += behind > 0 ? 1 : 0;
+            channel.missed_in_a_row = behind > 0 ? channel.missed_in_a_row + 1 : 0;
+        }
+    }
+    constexpr std::uint32_t max_skew = 0x7fffffff;
+    return skew ? static_cast<int>(std::min(*skew, max_skew)) : -1;
+}
+
+std::vector<std::string> CigiChannels::lines() const {
+    std::vector<std::string> lines;
+    for (const Channel& channel : channels_) {
+        if (channel.missed > 0 || channel.sent_again > 0) {
+            lines.push_back(fmt::format(
+                "{}: {} of {} frames not shown in time; {} messages sent again",
+                links::text_of(channel.answers_from.value_or(channel.peer)),
+                channel.missed,
+                host_frame_,
+                channel.sent_again));
+        }
+    }
+    return lines;
 }
 
 } // namespace octant::ui::flight

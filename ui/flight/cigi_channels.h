@@ -36,22 +36,39 @@ public:
     /// Sends the last picture to all. Does not wait.
     void send(const Session& session);
 
-    /// Waits until all that have ever answered show what was sent last, for a second at most; one
-    /// that does not is not waited for until it answers again. Returns how many host frames lie
-    /// between the pictures of those that answer, -1 where none does.
+    /// Waits until all that have ever answered show what was sent last, for a second at most, and
+    /// sends it again meanwhile, in case that it was lost. After a second without it a channel is
+    /// waited for a tenth of a second a frame, after five such frames no more until it answers.
+    /// Returns how many host frames the channel that is the furthest behind is behind, those among
+    /// them that are not waited for; -1 where none has ever answered.
     int await_pictures();
+
+    /// What happened to the frames of each channel, a line each; none where all were shown at once.
+    std::vector<std::string> lines() const;
 
 private:
     struct Channel {
         sim::links::Source peer;
-        bool answers = false;
+        /// Where its answers come from: another port than `peer` where a relay lies between.
+        /// Nothing = it has never answered.
+        std::optional<sim::links::Source> answers_from = {};
         /// The host frame that it shows.
         std::uint32_t shows = 0;
         /// The number of its own frame.
         std::uint32_t ig_frame = 0;
+        /// Frames in a row that it did not show in time.
+        int missed_in_a_row = 0;
+        long missed = 0;
+        long sent_again = 0;
+        /// What was sent last.
+        std::vector<std::byte> message = {};
     };
 
+    Channel* answering(const sim::links::Source& source);
+    bool is_there(const Channel& channel) const;
     void listen();
+    bool all_are_there(int max_missed) const;
+    void send_again();
     std::vector<std::byte> message_for(const Session& session, std::uint32_t last_ig_frame) const;
 
     std::vector<Channel> channels_;
@@ -59,6 +76,8 @@ private:
     std::optional<sim::links::UdpPort> socket_;
     std::vector<sim::links::Datagram> heard_;
     std::uint32_t host_frame_ = 0;
+    /// How long pictures were waited for of late, at most, where nothing was lost.
+    double usual_wait_s_ = 0.25;
     /// The states in the picture that was sent last.
     std::vector<sim::AircraftState> before_;
 };

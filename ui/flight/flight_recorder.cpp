@@ -135,7 +135,9 @@ FlightRecorder::FlightRecorder(
             info.facts.emplace_back(report::swept_fact, options.swept);
         }
         recording_.emplace(*options.folder, std::move(info));
-        if (!session.simulation().is_live()) {
+        if (settings.path.name == settings::live_path) {
+            live_tracks_.emplace(*options.folder, session.world());
+        } else {
             tracks_.emplace(*options.folder, session.world());
         }
     }
@@ -159,26 +161,13 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
         if (tracks_) {
             tracks_->fly_until(record.sim_time_s);
         }
+        if (live_tracks_) {
+            const StateSource& source = session.simulation().source();
+            live_tracks_->add(session.states().front(), source.is_flown(0), source.frame());
+        }
         recording_->add(record);
     } else {
         times_.add(record);
-    }
-}
-
-/// Writes the tracks of what was flown: by the path, or by others.
-void FlightRecorder::write_flown(const Session& session) const {
-    const Simulation& simulation = session.simulation();
-    if (!simulation.is_live()) {
-        write_tracks(*options_.folder, session.world(), flown_until_s_);
-        return;
-    }
-    const auto states = simulation.log();
-    if (!states.empty()) {
-        write_tracks(
-            *options_.folder,
-            session.world(),
-            sim::Trajectory({states.begin(), states.end()}),
-            simulation.source().frame());
     }
 }
 
@@ -202,8 +191,14 @@ FlightEnd FlightRecorder::finish(const Session& session, const std::string& stop
              visuals::groundfile::damage_lines(),
              stopped});
         slow_pictures_.write(*options_.folder);
-        tracks_.reset();
-        write_flown(session);
+        if (tracks_) {
+            tracks_.reset();
+            write_tracks(*options_.folder, session.world(), flown_until_s_);
+        }
+        if (live_tracks_) {
+            live_tracks_->flush();
+            live_tracks_.reset();
+        }
         end.notes.push_back(write_report(*options_.folder));
     } else {
         end.statistics = times_.statistics();

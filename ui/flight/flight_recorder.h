@@ -72,13 +72,12 @@ public:
     FlightEnd finish(const Session& session, const std::string& stopped = {});
 
 private:
-    void write_flown(const Session& session) const;
-
     RecordOptions options_;
     int picture_every_ = 0;
     std::optional<report::Recording> recording_;
     report::SlowPictures slow_pictures_;
     std::optional<GrowingTracks> tracks_;
+    std::optional<LiveTracks> live_tracks_;
     std::optional<report::VideoPipe> video_;
     /// The times of frames where there is no folder.
     report::FrameTimes times_;

@@ -46,12 +46,27 @@ std::vector<std::string> Listener::lines() const {
     return lines;
 }
 
+/// Whether it is a host's last message once more, as hosts send it that have not heard of its
+/// picture. It is to be answered, not shown again.
+bool Listener::is_sent_again(const sim::links::Datagram& packet) {
+    if (packet.protocol != sim::links::Protocol::Cigi) {
+        return false;
+    }
+    const bool again = packet.source == last_message_.source && packet.bytes == last_message_.bytes;
+    last_message_ = packet;
+    answer_again_ = answer_again_ || again;
+    return again;
+}
+
 /// Returns whether something moved; in steps nothing is taken after that.
 bool Listener::take_waiting() {
     bool moved = false;
     while (!waiting_.empty() && !(options_.live.step && moved)) {
         const sim::links::Datagram packet = std::move(waiting_.front());
         waiting_.pop_front();
+        if (options_.live.step && is_sent_again(packet)) {
+            continue;
+        }
         const Taken taken = live_->take(packet);
         if (writer_ && taken != Taken::Wrong) {
             writer_->add(packet);
@@ -105,7 +120,8 @@ void Listener::finish_picture(report::FrameRecord& record) {
 void Listener::call_hosts() {
     constexpr double every_s = 0.1;
     const double now_s = input_.now_s();
-    if (input_.has_cigi() && !live_->traffic().cigi().has_host() && now_s >= called_at_s_) {
+    const bool calls = !live_->traffic().cigi().has_host() && now_s >= called_at_s_;
+    if (input_.has_cigi() && (calls || std::exchange(answer_again_, false))) {
         input_.send_cigi(live_->cigi_message(cigi_frames_, now_s));
         called_at_s_ = now_s + every_s;
     }

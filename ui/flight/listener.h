@@ -45,7 +45,8 @@ public:
     /// that it is there, with the answers to what they asked.
     void finish_picture(report::FrameRecord& record);
 
-    /// In steps, where hosts wait for a first Start of Frame: sends one, at most ten a second.
+    /// In steps: sends a Start of Frame where hosts wait for a first one, at most ten a second, and
+    /// where one has sent its last message again.
     void call_hosts();
 
     /// Ends the recording, if there is one. Throws Error (disk full).
@@ -70,6 +71,7 @@ public:
 
 private:
     bool take_waiting();
+    bool is_sent_again(const sim::links::Datagram& packet);
 
     ListenerOptions options_;
     LiveInput input_;
@@ -81,6 +83,9 @@ private:
     std::optional<double> told_at_s_;
     double called_at_s_ = 0.0;
     std::uint32_t cigi_frames_ = 0;
+    /// In steps, of a host of CIGI.
+    sim::links::Datagram last_message_;
+    bool answer_again_ = false;
     long pictures_ = 0;
 };
 

@@ -35,6 +35,9 @@ public:
     /// As CigiChannels::await_pictures().
     int await_pictures() { return channels_.await_pictures(); }
 
+    /// As CigiChannels::lines().
+    std::vector<std::string> channel_lines() const { return channels_.lines(); }
+
 private:
     enum class Form { Fdm, XPlane, Dis };
 

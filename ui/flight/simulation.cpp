@@ -147,9 +147,6 @@ void Simulation::advance_live(double time_s) {
         rig_ = scene::advanced(rig_, states_.front());
     }
     add_to_hash();
-    if (logs_) {
-        log_.push_back(states_.front());
-    }
 }
 
 void Simulation::advance_to(double time_s) {
@@ -178,11 +175,7 @@ void Simulation::advance_to(double time_s) {
 }
 
 void Simulation::start_log() {
-    if (is_live()) {
-        logs_ = true;
-        log_.clear();
-        return;
-    }
+    assert(!is_live());
     assert(next_step_ > sim::step_at(time_s_));
     const std::vector<sim::AircraftState> shown = states_;
     const sim::AircraftState leader = at_last_step();

@@ -57,8 +57,8 @@ public:
     /// start_log(), the step that was the last one then among them.
     std::uint64_t state_hash() const { return hash_.value(); }
 
-    /// Begins the hash anew and keeps the first aircraft's states from the last step on; where
-    /// others fly it, keeps those of the times that are asked for, and the hash goes on.
+    /// Begins the hash anew and keeps the first aircraft's states from the last step on. Not where
+    /// others fly it (asserted).
     void start_log();
 
     void stop_log() { logs_ = false; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::flight {
@@ -16,6 +17,8 @@ namespace {
 
 /// Times in files have six decimals at the least.
 constexpr double rounding_s = 1e-6;
+
+constexpr double flush_every_s = 1.0;
 
 sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
@@ -90,7 +93,6 @@ GrowingTracks::GrowingTracks(const std::filesystem::path& folder, const world::W
                   acmi_header(world, world.flight.trajectory, world.ground_frame.get()))}} {}
 
 void GrowingTracks::fly_until(double time_s) {
-    constexpr double flush_every_s = 1.0;
     for (Track& track : tracks_) {
         const std::string_view flown = flown_part(track.text, track.written, time_s);
         track.file.append(flown);
@@ -102,6 +104,32 @@ void GrowingTracks::fly_until(double time_s) {
         }
         flushed_s_ = time_s;
     }
+}
+
+LiveTracks::LiveTracks(const std::filesystem::path& folder, const world::World& world)
+    : csv_(folder / "track.csv")
+    , acmi_(folder / "track.acmi")
+    , header_(acmi_header(world, world.flight.trajectory, nullptr)) {
+    csv_.append(flightpaths::track_csv_names());
+}
+
+void LiveTracks::add(const sim::AircraftState& state, bool is_flown, const EarthFrame* frame) {
+    csv_.append(flightpaths::track_csv_line(state));
+    header_.frame = frame;
+    if (is_flown_ || is_flown) {
+        const bool is_first = !std::exchange(is_flown_, true);
+        acmi_.append(is_first ? flightpaths::acmi_head(header_) : std::string());
+        acmi_.append(flightpaths::acmi_state(state, header_, is_first));
+    }
+    if (!flushed_s_ || state.time_s - *flushed_s_ >= flush_every_s) {
+        flush();
+        flushed_s_ = state.time_s;
+    }
+}
+
+void LiveTracks::flush() {
+    csv_.flush();
+    acmi_.flush();
 }
 
 } // namespace octant::ui::flight

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "flightpaths/track_writer.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/output_file.h"
 #include "ui/world/world.h"
@@ -45,6 +47,29 @@ private:
 
     /// Those of track.csv and track.acmi.
     std::array<Track, 2> tracks_;
+    std::optional<double> flushed_s_;
+};
+
+/// The tracks of a flight that others fly, which nobody knows beforehand: track.csv has the states
+/// of all pictures, track.acmi those since the first aircraft is flown, as its place on the earth
+/// is known by then. Both are handed to the system at the latest every second.
+class LiveTracks {
+public:
+    /// Makes both files. Throws Error.
+    LiveTracks(const std::filesystem::path& folder, const world::World& world);
+
+    /// Appends the first aircraft's state in a picture, later than the one before. `frame` says how
+    /// the world lies on the earth, null where that is not known. Throws Error (disk full).
+    void add(const sim::AircraftState& state, bool is_flown, const EarthFrame* frame);
+
+    /// Hands everything to the system. Throws Error (disk full).
+    void flush();
+
+private:
+    GrowingFile csv_;
+    GrowingFile acmi_;
+    flightpaths::AcmiHeader header_;
+    bool is_flown_ = false;
     std::optional<double> flushed_s_;
 };
 

@@ -72,7 +72,8 @@ struct FrameRecord {
     int stale = 0;          ///< 1 when an aircraft stands for want of packets
     double jitter_ms = 0.0; ///< how much later than the quickest packets come, mean
     int host_frame = -1;    ///< of the CIGI host whose frame the picture shows; -1 = none
-    /// To image generators: how many host frames apart the pictures are that they show; -1 = none.
+    /// To image generators: how many host frames the one that is the furthest behind is behind; -1 =
+    /// none.
     int skew_frames = -1;
     int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due
     /// Over the states of all aircraft at every step up to this picture.

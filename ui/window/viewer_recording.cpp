@@ -20,7 +20,6 @@ void Viewer::start_live_recording(const fs::path& folder) {
         settings,
         *session_);
     listener_->record_into(folder);
-    session_->simulation().start_log();
     state_.recording = folder;
     say(fmt::format("recording into {}: the view stays as it is", folder.string()));
 }
@@ -30,7 +29,6 @@ std::string Viewer::finish_live_recording() {
     const flight::FlightEnd end = live_recorder_->finish(*session_);
     live_recorder_.reset();
     state_.recording.reset();
-    session_->simulation().stop_log();
     return end.notes.back();
 }
 
