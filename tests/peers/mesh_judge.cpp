@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "peers.h"
 
@@ -96,9 +99,12 @@ public:
         return best;
     }
 
-    /// True if a triangle within `distance` has a normal that does not oppose `normal`.
-    bool has_agreeing(const Vec& p, double distance, const Vec& normal) const {
-        return has_agreeing_in(0, p, distance * distance, normal);
+    /// True if a triangle within a distance, one that `counts` accepts, has a normal that does not
+    /// oppose `normal`.
+    template <typename Counts>
+    bool
+    has_agreeing(const Vec& p, double distance, const Vec& normal, const Counts& counts) const {
+        return has_agreeing_in(0, p, distance * distance, normal, counts);
     }
 
 private:
@@ -177,18 +183,22 @@ private:
         }
     }
 
-    bool has_agreeing_in(std::size_t index, const Vec& p, double limit2, const Vec& normal) const {
+    template <typename Counts>
+    bool has_agreeing_in(
+        std::size_t index, const Vec& p, double limit2, const Vec& normal, const Counts& counts)
+        const {
         const Node& node = nodes_[index];
         if (squared_distance_to_box(p, node) > limit2) {
             return false;
         }
         if (node.right != 0) {
-            return has_agreeing_in(index + 1, p, limit2, normal) ||
-                   has_agreeing_in(node.right, p, limit2, normal);
+            return has_agreeing_in(index + 1, p, limit2, normal, counts) ||
+                   has_agreeing_in(node.right, p, limit2, normal, counts);
         }
         for (std::size_t i = node.first; i < node.last; ++i) {
             const Triangle& triangle = triangles_[order_[i]];
-            if (dot(triangle.normal(), normal) >= 0.0 && squared_distance(p, triangle) <= limit2) {
+            if (counts(order_[i]) && dot(triangle.normal(), normal) >= 0.0 &&
+                squared_distance(p, triangle) <= limit2) {
                 return true;
             }
         }
@@ -225,13 +235,35 @@ PeerMesh welded(const PeerMesh& mesh) {
 struct Topology {
     std::size_t open_edges = 0;
     std::size_t non_manifold_edges = 0; ///< with three triangles or more
-    std::vector<std::uint32_t> shells;  ///< by triangle: which part joined by vertices
-    std::size_t shell_count = 0;
+    std::size_t shells = 0;             ///< parts joined by vertices
+    /// By triangle: which part joined by edges of two triangles.
+    std::vector<std::uint32_t> patches;
+    /// By triangle: true if it is turned over to be oriented as the first triangle of its patch.
+    std::vector<bool> turned;
 };
 
-Topology topology(const PeerMesh& mesh) {
-    Topology found;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+/// An edge as one triangle has it.
+struct EdgeUse {
+    std::uint32_t low, high, triangle;
+    bool rising; ///< the triangle runs from the lower vertex to the higher one
+};
+
+std::vector<EdgeUse> edge_uses(const PeerMesh& mesh) {
+    std::vector<EdgeUse> uses;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = mesh.triangles[i].at(k);
+            const std::uint32_t b = mesh.triangles[i].at((k + 1) % 3);
+            uses.push_back({std::min(a, b), std::max(a, b), i, a < b});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& x, const EdgeUse& y) {
+        return std::tie(x.low, x.high, x.triangle) < std::tie(y.low, y.high, y.triangle);
+    });
+    return uses;
+}
+
+std::size_t count_shells(const PeerMesh& mesh) {
     std::vector<std::uint32_t> parents(mesh.vertices.size());
     std::iota(parents.begin(), parents.end(), 0U);
     const auto root = [&](std::uint32_t vertex) {
@@ -240,28 +272,76 @@ Topology topology(const PeerMesh& mesh) {
         }
         return vertex;
     };
-    for (const auto& triangle : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            edges.push_back(std::minmax({triangle.at(k), triangle.at((k + 1) % 3)}));
-            parents[root(triangle.at(k))] = root(triangle[0]);
-        }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        parents[root(b)] = root(a);
+        parents[root(c)] = root(a);
     }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size();) {
+    std::set<std::uint32_t> roots;
+    for (const auto& triangle : mesh.triangles) {
+        roots.insert(root(triangle[0]));
+    }
+    return roots.size();
+}
+
+struct Neighbour {
+    std::uint32_t triangle;
+    bool opposite; ///< oriented the other way
+};
+
+Topology topology(const PeerMesh& mesh) {
+    Topology found;
+    const std::vector<EdgeUse> uses = edge_uses(mesh);
+    std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
+    for (std::size_t i = 0; i < uses.size();) {
         const std::size_t first = i;
-        while (i < edges.size() && edges[i] == edges[first]) {
+        while (i < uses.size() && uses[i].low == uses[first].low &&
+               uses[i].high == uses[first].high) {
             ++i;
         }
         found.open_edges += i - first == 1 ? 1U : 0U;
         found.non_manifold_edges += i - first > 2 ? 1U : 0U;
+        if (i - first == 2) {
+            const auto& [one, other] = std::tie(uses[first], uses[first + 1]);
+            neighbours[one.triangle].push_back({other.triangle, one.rising == other.rising});
+            neighbours[other.triangle].push_back({one.triangle, one.rising == other.rising});
+        }
     }
-    std::map<std::uint32_t, std::uint32_t> numbers;
-    for (const auto& triangle : mesh.triangles) {
-        const auto next = static_cast<std::uint32_t>(numbers.size());
-        found.shells.push_back(numbers.emplace(root(triangle[0]), next).first->second);
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    found.patches.assign(mesh.triangles.size(), none);
+    found.turned.assign(mesh.triangles.size(), false);
+    std::uint32_t patch = 0;
+    for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
+        if (found.patches[start] != none) {
+            continue;
+        }
+        std::vector<std::uint32_t> open{start};
+        found.patches[start] = patch;
+        while (!open.empty()) {
+            const std::uint32_t at = open.back();
+            open.pop_back();
+            for (const Neighbour& next : neighbours[at]) {
+                if (found.patches[next.triangle] == none) {
+                    found.patches[next.triangle] = patch;
+                    found.turned[next.triangle] = found.turned[at] != next.opposite;
+                    open.push_back(next.triangle);
+                }
+            }
+        }
+        ++patch;
     }
-    found.shell_count = numbers.size();
+    found.shells = count_shells(mesh);
     return found;
+}
+
+/// Turns triangles over so that each patch is oriented as a whole.
+PeerMesh oriented(PeerMesh mesh) {
+    const Topology parts = topology(mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (parts.turned[i]) {
+            std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+        }
+    }
+    return mesh;
 }
 
 struct Sample {
@@ -357,10 +437,62 @@ struct Original {
         , diagonal(::diagonal(mesh)) {}
 };
 
+/// The share of a result's area that is turned against the nearest original surface. A patch of the
+/// result that is turned against a patch of the original in most of their common area is oriented
+/// otherwise there, not folded.
+class FoldedArea {
+public:
+    FoldedArea(const Original& original, const Surface& surface, const Topology& parts)
+        : original_(original)
+        , surface_(surface)
+        , parts_(parts) {}
+
+    void operator()(const Sample& sample, std::size_t nearest, double distance) {
+        const Vec normal = surface_.triangle(sample.triangle).normal();
+        const std::uint32_t patch = original_.parts.patches[nearest];
+        Seen& seen = seen_[{parts_.patches[sample.triangle], patch}];
+        const bool opposes = dot(original_.surface.triangle(nearest).normal(), normal) < 0.0;
+        // Near an edge of the original either of its triangles is the nearest one.
+        const double tie = 1e-7 * original_.diagonal;
+        const auto opposite = [&](bool against) {
+            const Vec wanted = against ? normal * -1.0 : normal;
+            return original_.surface.has_agreeing(
+                sample.point, distance + tie, wanted, [&](std::size_t i) {
+                    return original_.parts.patches[i] == patch;
+                });
+        };
+        if (opposes && !opposite(false)) {
+            ++seen.opposed;
+        } else if (!opposes && !opposite(true)) {
+            ++seen.agreed;
+        }
+    }
+
+    double share() const {
+        std::size_t folded = 0;
+        for (const auto& [patches, seen] : seen_) {
+            folded += std::min(seen.opposed, seen.agreed);
+        }
+        return static_cast<double>(folded) / static_cast<double>(sample_count);
+    }
+
+private:
+    struct Seen {
+        std::size_t opposed = 0;
+        std::size_t agreed = 0;
+    };
+
+    const Original& original_;
+    const Surface& surface_;
+    const Topology& parts_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Seen>
+        seen_; ///< by patches of result and original
+};
+
 void judge(const Original& original, const std::string& path) {
     PeerMesh mesh;
     try {
-        mesh = welded(read_obj(path));
+        mesh = oriented(welded(read_obj(path)));
     } catch (const std::runtime_error&) { // no faces: nothing is left of the mesh
     }
     if (mesh.triangles.empty()) {
@@ -371,25 +503,9 @@ void judge(const Original& original, const std::string& path) {
     const Surface surface(mesh);
     const auto none = [](const Sample&, std::size_t, double) {};
     const Distances forth = distances(original.samples, original.mesh, surface, none);
+    FoldedArea folded(original, surface, parts);
     const auto samples = area_samples(surface, mesh.triangles.size(), sample_count);
-    // A shell that is turned over as a whole is oriented otherwise, not folded.
-    std::vector<std::size_t> opposed(parts.shell_count, 0);
-    std::vector<std::size_t> seen(parts.shell_count, 0);
-    const double tie = 1e-7 * original.diagonal;
-    const auto at_sample = [&](const Sample& sample, std::size_t nearest, double distance) {
-        const Vec normal = surface.triangle(sample.triangle).normal();
-        const std::uint32_t shell = parts.shells[sample.triangle];
-        ++seen[shell];
-        const bool opposes = dot(original.surface.triangle(nearest).normal(), normal) < 0.0;
-        if (opposes && !original.surface.has_agreeing(sample.point, distance + tie, normal)) {
-            ++opposed[shell];
-        }
-    };
-    const Distances back = distances(samples, mesh, original.surface, at_sample);
-    std::size_t folded = 0;
-    for (std::size_t shell = 0; shell < parts.shell_count; ++shell) {
-        folded += std::min(opposed[shell], seen[shell] - opposed[shell]);
-    }
+    const Distances back = distances(samples, mesh, original.surface, std::ref(folded));
     const double unit = 1.0 / original.diagonal;
     std::printf(
         "{\"file\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"diagonal\": %.9g, "
@@ -408,14 +524,14 @@ void judge(const Original& original, const std::string& path) {
         back.rms * unit,
         forth.max * unit,
         back.max * unit,
-        static_cast<double>(folded) / static_cast<double>(sample_count),
+        folded.share(),
         parts.open_edges,
         parts.non_manifold_edges,
-        parts.shell_count,
+        parts.shells,
         original.mesh.triangles.size(),
         original.parts.open_edges,
         original.parts.non_manifold_edges,
-        original.parts.shell_count);
+        original.parts.shells);
     std::fflush(stdout);
 }
 
@@ -432,7 +548,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const Original original(welded(read_obj(argv[1])));
+        const Original original(oriented(welded(read_obj(argv[1]))));
         for (int i = 2; i < argc; ++i) {
             judge(original, argv[i]);
         }

@@ -31,6 +31,7 @@ UNIT = "cgal-lindstrom-turk"
 QUICK = ["tube", "sheet", "suzanne", "featuretype", "studs", "pinholes", "tile-west", "cow"]
 FLOOR = 1e-6  # of the diagonal: smaller distances count as this
 LARGE_FACES = 5000
+FOLDED_NOISE = 1e-4  # of the area: 20 of the sampled points
 GOAL_SLACK = 1.02  # a result with more faces than this times the goal has missed it
 
 MESHLAB_SCRIPT = """<!DOCTYPE FilterScript><FilterScript>
@@ -92,6 +93,7 @@ class Evaluation:
         self.cache = self.meshes / "cache"
         self.cache.mkdir(exist_ok=True)
         binary = pathlib.Path(options.octant).read_bytes()
+        self.judge_key = hashlib.sha1((self.peers / "octant-mesh-judge").read_bytes()).hexdigest()[:6]
         self.octant_key = hashlib.sha1(binary + options.octant_options.encode()).hexdigest()[:10]
 
     def library(self, name, source, goal, target):
@@ -105,19 +107,20 @@ class Evaluation:
     def meshlab(self, source, goal, target):
         if not shutil.which("meshlabserver"):
             return {"status": "absent"}
-        ply, script, out = (target.with_suffix(ending) for ending in (".in.ply", ".mlx", ".out.ply"))
-        obj_to_ply(source, ply)
-        script.write_text(MESHLAB_SCRIPT.format(goal=goal))
-        run = Run(["xvfb-run", "-a", "meshlabserver", "-i", ply, "-o", out, "-s", script])
-        if not out.exists():
-            return {"status": f"exit {run.code}"}
-        Run([self.peers / "octant-mesh-to-obj", out, target])
+        with tempfile.TemporaryDirectory() as scratch:
+            ply, script, out = (pathlib.Path(scratch) / name for name in ("in.ply", "script.mlx", "out.ply"))
+            obj_to_ply(source, ply)
+            script.write_text(MESHLAB_SCRIPT.format(goal=goal))
+            run = Run(["xvfb-run", "-a", "meshlabserver", "-i", ply, "-o", out, "-s", script])
+            if not out.exists():
+                return {"status": f"exit {run.code}"}
+            Run([self.peers / "octant-mesh-to-obj", out, target])
         return {"status": "", "cpu_s": run.cpu_s}
 
     def octant(self, source, goal, target):
         """Whole process; of it the seconds of simplification and certificate where octant tells them."""
         repeat = 1 if source.stat().st_size > 3e5 else 5
-        unit = [self.peers / "octant-peers", UNIT, source, goal, target.with_suffix(".lt.obj"), "--repeat", repeat]
+        unit = [self.peers / "octant-peers", UNIT, source, goal, "/dev/null", "--repeat", repeat]
         times = [Run(unit)]
         command, peak = peak_of([self.options.octant, "simplify", source, target, "--faces", goal, "--json"]
                                 + self.options.octant_options.split())
@@ -133,31 +136,32 @@ class Evaluation:
                 "certificate": told["error_of_diagonal"]}
 
     def results_of(self, row, goal):
-        """Every tool's result as a dictionary, from the cache or made and judged now."""
+        """Every tool's result as a dictionary: made now or kept in the cache, judged now or by this judge before."""
         source = self.meshes / (row["name"] + ".obj")
         mesh_key = hashlib.sha1(source.read_bytes()).hexdigest()[:10]
-        results, fresh = {}, {}
-        with tempfile.TemporaryDirectory() as scratch:
-            for tool in LIBRARIES + ["octant"]:
-                key = f"-{self.octant_key}" if tool == "octant" else ""
-                kept = self.cache / f"{row['name']}-{mesh_key}-{goal}-{tool}{key}.json"
-                if kept.exists():
-                    results[tool] = json.loads(kept.read_text())
-                    continue
-                target = pathlib.Path(scratch) / f"{tool}.obj"
+        results, unjudged = {}, {}
+        for tool in [UNIT, "octant"] if row["class"] == "large" else LIBRARIES + ["octant"]:
+            key = f"-{self.octant_key}" if tool == "octant" else ""
+            kept = self.cache / f"{row['name']}-{mesh_key}-{goal}-{tool}{key}"
+            target, run, judged = (kept.with_name(kept.name + ending) for ending in
+                                   (".obj", ".run.json", f".{self.judge_key}.json"))
+            if not run.exists():
+                target.unlink(missing_ok=True)
                 made = self.octant(source, goal, target) if tool == "octant" else self.library(tool, source, goal, target)
-                fresh[tool] = (made, kept, target)
-            present = [tool for tool, (_, _, target) in fresh.items() if target.exists()]
-            if present:
-                judged = Run([self.peers / "octant-mesh-judge", source] + [fresh[tool][2] for tool in present])
-                for tool, line in zip(present, judged.output.decode().splitlines()):
-                    fresh[tool][0].update(json.loads(line))
-            for tool, (made, kept, _) in fresh.items():
-                made.pop("file", None)
-                if not made["status"] and not made.get("faces"):
-                    made["status"] = "no faces"
-                kept.write_text(json.dumps(made))
-                results[tool] = made
+                run.write_text(json.dumps(made))
+            results[tool] = json.loads(run.read_text())
+            if judged.exists():
+                results[tool].update(json.loads(judged.read_text()))
+            elif not results[tool]["status"]:
+                unjudged[tool] = (target, judged)
+        if unjudged:
+            judge = Run([self.peers / "octant-mesh-judge", source] + [target for target, _ in unjudged.values()])
+            for (tool, (_, judged)), line in zip(unjudged.items(), judge.output.decode().splitlines()):
+                judged.write_text(line)
+                results[tool].update(json.loads(line))
+        for result in results.values():
+            if not result["status"] and not result.get("faces"):
+                result["status"] = "no faces"
         return results
 
 
@@ -186,7 +190,7 @@ class Case:
         self.name = f"{row['name']} {goal}"
         self.ok = not self.ours["status"]
         self.met = met(self.ours, goal)
-        libraries = {tool: results[tool] for tool in LIBRARIES if met(results[tool], goal)}
+        libraries = {tool: results[tool] for tool in LIBRARIES if tool in results and met(results[tool], goal)}
         self.unit = libraries.get(UNIT)
         self.libraries = list(libraries.values())
         self.large = self.ok and self.ours["faces_before"] >= LARGE_FACES
@@ -206,7 +210,7 @@ def summary(cases, label):
     small = [case.ours["cpu_s"] for case in ok if not case.large]
     above = [case for case in compared if max(case.against_best("rms"), case.against_best("max")) > 1.005]
     parts = [case for case in compared if case.row["class"] in ("assembly", "holes")]
-    folded = [case for case in compared if case.ours["folded"] > case.best("folded")["folded"] + 1e-5]
+    folded = [case for case in compared if case.ours["folded"] > case.best("folded")["folded"] + FOLDED_NOISE]
     pinched = [case for case in ok if case.ours["non_manifold_edges"] > case.ours["non_manifold_edges_before"]]
     opened = [case for case in ok if case.ours["open_edges_before"] == 0 and case.ours["open_edges"] > 0]
     below = [case for case in ok if case.ours["certificate"] < case.ours["max"] * (1 - 1e-6)]
@@ -217,6 +221,10 @@ def summary(cases, label):
 
     def worst(values):
         return f"{mean(values):.2f} / {max(values):.2f}" if values else "-"
+
+    def shares(results):
+        folds = [result["folded"] for result in results]
+        return f"{sum(folds) / len(folds):.5f} / {max(folds):.4f}" if folds else "-"
 
     lines = [f"## {label}", "", f"{len(cases)} cases of {len({case.row['name'] for case in cases})} meshes; ratios below 1 "
              "are better than the libraries.", "", "| | |", "|---|---|",
@@ -230,13 +238,15 @@ def summary(cases, label):
              f"| assemblies and pinholes, RMS against the best library | {worst([c.against_best('rms') for c in parts])} |",
              f"| assemblies and pinholes, Hausdorff against the best library | {worst([c.against_best('max') for c in parts])} |",
              f"| more folded area than the best library | {names(folded)} |",
-             f"| worst folded share | {max((c.ours['folded'] for c in ok), default=0):.4f} |",
+             f"| folded share of the area, mean / worst: octant | {shares([c.ours for c in compared])} |",
+             f"| ... of Lindstrom-Turk | {shares([c.unit for c in with_unit])} |",
+             f"| ... of the library with the least in each case | {shares([c.best('folded') for c in compared])} |",
              f"| non-manifold edges gained | {names(pinched)} |",
              f"| closed meshes opened | {names(opened)} |",
              f"| certificates below the sampled distance | {names(below)} |",
              f"| goals missed (or failed) | {names(missed)} |", "",
-             "| case | class | faces before | after | RMS/LT | RMS/best | Hausdorff/best | CPU/LT | CPU s | folded | best |",
-             "|---|---|---|---|---|---|---|---|---|---|---|"]
+             "| case | class | faces before | after | RMS/LT | RMS/best | Hausdorff/best | CPU/LT | CPU s | MB | folded | best |",
+             "|---|---|---|---|---|---|---|---|---|---|---|---|"]
     for case in sorted(cases, key=lambda case: -(case.against_best("rms") if case.libraries else 0)):
         if not case.ok:
             lines.append(f"| {case.name} | {case.row['class']} | {case.ours['status']} |")
@@ -247,7 +257,7 @@ def summary(cases, label):
         folds = f"{case.best('folded')['folded']:.4f}" if case.libraries else "-"
         lines.append(f"| {case.name} | {case.row['class']} | {ours['faces_before']} | {ours['faces']} | {unit} | "
                      f"{case.against_best('rms'):.2f} | {case.against_best('max'):.2f} | {cpu_ratio} | "
-                     f"{ours['cpu_s']:.2f} | {ours['folded']:.4f} | {folds} |")
+                     f"{ours['cpu_s']:.2f} | {ours['peak_mb']} | {ours['folded']:.4f} | {folds} |")
     return "\n".join(lines) + "\n"
 
 
