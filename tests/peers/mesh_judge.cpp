@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -99,12 +98,9 @@ public:
         return best;
     }
 
-    /// True if a triangle within a distance, one that `counts` accepts, has a normal that does not
-    /// oppose `normal`.
-    template <typename Counts>
-    bool
-    has_agreeing(const Vec& p, double distance, const Vec& normal, const Counts& counts) const {
-        return has_agreeing_in(0, p, distance * distance, normal, counts);
+    /// True if a triangle within a distance has a normal that does not oppose `normal`.
+    bool has_agreeing(const Vec& p, double distance, const Vec& normal) const {
+        return has_agreeing_in(0, p, distance * distance, normal);
     }
 
 private:
@@ -183,22 +179,18 @@ private:
         }
     }
 
-    template <typename Counts>
-    bool has_agreeing_in(
-        std::size_t index, const Vec& p, double limit2, const Vec& normal, const Counts& counts)
-        const {
+    bool has_agreeing_in(std::size_t index, const Vec& p, double limit2, const Vec& normal) const {
         const Node& node = nodes_[index];
         if (squared_distance_to_box(p, node) > limit2) {
             return false;
         }
         if (node.right != 0) {
-            return has_agreeing_in(index + 1, p, limit2, normal, counts) ||
-                   has_agreeing_in(node.right, p, limit2, normal, counts);
+            return has_agreeing_in(index + 1, p, limit2, normal) ||
+                   has_agreeing_in(node.right, p, limit2, normal);
         }
         for (std::size_t i = node.first; i < node.last; ++i) {
             const Triangle& triangle = triangles_[order_[i]];
-            if (counts(order_[i]) && dot(triangle.normal(), normal) >= 0.0 &&
-                squared_distance(p, triangle) <= limit2) {
+            if (dot(triangle.normal(), normal) >= 0.0 && squared_distance(p, triangle) <= limit2) {
                 return true;
             }
         }
@@ -236,10 +228,8 @@ struct Topology {
     std::size_t open_edges = 0;
     std::size_t non_manifold_edges = 0; ///< with three triangles or more
     std::size_t shells = 0;             ///< parts joined by vertices
-    /// By triangle: which part joined by edges of two triangles.
+    /// By triangle: which part joined by edges of two triangles that are oriented alike.
     std::vector<std::uint32_t> patches;
-    /// By triangle: true if it is turned over to be oriented as the first triangle of its patch.
-    std::vector<bool> turned;
 };
 
 /// An edge as one triangle has it.
@@ -283,15 +273,10 @@ std::size_t count_shells(const PeerMesh& mesh) {
     return roots.size();
 }
 
-struct Neighbour {
-    std::uint32_t triangle;
-    bool opposite; ///< oriented the other way
-};
-
 Topology topology(const PeerMesh& mesh) {
     Topology found;
     const std::vector<EdgeUse> uses = edge_uses(mesh);
-    std::vector<std::vector<Neighbour>> neighbours(mesh.triangles.size());
+    std::vector<std::vector<std::uint32_t>> neighbours(mesh.triangles.size());
     for (std::size_t i = 0; i < uses.size();) {
         const std::size_t first = i;
         while (i < uses.size() && uses[i].low == uses[first].low &&
@@ -300,15 +285,13 @@ Topology topology(const PeerMesh& mesh) {
         }
         found.open_edges += i - first == 1 ? 1U : 0U;
         found.non_manifold_edges += i - first > 2 ? 1U : 0U;
-        if (i - first == 2) {
-            const auto& [one, other] = std::tie(uses[first], uses[first + 1]);
-            neighbours[one.triangle].push_back({other.triangle, one.rising == other.rising});
-            neighbours[other.triangle].push_back({one.triangle, one.rising == other.rising});
+        if (i - first == 2 && uses[first].rising != uses[first + 1].rising) {
+            neighbours[uses[first].triangle].push_back(uses[first + 1].triangle);
+            neighbours[uses[first + 1].triangle].push_back(uses[first].triangle);
         }
     }
     constexpr std::uint32_t none = ~std::uint32_t{0};
     found.patches.assign(mesh.triangles.size(), none);
-    found.turned.assign(mesh.triangles.size(), false);
     std::uint32_t patch = 0;
     for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
         if (found.patches[start] != none) {
@@ -319,11 +302,10 @@ Topology topology(const PeerMesh& mesh) {
         while (!open.empty()) {
             const std::uint32_t at = open.back();
             open.pop_back();
-            for (const Neighbour& next : neighbours[at]) {
-                if (found.patches[next.triangle] == none) {
-                    found.patches[next.triangle] = patch;
-                    found.turned[next.triangle] = found.turned[at] != next.opposite;
-                    open.push_back(next.triangle);
+            for (const std::uint32_t next : neighbours[at]) {
+                if (found.patches[next] == none) {
+                    found.patches[next] = patch;
+                    open.push_back(next);
                 }
             }
         }
@@ -331,17 +313,6 @@ Topology topology(const PeerMesh& mesh) {
     }
     found.shells = count_shells(mesh);
     return found;
-}
-
-/// Turns triangles over so that each patch is oriented as a whole.
-PeerMesh oriented(PeerMesh mesh) {
-    const Topology parts = topology(mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (parts.turned[i]) {
-            std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-        }
-    }
-    return mesh;
 }
 
 struct Sample {
@@ -378,18 +349,13 @@ std::vector<Sample> area_samples(const Surface& surface, std::size_t triangles, 
 struct Distances {
     double rms = 0.0;
     double max = 0.0;
+    std::vector<std::pair<std::size_t, double>> nearest; ///< by sample: triangle and distance
 };
 
 constexpr std::size_t sample_count = 200'000;
 
-/// From the samples and, for the maximum, the vertices of a mesh to a surface. `at_sample` sees
-/// each sample with its nearest triangle and distance.
-template <typename AtSample>
-Distances distances(
-    const std::vector<Sample>& samples,
-    const PeerMesh& mesh,
-    const Surface& to,
-    const AtSample& at_sample) {
+/// From the samples and, for the maximum, the vertices of a mesh to a surface.
+Distances distances(const std::vector<Sample>& samples, const PeerMesh& mesh, const Surface& to) {
     Distances found;
     double sum = 0.0;
     std::size_t guess = 0;
@@ -398,7 +364,7 @@ Distances distances(
         guess = triangle;
         sum += d2;
         found.max = std::max(found.max, d2);
-        at_sample(sample, triangle, std::sqrt(d2));
+        found.nearest.emplace_back(triangle, std::sqrt(d2));
     }
     for (const Vec& vertex : mesh.vertices) {
         const auto [triangle, d2] = to.nearest(vertex, guess);
@@ -437,75 +403,67 @@ struct Original {
         , diagonal(::diagonal(mesh)) {}
 };
 
-/// The share of a result's area that is turned against the nearest original surface. A patch of the
-/// result that is turned against a patch of the original in most of their common area is oriented
-/// otherwise there, not folded.
-class FoldedArea {
-public:
-    FoldedArea(const Original& original, const Surface& surface, const Topology& parts)
-        : original_(original)
-        , surface_(surface)
-        , parts_(parts) {}
+struct Result {
+    PeerMesh mesh;
+    Surface surface;
+    Topology parts;
+    std::vector<Sample> samples;
 
-    void operator()(const Sample& sample, std::size_t nearest, double distance) {
-        const Vec normal = surface_.triangle(sample.triangle).normal();
-        const std::uint32_t patch = original_.parts.patches[nearest];
-        Seen& seen = seen_[{parts_.patches[sample.triangle], patch}];
-        const bool opposes = dot(original_.surface.triangle(nearest).normal(), normal) < 0.0;
-        // Near an edge of the original either of its triangles is the nearest one.
-        const double tie = 1e-7 * original_.diagonal;
-        const auto opposite = [&](bool against) {
-            const Vec wanted = against ? normal * -1.0 : normal;
-            return original_.surface.has_agreeing(
-                sample.point, distance + tie, wanted, [&](std::size_t i) {
-                    return original_.parts.patches[i] == patch;
-                });
-        };
-        if (opposes && !opposite(false)) {
-            ++seen.opposed;
-        } else if (!opposes && !opposite(true)) {
-            ++seen.agreed;
-        }
-    }
+    explicit Result(PeerMesh read)
+        : mesh(std::move(read))
+        , surface(mesh)
+        , parts(topology(mesh))
+        , samples(area_samples(surface, mesh.triangles.size(), sample_count)) {}
+};
 
-    double share() const {
-        std::size_t folded = 0;
-        for (const auto& [patches, seen] : seen_) {
-            folded += std::min(seen.opposed, seen.agreed);
-        }
-        return static_cast<double>(folded) / static_cast<double>(sample_count);
-    }
-
-private:
+/// The share of a result's area that opposes the nearest original surface and has no original
+/// surface of its direction at hand: none within `tolerance` more than the nearest distance.
+/// Without the tolerance, walls thinner than the error would count, where the nearest surface is
+/// the other side. A patch of the result that opposes a patch of the original in most of their
+/// common area is oriented otherwise there, not folded.
+double folded_share(
+    const Original& original, const Result& result, const Distances& back, double tolerance) {
     struct Seen {
         std::size_t opposed = 0;
         std::size_t agreed = 0;
     };
 
-    const Original& original_;
-    const Surface& surface_;
-    const Topology& parts_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Seen>
-        seen_; ///< by patches of result and original
-};
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Seen> seen; // by patches: result, original
+    for (std::size_t i = 0; i < result.samples.size(); ++i) {
+        const Sample& sample = result.samples[i];
+        const auto& [nearest, distance] = back.nearest[i];
+        const Vec normal = result.surface.triangle(sample.triangle).normal();
+        const bool opposes = dot(original.surface.triangle(nearest).normal(), normal) < 0.0;
+        const Vec other = opposes ? normal : normal * -1.0;
+        if (!original.surface.has_agreeing(sample.point, distance + tolerance, other)) {
+            const auto patches =
+                std::pair{result.parts.patches[sample.triangle], original.parts.patches[nearest]};
+            ++(opposes ? seen[patches].opposed : seen[patches].agreed);
+        }
+    }
+    std::size_t folded = 0;
+    for (const auto& [patches, count] : seen) {
+        folded += std::min(count.opposed, count.agreed);
+    }
+    return static_cast<double>(folded) / static_cast<double>(sample_count);
+}
 
 void judge(const Original& original, const std::string& path) {
     PeerMesh mesh;
     try {
-        mesh = oriented(welded(read_obj(path)));
+        mesh = welded(read_obj(path));
     } catch (const std::runtime_error&) { // no faces: nothing is left of the mesh
     }
     if (mesh.triangles.empty()) {
         std::printf("{\"file\": \"%s\", \"faces\": 0}\n", path.c_str());
         return;
     }
-    const Topology parts = topology(mesh);
-    const Surface surface(mesh);
-    const auto none = [](const Sample&, std::size_t, double) {};
-    const Distances forth = distances(original.samples, original.mesh, surface, none);
-    FoldedArea folded(original, surface, parts);
-    const auto samples = area_samples(surface, mesh.triangles.size(), sample_count);
-    const Distances back = distances(samples, mesh, original.surface, std::ref(folded));
+    const Result result(std::move(mesh));
+    const Distances forth = distances(original.samples, original.mesh, result.surface);
+    const Distances back = distances(result.samples, result.mesh, original.surface);
+    const double rms = std::max(forth.rms, back.rms);
+    const double tolerance = 2.0 * rms + 1e-7 * original.diagonal;
+    const double folded = folded_share(original, result, back, tolerance);
     const double unit = 1.0 / original.diagonal;
     std::printf(
         "{\"file\": \"%s\", \"faces\": %zu, \"vertices\": %zu, \"diagonal\": %.9g, "
@@ -515,19 +473,19 @@ void judge(const Original& original, const std::string& path) {
         "\"shells\": %zu, \"faces_before\": %zu, \"open_edges_before\": %zu, "
         "\"non_manifold_edges_before\": %zu, \"shells_before\": %zu}\n",
         path.c_str(),
-        mesh.triangles.size(),
-        mesh.vertices.size(),
+        result.mesh.triangles.size(),
+        result.mesh.vertices.size(),
         original.diagonal,
-        std::max(forth.rms, back.rms) * unit,
+        rms * unit,
         std::max(forth.max, back.max) * unit,
         forth.rms * unit,
         back.rms * unit,
         forth.max * unit,
         back.max * unit,
-        folded.share(),
-        parts.open_edges,
-        parts.non_manifold_edges,
-        parts.shells,
+        folded,
+        result.parts.open_edges,
+        result.parts.non_manifold_edges,
+        result.parts.shells,
         original.mesh.triangles.size(),
         original.parts.open_edges,
         original.parts.non_manifold_edges,
@@ -548,7 +506,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const Original original(oriented(welded(read_obj(argv[1]))));
+        const Original original(welded(read_obj(argv[1])));
         for (int i = 2; i < argc; ++i) {
             judge(original, argv[i]);
         }
