@@ -1,5 +1,6 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
@@ -28,7 +29,7 @@ struct FaceCountStop {
     }
 };
 
-/// Non-manifold edges and vertices are split.
+/// Non-manifold edges and vertices are split, triangles of the same corners become one.
 Mesh cgal_mesh(const PeerMesh& mesh) {
     namespace processing = CGAL::Polygon_mesh_processing;
     std::vector<Kernel::Point_3> points;
@@ -39,6 +40,7 @@ Mesh cgal_mesh(const PeerMesh& mesh) {
     for (const auto& [a, b, c] : mesh.triangles) {
         polygons.push_back({a, b, c});
     }
+    processing::merge_duplicate_polygons_in_polygon_soup(points, polygons);
     processing::orient_polygon_soup(points, polygons);
     Mesh made;
     processing::polygon_soup_to_polygon_mesh(points, polygons, made);
