@@ -106,10 +106,10 @@ double& part_of(std::optional<glm::dvec3>& whole, std::size_t part) {
 /// Moves a place, degrees and metres, by a small way east, up and south.
 void move_by(glm::dvec3& place, const glm::dvec3& local_m) {
     const double sine = std::sin(rad_from_deg(place.x));
-    const double share = 1.0 - wgs84::e2 * sine * sine;
-    const double across_m = wgs84::semi_major_m / std::sqrt(share) + place.z;
+    const double share = 1.0 - wgs84.e2() * sine * sine;
+    const double across_m = wgs84.semi_major_m / std::sqrt(share) + place.z;
     const double along_m =
-        wgs84::semi_major_m * (1.0 - wgs84::e2) / (share * std::sqrt(share)) + place.z;
+        wgs84.semi_major_m * (1.0 - wgs84.e2()) / (share * std::sqrt(share)) + place.z;
     place.y += deg_from_rad(local_m.x / (across_m * std::cos(rad_from_deg(place.x))));
     place.x -= deg_from_rad(local_m.z / along_m);
     place.z += local_m.y;
