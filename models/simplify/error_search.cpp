@@ -51,7 +51,7 @@ private:
     std::size_t first_guess() const {
         const auto& all = sequence_.collapses;
         const double estimate_m =
-            (options_.quality == Quality::Surface ? first_try : 0.9) * error_m_;
+            first_try * error_m_;
         const auto over = std::ranges::find_if(
             all, [estimate_m](const Collapse& collapse) { return collapse.error_m > estimate_m; });
         return static_cast<std::size_t>(over - all.begin());
@@ -125,7 +125,7 @@ private:
 
 } // namespace
 
-KeptError most_collapses_within(
+KeptError max_collapses_within(
     const CollapseSequence& sequence,
     const SimplifyOptions& options,
     const MeshAfter& finished_after) {
