@@ -286,7 +286,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
         update_shell(shell);
     }
     if (local_ != nullptr) {
-        local_->keep(faces_, ring_faces_);
+        local_->keep(faces_, ring_faces_, kept);
     }
     update_around(kept);
 }

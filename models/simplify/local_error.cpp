@@ -15,14 +15,17 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// The points of a triangle whose mean is exact for quadratic functions.
-constexpr std::array<glm::dvec3, 3> back_weights = {
-    glm::dvec3(2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
-    glm::dvec3(1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0),
-    glm::dvec3(1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0)};
+/// The shares of a triangle's area for which three points on it and its corners stand. The points
+/// alone would do for the mean (Gauss), but the largest distance mostly is that of a vertex.
+constexpr double point_share = 0.3;
+constexpr double corner_share = 0.1 / 3.0;
+constexpr double near_weight = 2.0 / 3.0;
+constexpr double far_weight = 1.0 / 6.0;
 
-glm::dvec3 mixed(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& weights) {
-    return weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
+/// The point that is nearest to a corner.
+glm::dvec3 point_at(const std::array<glm::dvec3, 3>& corners, std::size_t corner) {
+    return near_weight * corners[corner] +
+           far_weight * (corners[(corner + 1) % 3] + corners[(corner + 2) % 3]);
 }
 
 } // namespace
@@ -46,18 +49,21 @@ void LocalError::set_ring(
     std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour) {
     triangles_.clear();
     near_.clear();
+    turns_.clear();
+    moving_ = ring.empty() ? none : surface_.mesh.origin(ring.front().half_edge);
     for (const RingFace& face : ring) {
-        ColouredTriangle made{moved_corners(surface_, face, place), {}};
+        const std::uint32_t next = surface_.mesh.target(face.half_edge);
+        const std::uint32_t last = surface_.mesh.origin(previous_of(face.half_edge));
+        ColouredTriangle made{{none, next, last}, moved_corners(surface_, face, place), {}};
         if (surface_.coloured()) {
             made.colours = {
                 colour,
-                surface_.colours[surface_.mesh.target(face.half_edge)],
-                surface_.colours[surface_.mesh.origin(previous_of(face.half_edge))]};
+                surface_.colours[next],
+                surface_.colours[last]};
         }
         triangles_.push_back(made);
-        const std::uint32_t turn = face.half_edge % 3;
-        const Feet& feet = samples_.feet(face.face);
-        near_.push_back({feet[turn], feet[(turn + 1) % 3], feet[(turn + 2) % 3]});
+        near_.push_back(face.face);
+        turns_.push_back(face.half_edge % 3);
     }
     flatten();
 }
@@ -73,10 +79,9 @@ void LocalError::move_corner(const glm::dvec3& place, const glm::dvec3& colour) 
 void LocalError::set_triangles(
     std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near) {
     triangles_.assign(triangles.begin(), triangles.end());
-    near_.clear();
-    for (const std::uint32_t face : near) {
-        near_.push_back(samples_.feet(face));
-    }
+    near_.assign(near.begin(), near.end());
+    turns_.assign(near.size(), 0);
+    moving_ = none;
     flatten();
 }
 
@@ -109,58 +114,74 @@ double LocalError::measured_there() {
     return sum;
 }
 
+WayBack LocalError::way_back(const OriginalPoint& start, const glm::dvec3& place) const {
+    WayBack found;
+    double distance2 = 0.0;
+    found.foot = original_.nearest_from(start.triangle, place, distance2);
+    found.distance2 = static_cast<float>(distance2);
+    return found;
+}
+
 double LocalError::measured_back(double limit) {
     const Penalty& penalty = samples_.penalty();
     back_errors_.assign(triangles_.size(), 0.0);
-    feet_.resize(triangles_.size());
+    from_points_.resize(triangles_.size());
     max_back2_ = 0.0;
+    if (!triangles_.empty() && triangles_[0].vertices[0] == none) {
+        const WayBack& near =
+            moving_ != none ? samples_.from_vertex(moving_) : samples_.from_face(near_[0])[0];
+        from_moving_ = way_back(near.foot, triangles_[0].places[0]);
+        max_back2_ = static_cast<double>(from_moving_.distance2);
+    }
     double sum = 0.0;
     for (std::size_t t = 0; t < triangles_.size() && sum <= limit; ++t) {
         const std::array<glm::dvec3, 3>& corners = triangles_[t].places;
         const glm::dvec3 normal = area_vector(corners);
         const double area = 0.5 * glm::length(normal);
-        const Feet& near = near_[t];
-        for (std::size_t i = 0; i < back_weights.size(); ++i) {
-            const glm::dvec3 place = mixed(corners, back_weights[i]);
-            double distance2 = 0.0;
-            feet_[t][i] = original_.nearest_from(near[i].triangle, place, distance2);
-            if (glm::dot(original_.normal(feet_[t][i].triangle), normal) < 0.0) {
-                distance2 += area;
+        double mean = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            WayBack& from = from_points_[t][i];
+            from = way_back(
+                samples_.from_face(near_[t])[(turns_[t] + i) % 3].foot, point_at(corners, i));
+            if (glm::dot(original_.normal(from.foot.triangle), normal) < 0.0) {
+                from.distance2 += static_cast<float>(area);
             }
+            const auto distance2 = static_cast<double>(from.distance2);
             max_back2_ = std::max(max_back2_, distance2);
-            back_errors_[t] += area / 3.0 * penalty.of(distance2);
+            mean += point_share * penalty.of(distance2);
         }
+        for (const std::uint32_t vertex : triangles_[t].vertices) {
+            const WayBack& from =
+                vertex == none ? from_moving_ : samples_.from_vertex(vertex);
+            mean += corner_share * penalty.of(static_cast<double>(from.distance2));
+        }
+        back_errors_[t] = area * mean;
         sum += back_errors_[t];
     }
     return sum;
 }
 
-/// Triangles of the original from which to look for the feet of a present triangle: those of the
-/// nearest samples in the lists around it that face its way.
-Feet LocalError::starts_near(std::uint32_t face) {
-    const CollapsibleMesh& mesh = surface_.mesh;
-    const std::array<glm::dvec3, 3> corners = surface_.corner_places(face);
-    const glm::dvec3 normal = area_vector(corners);
-    Feet starts;
-    starts.fill({{}, 0});
-    std::array<double, back_weights.size()> least2;
-    least2.fill(std::numeric_limits<double>::infinity());
+/// A triangle of the original from which to look for the foot of a point on a present triangle:
+/// that of the nearest sample in the lists around it that faces its way.
+std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place) {
     constexpr double against = 100.0; // A factor of the squared distance.
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const glm::dvec3 normal = area_vector(surface_.corner_places(face));
+    std::uint32_t start = 0;
+    double least2 = std::numeric_limits<double>::infinity();
     std::vector<std::uint32_t> looked(1, face);
     for (std::size_t i = 0; i < looked.size(); ++i) {
         samples_.for_each(looked[i], [&](std::uint32_t number) {
             const SurfaceSample& sample = samples_[number];
             const bool faces_it = glm::dot(original_.normal(sample.triangle), normal) > 0.0;
-            for (std::size_t k = 0; k < back_weights.size(); ++k) {
-                const glm::dvec3 off = widen(sample.place) - mixed(corners, back_weights[k]);
-                const double away2 = glm::dot(off, off) * (faces_it ? 1.0 : against);
-                if (away2 < least2[k]) {
-                    least2[k] = away2;
-                    starts[k].triangle = sample.triangle;
-                }
+            const glm::dvec3 off = widen(sample.place) - place;
+            const double away2 = glm::dot(off, off) * (faces_it ? 1.0 : against);
+            if (away2 < least2) {
+                least2 = away2;
+                start = sample.triangle;
             }
         });
-        const bool is_found = std::isfinite(least2[0]);
+        const bool is_found = std::isfinite(least2);
         for (const std::uint32_t corner : mesh.corners(looked[i])) {
             mesh.around(corner, [&](HalfEdge h) {
                 if ((i == 0 || !is_found) &&
@@ -170,22 +191,37 @@ Feet LocalError::starts_near(std::uint32_t face) {
             });
         }
     }
-    return starts;
+    return start;
 }
 
 double LocalError::measure_all_back() {
     const CollapsibleMesh& mesh = surface_.mesh;
+    const auto start_from = [&](WayBack& from, std::uint32_t face, const glm::dvec3& place) {
+        if (from.foot.triangle == none) {
+            from.foot.triangle = start_near(face, place);
+        }
+    };
     double most2 = 0.0;
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        if (mesh.vertex_is_there(vertex)) {
+            WayBack& from = samples_.from_vertex(vertex);
+            start_from(from, mesh.face_at(vertex), surface_.places[vertex]);
+            from = way_back(from.foot, surface_.places[vertex]);
+            most2 = std::max(most2, static_cast<double>(from.distance2));
+        }
+    }
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
         if (mesh.face_is_there(face)) {
-            const ColouredTriangle here{surface_.corner_places(face), {}};
-            triangles_.assign(1, here);
-            near_.assign(1, samples_.feet(face));
-            if (near_[0][0].triangle == none) {
-                near_[0] = starts_near(face);
+            const std::array<glm::dvec3, 3> corners = surface_.corner_places(face);
+            for (std::size_t i = 0; i < 3; ++i) {
+                start_from(samples_.from_face(face)[i], face, point_at(corners, i));
             }
+            triangles_.assign(1, {mesh.corners(face), corners, {}});
+            near_.assign(1, face);
+            turns_.assign(1, 0);
             measured_back();
-            samples_.set_back(face, back_errors_[0], feet_[0]);
+            samples_.from_face(face) = from_points_[0];
+            samples_.set_back_error(face, back_errors_[0]);
             most2 = std::max(most2, max_back2_);
         }
     }
@@ -225,34 +261,52 @@ VertexFit LocalError::fit(bool with_back) const {
             weight,
             samples_.coloured());
     }
+    double around = 0.0;
     for (std::size_t t = 0; with_back && t < triangles_.size(); ++t) {
-        const std::array<glm::dvec3, 3>& corners = triangles_[t].places;
-        const glm::dvec3 normal = area_vector(corners);
+        const glm::dvec3 normal = area_vector(triangles_[t].places);
         const double length = glm::length(normal);
-        const Feet& feet = near_[t];
-        for (std::size_t i = 0; i < back_weights.size() && length > 0.0; ++i) {
-            const glm::dvec3 off = widen(feet[i].place) - mixed(corners, back_weights[i]);
-            const double weight = length / 6.0 * penalty.weight(glm::dot(off, off));
-            fit.add(off, normal / length, back_weights[i].x, weight);
+        if (length > 0.0) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const WayBack& from = samples_.from_face(near_[t])[(turns_[t] + i) % 3];
+                const glm::dvec3 off = widen(from.foot.place) - point_at(triangles_[t].places, i);
+                const double weight = 0.5 * length * penalty.weight(glm::dot(off, off));
+                fit.add(off, normal / length, i == 0 ? near_weight : far_weight, point_share * weight);
+            }
+            around += 0.5 * length;
+        }
+    }
+    if (with_back && moving_ != none && around > 0.0) {
+        const WayBack& from = samples_.from_vertex(moving_);
+        const glm::dvec3 off = widen(from.foot.place) - triangles_[0].places[0];
+        const glm::dvec3 normal = original_.normal(from.foot.triangle);
+        const double length = glm::length(normal);
+        if (length > 0.0) {
+            const double weight = corner_share * around * penalty.weight(glm::dot(off, off));
+            fit.add(off, normal / length, 1.0, weight);
         }
     }
     return fit;
 }
 
 void LocalError::keep(
-    std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces) {
+    std::span<const std::uint32_t> emptied,
+    std::span<const std::uint32_t> faces,
+    std::uint32_t vertex) {
     samples_.assign(block_, emptied, faces);
     for (std::size_t t = 0; t < faces.size(); ++t) {
-        // Feet are kept by the corners of the triangle as the mesh numbers them.
+        const std::uint32_t first = triangles_[t].vertices[0];
+        const Triangle corners = surface_.mesh.corners(faces[t]);
         std::size_t turn = 0;
-        while (turn < 2 && surface_.corner_places(faces[t])[turn] != triangles_[t].places[0]) {
+        while (turn < 2 && corners[turn] != (first == none ? vertex : first)) {
             ++turn;
         }
-        Feet feet;
-        for (std::size_t i = 0; i < feet.size(); ++i) {
-            feet[(turn + i) % 3] = feet_[t][i];
+        for (std::size_t i = 0; i < 3; ++i) {
+            samples_.from_face(faces[t])[(turn + i) % 3] = from_points_[t][i];
         }
-        samples_.set_back(faces[t], back_errors_[t], feet);
+        samples_.set_back_error(faces[t], back_errors_[t]);
+    }
+    if (vertex != none) {
+        samples_.from_vertex(vertex) = from_moving_;
     }
 }
 

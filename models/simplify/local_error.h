@@ -19,6 +19,7 @@ namespace octant::models::simplify {
 
 /// The corners of a triangle, and their colours where there are any.
 struct ColouredTriangle {
+    std::array<std::uint32_t, 3> vertices{none, none, none}; ///< none = it is new or moves.
     std::array<glm::dvec3, 3> places{};
     std::array<glm::dvec3, 3> colours{};
 };
@@ -79,25 +80,33 @@ public:
     /// About how many distances to triangles one measurement takes.
     double work() const;
 
-    /// Accepts the step that was measured last, in full, after the surface was changed: moves the
-    /// samples to the lists of `faces`, the numbers of the new triangles in their order. `emptied`
-    /// are those that were loaded.
-    void keep(std::span<const std::uint32_t> emptied, std::span<const std::uint32_t> faces);
+    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of `faces`,
+    /// the numbers of the new triangles in their order. `emptied` are those that were loaded, and
+    /// `vertex` the number of the vertex that is new or moves, or none.
+    void keep(
+        std::span<const std::uint32_t> emptied,
+        std::span<const std::uint32_t> faces,
+        std::uint32_t vertex);
 
 private:
     void flatten();
-    Feet starts_near(std::uint32_t face);
+    std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);
+    WayBack way_back(const OriginalPoint& start, const glm::dvec3& place) const;
 
     const WorkingSurface& surface_;
     SurfaceSamples& samples_;
     const OriginalSurface& original_;
     SampleBlock block_;
     std::vector<ColouredTriangle> triangles_;
-    /// For each new triangle the feet of a present one, by the new one's corners where known.
-    std::vector<Feet> near_;
+    std::vector<std::uint32_t> near_; ///< For each new triangle a present one.
+    /// The corner of that one which is corner 0 of the new one, where known.
+    std::vector<std::uint32_t> turns_;
     std::vector<FlatTriangle> flat_;
     std::vector<double> back_errors_; ///< For each new triangle.
-    std::vector<Feet> feet_;
+    std::vector<std::array<WayBack, 3>> from_points_; ///< By the corners of each new triangle.
+    WayBack from_moving_; ///< From corner 0 where that is new or moves.
+    /// The vertex that moves, or is merged with another one; none = it is new.
+    std::uint32_t moving_ = none;
     double max_back2_ = 0.0;
     double present_there_ = 0.0;
     double present_back_ = 0.0;

@@ -27,7 +27,7 @@ namespace octant::models::simplify {
 namespace {
 
 /// A distance of so many root mean squares counts twice.
-constexpr double high = 3.0;
+constexpr double high = 1.5;
 /// The shares of an error that a step is expected to take away before one was tried.
 constexpr double expected_of_move = 0.1;
 constexpr double expected_of_flip = 0.05;
@@ -224,7 +224,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
             if (surface_.coloured()) {
                 surface_.colours[vertex] = new_colour;
             }
-            local_.keep(faces_, faces_);
+            local_.keep(faces_, faces_, vertex);
             expect(vertex, expected_again * (before - after), work);
             changed_around(vertex, before - after, work, false);
             return;
@@ -270,7 +270,8 @@ void Optimizer::try_flip(HalfEdge h) {
     const std::uint32_t x = mesh.origin(previous_of(h));
     const std::uint32_t y = mesh.origin(previous_of(mesh.twin(h)));
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{{surface_.places[a], surface_.places[b], surface_.places[c]}, {}};
+        ColouredTriangle made{
+            {a, b, c}, {surface_.places[a], surface_.places[b], surface_.places[c]}, {}};
         if (surface_.coloured()) {
             made.colours = {surface_.colours[a], surface_.colours[b], surface_.colours[c]};
         }
@@ -294,7 +295,7 @@ void Optimizer::try_flip(HalfEdge h) {
         return;
     }
     mesh.flip(h);
-    local_.keep(faces_, faces_);
+    local_.keep(faces_, faces_, none);
     const double work = local_.work();
     for (const std::uint32_t vertex : {u, w, x, y}) {
         expect(vertex, expected_beside * (before - after), work);
@@ -324,7 +325,8 @@ void Optimizer::load_split(HalfEdge h) {
             ? 0.5 * (surface_.colours[mesh.origin(h)] + surface_.colours[mesh.target(h)])
             : glm::dvec3(0.0);
     const auto add = [&](std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{{middle, surface_.places[b], surface_.places[c]}, {}};
+        ColouredTriangle made{
+            {none, b, c}, {middle, surface_.places[b], surface_.places[c]}, {}};
         if (surface_.coloured()) {
             made.colours = {colour, surface_.colours[b], surface_.colours[c]};
         }
@@ -541,7 +543,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     if (surface_.coloured()) {
         surface_.colours[kept] = merged.colour;
     }
-    local_.keep(faces_, ring_faces_);
+    local_.keep(faces_, ring_faces_, kept);
     queue_.remove(gone);
     // The split.
     load_split(split);
@@ -564,7 +566,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     if (surface_.coloured()) {
         surface_.colours[gone] = apart.colour;
     }
-    local_.keep(faces_, made);
+    local_.keep(faces_, made, gone);
     changed_around(kept, gain, work, true);
     changed_around(gone, gain, work, true);
 }

@@ -125,7 +125,7 @@ void assign_from(
         faces[sample] = nearest_face_from(
             surface, faces[sample], samples[sample].place, distances2[sample]);
     }
-    samples.assign_all(faces, distances2, surface.mesh.face_slots());
+    samples.assign_all(faces, distances2, surface.mesh);
 }
 
 /// The mesh with corner normals taken from the original.

@@ -186,19 +186,20 @@ void SurfaceSamples::make_face_room(std::size_t count) {
     counts_.resize(first_.size(), 0);
     errors_.resize(first_.size(), 0.0);
     back_errors_.resize(first_.size(), 0.0);
-    feet_.resize(first_.size());
 }
 
 void SurfaceSamples::assign_all(
     std::span<const std::uint32_t> faces,
     std::span<const float> distances2,
-    std::size_t face_slots) {
+    const CollapsibleMesh& mesh) {
+    const std::size_t face_slots = mesh.face_slots();
     // Fresh ones: there may have been far more triangles.
     first_ = std::vector<std::uint32_t>(face_slots, none);
     counts_ = std::vector<std::uint32_t>(face_slots, 0);
     errors_ = std::vector<double>(face_slots, 0.0);
     back_errors_ = std::vector<double>(face_slots, 0.0);
-    feet_ = std::vector<Feet>(face_slots);
+    from_faces_ = std::vector<std::array<WayBack, 3>>(face_slots);
+    from_vertices_ = std::vector<WayBack>(mesh.vertex_slots());
     std::vector<std::uint32_t> ends(face_slots + 1, 0);
     for (const std::uint32_t face : faces) {
         ++counts_[face];

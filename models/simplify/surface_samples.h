@@ -37,8 +37,11 @@ struct Penalty {
     double weight(double distance2) const { return 1.0 + 2.0 * per_high2 * distance2; }
 };
 
-/// The feet of the points of a triangle at which the way back is measured (LocalError).
-using Feet = std::array<OriginalPoint, 3>;
+/// Where the way back from a point of the current surface ends.
+struct WayBack {
+    OriginalPoint foot;
+    float distance2 = 0.0F;
+};
 
 /// Points of the original surface. Each has the share of the original's area that it stands for as
 /// its weight, and is in the list of that triangle of the current surface that is nearest to it.
@@ -70,12 +73,12 @@ public:
     /// way back to the original (LocalError).
     double error(std::uint32_t face) const { return errors_[face] + back_errors_[face]; }
 
-    void set_back(std::uint32_t face, double error, const Feet& feet) {
-        back_errors_[face] = error;
-        feet_[face] = feet;
-    }
+    void set_back_error(std::uint32_t face, double error) { back_errors_[face] = error; }
 
-    const Feet& feet(std::uint32_t face) const { return feet_[face]; }
+    /// The ways back from three points of a triangle, by its corners, and from a vertex
+    /// (LocalError).
+    std::array<WayBack, 3>& from_face(std::uint32_t face) { return from_faces_[face]; }
+    WayBack& from_vertex(std::uint32_t vertex) { return from_vertices_[vertex]; }
 
     double back_error(std::uint32_t face) const { return back_errors_[face]; }
 
@@ -103,7 +106,7 @@ public:
     void assign_all(
         std::span<const std::uint32_t> faces,
         std::span<const float> distances2,
-        std::size_t face_slots);
+        const CollapsibleMesh& mesh);
 
     const Penalty& penalty() const { return penalty_; }
 
@@ -124,7 +127,8 @@ private:
     std::vector<std::uint32_t> counts_;
     std::vector<double> errors_;
     std::vector<double> back_errors_;
-    std::vector<Feet> feet_;
+    std::vector<std::array<WayBack, 3>> from_faces_;
+    std::vector<WayBack> from_vertices_;
     Penalty penalty_;
 };
 

