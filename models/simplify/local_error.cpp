@@ -99,6 +99,7 @@ double LocalError::measured_there() {
         return 0.0;
     }
     find_nearest(block_, flat_, samples_.coloured());
+    work_done_ += work();
     const Penalty& penalty = samples_.penalty();
     double sum = 0.0;
     for (std::size_t i = 0; i < block_.size(); ++i) {

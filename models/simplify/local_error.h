@@ -80,6 +80,9 @@ public:
     /// About how many distances to triangles one measurement takes.
     double work() const;
 
+    /// The sum of that over all measurements so far.
+    double work_done() const { return work_done_; }
+
     /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of `faces`,
     /// the numbers of the new triangles in their order. `emptied` are those that were loaded, and
     /// `vertex` the number of the vertex that is new or moves, or none.
@@ -108,6 +111,7 @@ private:
     /// The vertex that moves, or is merged with another one; none = it is new.
     std::uint32_t moving_ = none;
     double max_back2_ = 0.0;
+    double work_done_ = 0.0;
     double present_there_ = 0.0;
     double present_back_ = 0.0;
     double area_ = 0.0;

@@ -36,6 +36,8 @@ constexpr double expected_of_split = 0.6;
 /// moves and flips around it these.
 constexpr double expected_again = 0.5;
 constexpr double expected_beside = 0.25;
+/// At most so many distances count as one step; mostly there are some 2,000.
+constexpr double work_of_step = 20'000.0;
 /// A step is made only if it takes away this share of the error around it.
 constexpr double min_share = 1e-3;
 
@@ -178,7 +180,8 @@ std::size_t Optimizer::run(const OptimizeOptions& options) {
                 static_cast<double>(steps) / static_cast<double>(options.max_steps));
         }
         try_step(queue_.top());
-        ++steps;
+        // Steps among very many triangles or samples count several times.
+        steps = std::max(steps + 1, static_cast<std::size_t>(local_.work_done() / work_of_step));
     }
     return steps;
 }

@@ -19,7 +19,7 @@ struct OptimizeOptions {
 
 /// Lowers the error of a surface against samples of its original, both ways, without changing its
 /// number of triangles: applies the step with the best reduction per unit of work. Returns how many
-/// steps were tried.
+/// steps were tried, where very large ones count several times.
 std::size_t optimize(
     WorkingSurface& surface,
     SurfaceSamples& samples,

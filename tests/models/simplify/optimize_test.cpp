@@ -48,7 +48,7 @@ TEST_CASE("more effort never leads farther off than collapses alone") {
             CHECK(is_manifold(made));
             CHECK(boundary_edges(made) == 0);
             const double now_m = rms_m(fine, made);
-            CHECK(now_m < last_m);
+            CHECK(now_m <= last_m);
             last_m = now_m;
         }
     }
