@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace octant::models::repair {
 
@@ -51,6 +53,7 @@ public:
         if (seams_ == Seams::Welded) {
             weld(near_rims(mesh_));
         }
+        split_at_junctions();
         take_out_triangles();
         orient();
         split_vertices();
@@ -112,6 +115,101 @@ private:
         const auto [a, b, c] = triangle;
         return a == b || b == c || c == a ||
                !has_area(mesh_.vertices_m[a], mesh_.vertices_m[b], mesh_.vertices_m[c]);
+    }
+
+    /// The triangles at each edge between vertices that are marked, but for those left out.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> triangles_at_edges(
+        const std::vector<bool>& marked, const std::vector<bool>& left_out) const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> found;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            for (std::size_t i = 0; i < 3 && !(t < left_out.size() && left_out[t]); ++i) {
+                const std::uint32_t from = mesh_.triangles[t][i];
+                const std::uint32_t to = mesh_.triangles[t][(i + 1) % 3];
+                if (marked[from] && marked[to]) {
+                    found[std::minmax(from, to)].push_back(t);
+                }
+            }
+        }
+        return found;
+    }
+
+    /// A triangle without an area that has three vertices closes a T-junction: its middle vertex
+    /// lies on its longest side. The neighbour at that side is split at the vertex, so that nothing
+    /// opens when the triangle is taken out.
+    void split_at_junctions() {
+        std::vector<std::uint32_t> thin;
+        std::vector<bool> marked(mesh_.vertices_m.size(), false);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            const auto [a, b, c] = mesh_.triangles[t];
+            if (a != b && b != c && c != a && is_degenerate(mesh_.triangles[t])) {
+                thin.push_back(t);
+                marked[a] = marked[b] = marked[c] = true;
+            }
+        }
+        std::vector<bool> done(mesh_.triangles.size(), false);
+        for (bool changed = !thin.empty(); changed;) {
+            changed = false;
+            const auto at_edges = triangles_at_edges(marked, done);
+            std::vector<bool> touched(mesh_.triangles.size(), false);
+            for (const std::uint32_t t : thin) {
+                changed = (!done[t] && split_neighbour(t, at_edges, touched, done)) || changed;
+            }
+        }
+    }
+
+    /// Splits the neighbour at the longest side of a triangle without an area, if it is the only
+    /// one there, has an area and was not split in this round.
+    bool split_neighbour(
+        std::uint32_t thin,
+        const std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>&
+            at_edges,
+        std::vector<bool>& touched,
+        std::vector<bool>& done) {
+        const Triangle corners = mesh_.triangles[thin];
+        const auto length_m = [&](std::size_t i) {
+            return glm::distance(
+                mesh_.vertices_m[corners[i]], mesh_.vertices_m[corners[(i + 1) % 3]]);
+        };
+        std::size_t side = 0;
+        for (const std::size_t i : {1U, 2U}) {
+            side = length_m(i) > length_m(side) ? i : side;
+        }
+        const std::size_t middle = (side + 2) % 3;
+        const auto found = at_edges.find(std::minmax(corners[side], corners[(side + 1) % 3]));
+        if (found == at_edges.end() || found->second.size() != 2) {
+            return false;
+        }
+        const std::uint32_t other =
+            found->second[0] == thin ? found->second[1] : found->second[0];
+        if (other == thin || touched[other] || is_degenerate(mesh_.triangles[other])) {
+            return false;
+        }
+        std::size_t from = 0;
+        while (mesh_.triangles[other][(from + 2) % 3] == corners[side] ||
+               mesh_.triangles[other][(from + 2) % 3] == corners[(side + 1) % 3]) {
+            ++from;
+        }
+        const std::size_t to = (from + 1) % 3;
+        touched[other] = done[thin] = true;
+        const auto split = [&](auto& list, const auto& at_middle) {
+            if (!list.empty()) {
+                list.push_back(list[other]);
+                list.back()[from] = at_middle;
+                list[other][to] = at_middle;
+            }
+        };
+        split(mesh_.triangles, corners[middle]);
+        split(named_, std::uint32_t(named_[thin][middle]));
+        if (!corner_colours_.empty()) {
+            split(corner_colours_, glm::vec3(corner_colours_[thin][middle]));
+        }
+        if (!mesh_.corner_normals.empty()) {
+            split(mesh_.corner_normals, std::uint32_t(mesh_.corner_normals[other][from]));
+        }
+        if (!mesh_.triangle_materials.empty()) {
+            mesh_.triangle_materials.push_back(std::uint32_t(mesh_.triangle_materials[other]));
+        }
+        return true;
     }
 
     void take_out_triangles() {

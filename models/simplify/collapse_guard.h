@@ -9,22 +9,10 @@
 
 namespace octant::models::simplify {
 
-/// How much a triangle may change when one of its corners moves.
-enum class Strictness {
-    Strips, ///< As Normal, but it may also become a sliver if it keeps its normal.
-    Normal, ///< It may turn by less than 78 degrees and may not become a sliver.
-    Loose,  ///< It may turn by less than 90 degrees.
-    None    ///< Anything is allowed.
-};
-
-/// Whether a triangle with corners `before` may get the corners `after`. One that is no higher than
-/// `negligible` before and after, in working units, may turn over: that is no more wrong than the
-/// surface is already, and the rim of a thin plate cannot go otherwise.
+/// Whether a triangle with corners `before` may get the corners `after`: it turns by less than 90
+/// degrees and has an area. One without an area may become any that has one.
 bool may_become(
-    const std::array<glm::dvec3, 3>& before,
-    const std::array<glm::dvec3, 3>& after,
-    Strictness strictness,
-    double negligible = 0.0);
+    const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after);
 
 /// Whether the two triangles at an edge may become the two given ones when the edge is flipped,
 /// whichever new one is compared with whichever old one.
@@ -34,19 +22,16 @@ bool may_flip_to(
 
 /// Whether every triangle of a ring may have its moving corner at `place`, by may_become.
 bool may_move(
-    const WorkingSurface& surface,
-    std::span<const RingFace> ring,
-    const glm::dvec3& place,
-    Strictness strictness,
-    double negligible = 0.0);
-
-/// Strips for an uncoloured surface on which at least every fourth edge is flat, as on machined
-/// parts with long strips along their cylinders; else Normal.
-Strictness strictness_for(const WorkingSurface& surface);
+    const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
 
 /// The corners of a triangle of a ring when its moving corner is at `place`; that corner comes
 /// first.
-std::array<glm::dvec3, 3>
-moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place);
+inline std::array<glm::dvec3, 3>
+moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place) {
+    return {
+        place,
+        surface.places[surface.mesh.target(face.half_edge)],
+        surface.places[surface.mesh.origin(previous_of(face.half_edge))]};
+}
 
 } // namespace octant::models::simplify

@@ -200,6 +200,58 @@ void CollapsibleMesh::collapse(HalfEdge h) {
     }
 }
 
+void CollapsibleMesh::split(
+    HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces) {
+    assert(!vertex_is_there(vertex) && !face_is_there(faces[0]));
+    const HalfEdge other = twins_[h];
+    const std::uint32_t w = target(h);
+    const HalfEdge a = 3 * faces[0]; // From the new vertex to w.
+    const HalfEdge wx = next_of(h);
+    const HalfEdge beyond = twins_[wx];
+    origins_[a] = vertex;
+    origins_[a + 1] = w;
+    origins_[a + 2] = origin(previous_of(h));
+    origins_[wx] = vertex;
+    join(a + 1, beyond);
+    join(wx, a + 2);
+    twins_[a] = none;
+    ++face_count_;
+    ++vertex_count_;
+    if (other != none) {
+        assert(!face_is_there(faces[1]));
+        const HalfEdge b = 3 * faces[1]; // From w to the new vertex.
+        const HalfEdge yw = previous_of(other);
+        const HalfEdge far = twins_[yw];
+        origins_[b] = w;
+        origins_[b + 1] = vertex;
+        origins_[b + 2] = origin(yw);
+        origins_[other] = vertex;
+        join(b + 2, far);
+        join(b + 1, yw);
+        join(a, b);
+        ++face_count_;
+    }
+    set_out(a);
+    set_out(a + 1);
+    set_out(previous_of(h));
+    set_out(h);
+    if (other != none) {
+        set_out(previous_of(other));
+    }
+}
+
+void CollapsibleMesh::remove(std::uint32_t face) {
+    for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
+        if (outs_[origins_[h]] != none) {
+            outs_[origins_[h]] = none;
+            --vertex_count_;
+        }
+        origins_[h] = none;
+        twins_[h] = none;
+    }
+    --face_count_;
+}
+
 KeptSlots CollapsibleMesh::compact() {
     KeptSlots kept;
     std::vector<std::uint32_t> new_vertices(vertex_slots(), none);

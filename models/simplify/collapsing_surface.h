@@ -48,6 +48,9 @@ public:
     /// For each vertex slot its number in the collapse sequence.
     const std::vector<std::uint32_t>& vertex_numbers() const { return vertex_numbers_; }
 
+    /// For each triangle slot its number in the mesh at first.
+    const std::vector<std::uint32_t>& face_numbers() const { return face_numbers_; }
+
 private:
     WorkingSurface& surface_;
     const WorkingUnits& units_;

@@ -10,7 +10,7 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// A wanted error may take this many tries, each with a polish and a certified distance.
+/// A wanted error may take this many tries, each with an optimization and a certified distance.
 constexpr int most_tries = 6;
 /// Another try is made only while more than this share of the faces is in question.
 constexpr double close_enough = 0.03;
@@ -44,14 +44,14 @@ private:
     /// The number of faces is assumed to grow with this power of 1 / error.
     static constexpr double steepness = 1.5;
     /// The first try is where the estimate reaches this many times the wanted error, which the
-    /// polish lowers.
+    /// optimization lowers.
     static constexpr double first_try = 1.2;
 
     /// The number of collapses of the first try, from the estimates in the sequence.
     std::size_t first_guess() const {
         const auto& all = sequence_.collapses;
         const double estimate_m =
-            (options_.quality == Quality::Surface ? first_try : 0.9) * error_m_;
+            first_try * error_m_;
         const auto over = std::ranges::find_if(
             all, [estimate_m](const Collapse& collapse) { return collapse.error_m > estimate_m; });
         return static_cast<std::size_t>(over - all.begin());
@@ -125,7 +125,7 @@ private:
 
 } // namespace
 
-KeptError most_collapses_within(
+KeptError max_collapses_within(
     const CollapseSequence& sequence,
     const SimplifyOptions& options,
     const MeshAfter& finished_after) {

@@ -9,7 +9,7 @@
 
 namespace octant::models::simplify {
 
-/// Makes the finished mesh (polished, with normals) after so many collapses of a sequence.
+/// Makes the finished mesh (optimized, with normals) after so many collapses of a sequence.
 using MeshAfter = std::function<TriangleMesh(std::size_t collapses)>;
 
 struct KeptError {
@@ -21,7 +21,7 @@ struct KeptError {
 /// Searches for the most collapses whose finished mesh keeps the wanted error
 /// (options.goal.error_m, which must be there) by its certified distance, so that whoever measures
 /// it again with the usual tightness finds it kept. Each try makes a mesh and measures it.
-KeptError most_collapses_within(
+KeptError max_collapses_within(
     const CollapseSequence& sequence,
     const SimplifyOptions& options,
     const MeshAfter& finished_after);

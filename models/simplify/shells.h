@@ -1,33 +1,75 @@
 #pragma once
 
-#include "models/collapse_sequence.h"
-#include "models/triangle_mesh.h"
+#include "models/measure/triangle_bvh.h"
+#include "models/simplify/collapsing_surface.h"
+#include "models/simplify/original_surface.h"
+#include "models/simplify/surface_samples.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace octant::models::simplify {
 
-/// The connected pieces of a mesh.
-struct Shells {
-    std::vector<std::uint32_t> of_triangle; ///< the number of its shell
-    std::vector<double> sizes_m;            ///< diagonals of their bounding boxes
+/// The connected pieces of a surface that collapses, and what it costs to drop one.
+class Shells {
+public:
+    /// The samples must be in lists. All must outlive this.
+    Shells(
+        CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original);
+
+    std::size_t count() const { return faces_.size(); }
+
+    /// Of those that were not dropped.
+    std::size_t count_left() const { return count_left_; }
+
+    std::uint32_t shell_of(std::uint32_t face) const { return of_face_[face]; }
+
+    /// The number of triangles that a shell has now; 0 = it was dropped.
+    std::size_t face_count(std::uint32_t shell) const { return face_counts_[shell]; }
+
+    /// Counts triangles of a shell that went.
+    void lose(std::uint32_t shell, std::size_t faces) { face_counts_[shell] -= faces; }
+
+    /// How much the error grows when a shell is dropped: its samples are then as far off as the
+    /// nearest other shell of the original. Infinite where there is none, or where that is far.
+    double cost(std::uint32_t shell) const;
+
+    /// Drops a shell. `gone` is called with each of its triangles before. Its samples go to the
+    /// triangles that are then nearest.
+    template <typename Gone>
+    void drop(std::uint32_t shell, const Gone& gone) {
+        std::vector<std::uint32_t> numbers;
+        for (const std::uint32_t face : faces_[shell]) {
+            if (surface_.mesh.face_is_there(face)) {
+                samples_.for_each(face, [&](std::uint32_t number) { numbers.push_back(number); });
+                samples_.clear(face);
+                gone(face);
+                surface_.mesh.remove(face);
+            }
+        }
+        face_counts_[shell] = 0;
+        --count_left_;
+        move_samples(shell, numbers);
+    }
+
+private:
+    void move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers);
+    measure::NearestOnMesh nearest_other(std::uint32_t shell, const glm::dvec3& place) const;
+
+    WorkingSurface& surface_;
+    SurfaceSamples& samples_;
+    const OriginalSurface& original_;
+    std::vector<std::uint32_t> of_face_; ///< For each triangle slot.
+    std::vector<std::vector<std::uint32_t>> faces_; ///< Of each shell at first.
+    std::vector<std::size_t> face_counts_;
+    std::size_t count_left_ = 0;
+    std::vector<std::uint32_t> of_original_; ///< For each triangle of the original.
+    /// For each triangle of the original a sample on it or near it.
+    std::vector<std::uint32_t> sample_near_;
+    std::unique_ptr<const measure::TriangleBvh> bvh_; ///< Null where there is only one shell.
 };
-
-Shells shells_of(const TriangleMesh& mesh);
-
-/// Which shells of a mesh may stay so that it gets down to `faces`, in some ways: the
-/// largest ones, or the largest and then whichever is farthest from those that stay, as long as
-/// there is room for the triangles that the collapses left of each, with less or more to spare.
-/// Of very many shells the largest ones alone. `exhausted`: collapses of the mesh until none was
-/// possible any more.
-std::vector<std::vector<bool>>
-shells_that_may_stay(const Shells& shells, const CollapseSequence& exhausted, std::size_t faces);
-
-/// The mesh with the triangles of some shells alone, in their order; vertices in the order of their
-/// first corners.
-TriangleMesh
-only_shells(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& stays);
 
 } // namespace octant::models::simplify

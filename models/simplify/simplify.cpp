@@ -1,6 +1,6 @@
-// The product's simplification: edge collapses (collapse_run.cpp), as many as a wanted error allows
-// (error_search.cpp), and then a polish (polish.cpp), after which corner normals are taken over
-// (attributes.cpp).
+// The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error
+// allows (error_search.cpp), then an optimization (optimize.cpp), after which corner normals are
+// taken over (attributes.cpp).
 //
 // It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
 // which the distance to triangles in both directions comes: the reference is the original surface
@@ -11,310 +11,281 @@
 
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/attributes.h"
-#include "models/simplify/collapse_rounds.h"
-#include "models/simplify/collapse_run.h"
-#include "models/simplify/collapsing_surface.h"
-#include "models/simplify/edge_splits.h"
+#include "models/simplify/edge_collapse.h"
 #include "models/simplify/error_search.h"
-#include "models/simplify/passes.h"
-#include "models/simplify/point_lists.h"
-#include "models/simplify/polish.h"
+#include "models/simplify/optimize.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
+#include <ctime>
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace octant::models::simplify {
 
 namespace {
 
-/// At least so many points stand for an original surface: where it is coloured, its borders need
-/// them all.
-std::size_t least_points(std::size_t triangles, bool coloured) {
-    constexpr std::size_t enough = 24'000;
-    return coloured ? enough : std::clamp(24 * triangles, std::size_t{8'000}, enough);
-}
-
-/// How many times the wanted error collapses go by their own estimate: the polish may bring the
-/// error back.
+/// Collapses are chosen by samples where at most so many times the wanted triangles are left.
+constexpr std::size_t sampled_faces = 4;
+constexpr std::size_t min_sampled_faces = 2000;
+/// For a wanted error, once quadrics estimate this share of it.
+constexpr double sampled_error = 0.1;
+/// And so far beyond it collapses go by their own estimate: the optimization brings it back.
 constexpr double beyond_goal = 2.0;
 
-/// The rounds of the polish before and after the collapses of a revision, whose surface is polished
-/// already.
-constexpr int revision_rounds = 4;
-/// How the largest distance is lowered by looking closely, where triangles are few and large.
-constexpr PeakOptions close_peaks{.least_looks = 110'000, .samples = 40'000};
-/// And how Quality::Fast lowers it.
-constexpr PeakOptions quick_peaks{.least_looks = 60'000, .looks_a_face = 3, .samples = 8'000};
-
-/// Whether each triangle that is left of a large mesh stands for many.
-bool stands_for_many(const TargetMesh& target, std::size_t faces_left) {
-    constexpr std::size_t large = 100'000;
-    constexpr std::size_t many = 30;
-    return target.face_count() > std::max(large, many * faces_left);
+double cpu_s() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// How thoroughly to polish.
-PolishOptions polish_options(
-    const WorkingSurface& surface,
-    const TargetMesh& target,
-    double diagonal_m,
-    const SimplifyOptions& options) {
-    constexpr std::size_t many = 9;    // Triangles of the target for each one of the surface.
-    constexpr std::size_t few = 3'000; // Triangles of a surface that is soon polished.
-    // Of a target whose results are revised, and so polished again (best_of_passes).
-    constexpr std::size_t soon_revised = 30'000;
-    PolishOptions polish;
-    polish.threads = options.threads;
-    polish.slivers_too = options.fits_slivers;
-    // Borders of colours and materials would not be looked at.
-    if (!surface.coloured() && surface.materials.empty()) {
-        polish.peaks = close_peaks;
-    }
-    polish.avoided2 = std::pow(options.avoided_m / diagonal_m, 2.0);
-    if (options.quality == Quality::Fast) {
-        polish.rounds = stands_for_many(target, surface.mesh.face_count()) ? 2 : 1;
-        polish.fields = 2;
-        polish.extremes = options.lowers_peaks;
-        polish.peaks = quick_peaks;
-    } else if (target.face_count() > many * surface.mesh.face_count()) {
-        polish.fields = 4;
-    }
-    if (options.quality == Quality::Surface && surface.mesh.face_count() <= few) {
-        const bool is_revised = !surface.coloured() && target.face_count() <= soon_revised;
-        polish.rounds = is_revised ? 8 : 12;
-    }
-    return polish;
+/// How many samples stand for a surface: some dozens for each triangle that is to be left.
+std::size_t wanted_samples(std::size_t original_faces, std::size_t faces_left) {
+    constexpr std::size_t samples_a_face = 32;
+    constexpr std::size_t samples_an_original_face = 4;
+    constexpr std::size_t min_samples = 6'000;
+    return std::max(
+        std::min(samples_a_face * faces_left, samples_an_original_face * original_faces),
+        min_samples);
 }
 
-/// Polishes the surface and converts it to file units, with names and materials of `names`.
-TriangleMesh polished_in(
-    WorkingSurface& surface,
-    TrackedPoints& points,
-    const TriangleMesh& names,
-    const TargetMesh& target,
-    const WorkingUnits& units,
-    const SimplifyOptions& options) {
-    const measure::TriangleBvh bvh(target.places, target.triangles);
-    polish(
-        surface, points, {target, bvh}, polish_options(surface, target, units.diagonal_m, options));
-    return surface.to_mesh(names, units);
+/// How many steps an effort is. Where few triangles are left of many, each one is worth more steps.
+std::size_t steps_of(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
+    if (options.steps) {
+        return *options.steps;
+    }
+    if (options.effort <= 0) {
+        return 0;
+    }
+    const double share = std::ldexp(1.0, options.effort - 2);
+    return static_cast<std::size_t>(
+        share * std::sqrt(static_cast<double>(faces) * static_cast<double>(original)));
+}
+
+OptimizeOptions optimize_options(
+    const SimplifyOptions& options, std::size_t faces, std::size_t original) {
+    OptimizeOptions how;
+    how.max_steps = steps_of(options, faces, original);
+    if (options.max_seconds) {
+        using Clock = std::chrono::steady_clock;
+        const auto end = Clock::now() + std::chrono::duration<double>(*options.max_seconds);
+        how.max_steps = std::numeric_limits<std::size_t>::max();
+        how.is_time_over = [end] { return Clock::now() > end; };
+    }
+    return how;
+}
+
+/// For each sample the corner of its triangle that is nearest to it.
+std::vector<std::uint32_t>
+anchors_of(const WorkingSurface& surface, const SurfaceSamples& samples) {
+    std::vector<std::uint32_t> anchors(samples.size());
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
+        const std::array<float, 3>& at = samples[sample].place;
+        double least2 = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t corner : surface.mesh.corners(samples[sample].face)) {
+            const glm::dvec3 off = surface.places[corner] - glm::dvec3(at[0], at[1], at[2]);
+            if (glm::dot(off, off) < least2) {
+                least2 = glm::dot(off, off);
+                anchors[sample] = corner;
+            }
+        }
+    }
+    return anchors;
+}
+
+/// For each vertex slot before compact() the slot, after it, of the vertex that it became.
+std::vector<std::uint32_t> compacted(CollapsingSurface& collapsing) {
+    const std::vector<Collapse>& collapses = collapsing.collapses();
+    const CollapsibleMesh& mesh = collapsing.surface().mesh;
+    std::vector<std::uint32_t> slots(collapsing.first_vertices() + collapses.size(), none);
+    std::uint32_t count = 0;
+    for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
+        if (mesh.vertex_is_there(slot)) {
+            slots[collapsing.vertex_numbers()[slot]] = count++;
+        }
+    }
+    for (std::size_t i = collapses.size(); i-- > 0;) {
+        slots[collapses[i].first] = slots[collapsing.first_vertices() + i];
+        slots[collapses[i].second] = slots[collapsing.first_vertices() + i];
+    }
+    collapsing.compact();
+    slots.resize(collapsing.first_vertices());
+    return slots;
+}
+
+/// Puts each sample into the list of the nearest triangle, found from one near it.
+void assign_from(
+    const WorkingSurface& surface, SurfaceSamples& samples, std::span<std::uint32_t> faces) {
+    std::vector<float> distances2(samples.size());
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
+        faces[sample] = nearest_face_from(
+            surface, faces[sample], samples[sample].place, distances2[sample]);
+    }
+    samples.assign_all(faces, distances2, surface.mesh);
 }
 
 /// The mesh with corner normals taken from the original.
 TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
-    if (!original.corner_normals.empty()) {
+    if (!original.corner_normals.empty() && !mesh.triangles.empty()) {
         take_normals(mesh, original, measure::TriangleBvh(original));
     }
     return mesh;
 }
 
-/// The mesh after so many collapses of a sequence, as it is handed out.
-TriangleMesh
-finished(const CollapseSequence& sequence, std::size_t collapses, const SimplifyOptions& options) {
-    TriangleMesh mesh = mesh_after(sequence, collapses);
-    return collapses > 0 ? polished(std::move(mesh), sequence.original, options)
-                         : with_normals(std::move(mesh), sequence.original);
-}
+/// Collapses of a mesh, with samples of what it was.
+class Simplification {
+public:
+    Simplification(TriangleMesh original, const SimplifyOptions& options)
+        : options_(options)
+        , original_(std::move(original))
+        , units_(WorkingUnits::of(original_, options.colour_weight))
+        , surface_(original_, units_)
+        , target_(surface_)
+        , collapsing_(surface_, units_, EdgeWeights{}) {}
 
-/// How many points track the original. Where there are colours there must be enough to show their
-/// borders; where a triangle stands for many, some dozens for each are enough.
-std::size_t
-wanted_points(const TargetMesh& target, std::size_t faces_left, const SimplifyOptions& options) {
-    constexpr std::size_t points_a_face = 32;
-    if (!target.coloured() && stands_for_many(target, faces_left)) {
-        return std::min(target.places.size(), points_a_face * faces_left);
+    /// Collapses to the goal: by quadrics as long as that is far, then by samples.
+    void collapse(const Goal& goal) {
+        const std::size_t before = surface_.mesh.face_count();
+        const std::size_t faces = goal.error_m ? before / 4 : wanted_faces(goal);
+        SurfaceSamples samples(surface_, wanted_samples(before, faces));
+        std::vector<std::uint32_t> near = anchors_of(surface_, samples);
+        Goal first{{}, std::max(sampled_faces * faces, min_sampled_faces), {}};
+        if (goal.error_m) {
+            first = {{}, {}, sampled_error * *goal.error_m};
+        }
+        collapse_by_quadrics(collapsing_, first, options_);
+        const std::vector<std::uint32_t> slots = compacted(collapsing_);
+        for (std::uint32_t& anchor : near) {
+            anchor = surface_.mesh.face_at(slots[anchor]);
+        }
+        assign_from(surface_, samples, near);
+        LocalError(surface_, samples, target_).measure_all_back();
+        shells_gone_ = collapse_by_samples(collapsing_, samples, target_, goal, options_);
+        samples_.emplace(std::move(samples));
     }
-    return options.quality == Quality::Surface || target.coloured()
-               ? least_points(target.face_count(), target.coloured())
-               : target.places.size() + 1;
-}
 
-CollapseSequence
-sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& options) {
-    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    WorkingSurface surface(original, units);
-    std::optional<TrackedPoints> points;
-    if (options.quality == Quality::Surface) {
-        points.emplace(
-            TargetMesh(original, units),
-            least_points(original.triangles.size(), !original.colours.empty()));
+    std::size_t optimize() {
+        return simplify::optimize(
+            surface_,
+            *samples_,
+            target_,
+            optimize_options(options_, surface_.mesh.face_count(), original_.triangles.size()));
     }
-    CollapsingSurface collapsing(surface, units, points ? EdgeWeights{} : cost_weights);
-    const Chooser chooser = points ? Chooser::Distances : Chooser::Quadrics;
-    CollapseRun run(collapsing, chooser, points ? &*points : nullptr, nullptr, options);
-    run.run(goal, options.show_progress);
-    return {std::move(original), std::move(collapsing.collapses())};
-}
+
+    TriangleMesh mesh() const {
+        return with_normals(surface_.to_mesh(original_, units_), original_);
+    }
+
+    std::size_t shells_gone() const { return shells_gone_; }
+
+    CollapseSequence sequence() {
+        if (shells_gone_ > 0) {
+            return {};
+        }
+        return {std::move(original_), std::move(collapsing_.collapses())};
+    }
+
+private:
+    const SimplifyOptions& options_;
+    TriangleMesh original_;
+    WorkingUnits units_;
+    WorkingSurface surface_;
+    OriginalSurface target_;
+    CollapsingSurface collapsing_;
+    std::optional<SurfaceSamples> samples_;
+    std::size_t shells_gone_ = 0;
+};
 
 /// Simplifies to a wanted error: one sequence of collapses beyond it, and then a search along the
 /// sequence.
 Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
-    Goal goal = options.goal;
-    if (options.quality == Quality::Surface) {
-        goal.error_m = *goal.error_m * beyond_goal;
-    }
     Simplified result;
-    result.sequence = sequence_to(goal, std::move(original), options);
-    KeptError kept = most_collapses_within(result.sequence, options, [&](std::size_t collapses) {
-        return finished(result.sequence, collapses, options);
+    const double start_s = cpu_s();
+    SimplifyOptions keeping = options;
+    keeping.keep_shells = true; // A sequence has only collapses.
+    {
+        Goal goal = options.goal;
+        goal.error_m = beyond_goal * *goal.error_m;
+        Simplification work(std::move(original), keeping);
+        work.collapse(goal);
+        result.sequence = work.sequence();
+    }
+    const double collapsed_s = cpu_s();
+    KeptError kept = max_collapses_within(result.sequence, options, [&](std::size_t collapses) {
+        const TriangleMesh mesh = mesh_after(result.sequence, collapses);
+        return collapses == 0 ? with_normals(mesh, result.sequence.original)
+                              : optimized(mesh, result.sequence.original, options);
     });
     result.sequence.collapses.resize(kept.collapses);
     result.mesh = std::move(kept.mesh);
+    result.collapse_cpu_s = collapsed_s - start_s;
+    result.optimize_cpu_s = cpu_s() - collapsed_s;
     return result;
-}
-
-/// Collapses in rounds for as long as their errors are far below those at the goal; not at all on
-/// meshes of moderate size.
-void begin_in_rounds(
-    CollapsingSurface& collapsing, Chooser chooser, const SimplifyOptions& options) {
-    constexpr std::size_t far = 8; // times the triangles of the goal
-    constexpr std::size_t moderate = 50'000;
-    RoundOptions rounds;
-    rounds.faces = std::max(moderate, far * wanted_faces(options.goal));
-    if (collapsing.first_faces() < 2 * rounds.faces) {
-        return;
-    }
-    rounds.strictness = first_strictness(collapsing.surface(), chooser, options);
-    rounds.low_may_turn = options.low_may_turn;
-    rounds.threads = options.threads;
-    // No more than vertices: at a boundary a collapse takes one triangle instead of two.
-    collapsing.collapses().reserve(collapsing.first_vertices());
-    collapse_in_rounds(collapsing, rounds);
-}
-
-/// The tracked points of a surface that is about to collapse on.
-TrackedPoints points_of(
-    const CollapsingSurface& collapsing,
-    const TriangleMesh& original,
-    const SimplifyOptions& options) {
-    const TargetMesh target(original, collapsing.units());
-    const std::size_t wanted = wanted_points(target, wanted_faces(options.goal), options);
-    if (collapsing.collapses().empty()) {
-        return {target, wanted};
-    }
-    TrackedPoints points = points_carried(collapsing, target, wanted);
-    for (int time = 0; time < 2; ++time) {
-        list_nearer(collapsing.surface(), points, options.threads);
-    }
-    measure_lists(collapsing.surface(), points);
-    return points;
-}
-
-/// The weights of edges that suit what chooses the collapses.
-EdgeWeights weights_for(Chooser chooser) {
-    if (measures_distances(chooser)) {
-        return {};
-    }
-    return chooser == Chooser::Planes ? alike_weights : cost_weights;
-}
-
-/// Simplifies to a goal of vertices or faces in one pass (OnePass).
-Simplified
-simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by) {
-    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    WorkingSurface surface(original, units);
-    const bool measures = measures_distances(chosen_by);
-    CollapsingSurface collapsing(surface, units, weights_for(chosen_by));
-    begin_in_rounds(collapsing, chosen_by, options);
-    std::optional<TrackedPoints> points;
-    if (measures) {
-        points.emplace(points_of(collapsing, original, options));
-    }
-    std::optional<measure::TriangleBvh> tree;
-    if (measures && std::isfinite(options.avoided_m)) {
-        tree.emplace(surface.places, original.triangles);
-    }
-    CollapseRun(
-        collapsing, chosen_by, points ? &*points : nullptr, tree ? &*tree : nullptr, options)
-        .run(options.goal, options.show_progress);
-    Simplified result;
-    result.chosen_by = chosen_by;
-    result.sequence.original = std::move(original);
-    const TargetMesh target(result.sequence.original, units);
-    if (!points) {
-        points.emplace(points_carried(
-            collapsing, target, wanted_points(target, surface.mesh.face_count(), options)));
-    }
-    result.sequence.collapses = std::move(collapsing.collapses());
-    if (result.sequence.collapses.empty()) {
-        result.mesh = finished(result.sequence, 0, options);
-        return result;
-    }
-    result.mesh = with_normals(
-        polished_in(surface, *points, result.sequence.original, target, units, options),
-        result.sequence.original);
-    return result;
-}
-
-/// One revision (Revise): edges are split where the result is farthest off, and the cheapest ones
-/// collapse instead.
-TriangleMesh resplit(
-    const TriangleMesh& mesh,
-    const TriangleMesh& original,
-    const SimplifyOptions& options,
-    const Revision& revision) {
-    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    const TargetMesh target(original, units);
-    const measure::TriangleBvh bvh(target.places, target.triangles);
-    const std::size_t wanted = wanted_points(target, mesh.triangles.size(), options);
-    TriangleMesh split;
-    {
-        const WorkingSurface surface(mesh, units);
-        TrackedPoints points = points_on(surface, target, wanted);
-        split = with_split_edges(
-            mesh, split_needs(surface, points, {target, bvh}, revision.split_by), revision.splits);
-    }
-    WorkingSurface surface(split, units);
-    surface.holds_borders = true; // They would move a little each time.
-    TrackedPoints points = points_on(surface, target, wanted);
-    PolishOptions how = polish_options(surface, target, units.diagonal_m, options);
-    how.rounds = revision_rounds;
-    how.extremes = false;
-    polish(surface, points, {target, bvh}, how);
-    list_nearer(surface, points, options.threads);
-    measure_lists(surface, points);
-    const bool measures = measures_distances(revision.chooser);
-    CollapsingSurface collapsing(surface, units, weights_for(revision.chooser));
-    CollapseRun(collapsing, revision.chooser, measures ? &points : nullptr, &bvh, options)
-        .run(options.goal, {});
-    if (!measures) {
-        surface.compact();
-        points = points_on(surface, target, wanted);
-    }
-    how.extremes = true;
-    polish(surface, points, {target, bvh}, how);
-    return with_normals(surface.to_mesh(original, units), original);
 }
 
 } // namespace
 
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
+    const bool is_met = (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
+                        (options.goal.vertices &&
+                         original.vertices_m.size() <= *options.goal.vertices);
+    if (original.triangles.empty() || is_met) {
+        return {.mesh = original, .sequence = {std::move(original), {}}};
+    }
     if (options.goal.error_m) {
         return simplified_to_error(std::move(original), options);
     }
-    return best_of_passes(std::move(original), options, {simplified_to_count, resplit});
+    Simplified result;
+    const double start_s = cpu_s();
+    Simplification work(std::move(original), options);
+    work.collapse(options.goal);
+    const double collapsed_s = cpu_s();
+    result.shells_gone = work.shells_gone();
+    result.steps = work.optimize();
+    result.mesh = work.mesh();
+    result.sequence = work.sequence();
+    result.collapse_cpu_s = collapsed_s - start_s;
+    result.optimize_cpu_s = cpu_s() - collapsed_s;
+    return result;
 }
 
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {
-    assert(options.quality == Quality::Fast && !options.goal.error_m);
-    SimplifyOptions facing = options;
-    facing.low_may_turn = false;
-    return sequence_to(facing.goal, std::move(original), facing);
+    assert(!options.goal.error_m);
+    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
+    WorkingSurface surface(original, units);
+    CollapsingSurface collapsing(surface, units, cost_weights);
+    collapse_by_quadrics(collapsing, options.goal, options);
+    return {std::move(original), std::move(collapsing.collapses())};
 }
 
 TriangleMesh
-polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions& options) {
+optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options) {
     if (mesh.triangles.empty() || original.triangles.empty()) {
         return mesh;
     }
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    const TargetMesh target(original, units);
+    const WorkingSurface fine(original, units);
+    const OriginalSurface target(fine);
+    SurfaceSamples samples(
+        fine, wanted_samples(original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface(mesh, units);
-    TrackedPoints points =
-        points_on(surface, target, wanted_points(target, surface.mesh.face_count(), options));
-    return with_normals(polished_in(surface, points, mesh, target, units, options), original);
+    const measure::TriangleBvh tree(surface.places, mesh.triangles);
+    std::vector<std::uint32_t> faces(samples.size());
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
+        const std::array<float, 3>& at = samples[sample].place;
+        faces[sample] = tree.nearest({at[0], at[1], at[2]}).triangle;
+    }
+    assign_from(surface, samples, faces);
+    optimize(
+        surface,
+        samples,
+        target,
+        optimize_options(options, mesh.triangles.size(), original.triangles.size()));
+    return with_normals(surface.to_mesh(mesh, units), original);
 }
 
 } // namespace octant::models::simplify

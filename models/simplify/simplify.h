@@ -1,25 +1,35 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
-#include "models/simplify/simplified.h"
 #include "models/simplify/simplify_options.h"
 #include "models/triangle_mesh.h"
 
+#include <cstddef>
+
 namespace octant::models::simplify {
 
-/// Simplifies an oriented manifold (a RepairedMesh; asserted). A closed manifold stays a closed
-/// manifold of the same genus, unless shells go for a goal of vertices or faces that cannot be
-/// reached with all of them; boundaries and creases are kept. The same input gives the same bytes
-/// on any number of threads. Lengths are in metres.
+/// The result of a simplification.
+struct Simplified {
+    TriangleMesh mesh; ///< After the optimization, with the original's materials and normals.
+    /// The collapses that led to it, before the optimization; none where shells were dropped.
+    CollapseSequence sequence;
+    std::size_t shells_gone = 0;
+    std::size_t steps = 0; ///< That the optimization tried.
+    double collapse_cpu_s = 0.0;
+    double optimize_cpu_s = 0.0;
+};
+
+/// Simplifies an oriented manifold (a RepairedMesh; asserted): edge collapses, then an
+/// optimization. The result is an oriented manifold without triangles that fold over. Unless the
+/// options keep them, shells are dropped where that is the cheapest step. The same input gives the
+/// same bytes on any number of threads. Lengths are in metres.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 
-/// The collapse sequence of Quality::Fast alone, without a polish. The options must have that
-/// quality and a goal without an error (asserted).
+/// The collapse sequence by quadrics alone. The goal must not be an error (asserted).
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
 
-/// Moves vertices and flips edges of a mesh so that its distance to the original gets smaller, both
-/// ways: the last step of simplified().
+/// Optimizes a mesh that was simplified before: the last step of simplified().
 TriangleMesh
-polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions& options);
+optimized(const TriangleMesh& mesh, const TriangleMesh& original, const SimplifyOptions& options);
 
 } // namespace octant::models::simplify

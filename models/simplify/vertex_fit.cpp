@@ -14,10 +14,6 @@ namespace octant::models::simplify {
 
 namespace {
 
-glm::dvec3 widen(const std::array<float, 3>& v) {
-    return {v[0], v[1], v[2]};
-}
-
 /// The point of a triangle nearest to a point of its plane, in the plane's coordinates.
 struct FlatFoot {
     double x = 0.0;
@@ -100,17 +96,17 @@ glm::dvec3 VertexFit::colour_change() const {
     return colour_weight_ > 0.0 ? colour_sum_ / colour_weight_ : glm::dvec3(0.0);
 }
 
-void add_point(
+void add_sample(
     VertexFit& fit,
-    const PointBlock& points,
+    const SampleBlock& samples,
     std::size_t i,
     const FlatTriangle& t,
     double weight,
     bool coloured) {
     const glm::dvec3 d(
-        static_cast<double>(points.x[i]) - static_cast<double>(t.origin[0]),
-        static_cast<double>(points.y[i]) - static_cast<double>(t.origin[1]),
-        static_cast<double>(points.z[i]) - static_cast<double>(t.origin[2]));
+        static_cast<double>(samples.x[i]) - static_cast<double>(t.origin[0]),
+        static_cast<double>(samples.y[i]) - static_cast<double>(t.origin[1]),
+        static_cast<double>(samples.z[i]) - static_cast<double>(t.origin[2]));
     const glm::dvec3 x_axis = widen(t.x_axis);
     const glm::dvec3 y_axis = widen(t.y_axis);
     const FlatFoot foot = foot_of(glm::dot(d, x_axis), glm::dot(d, y_axis), t);
@@ -124,7 +120,7 @@ void add_point(
     const glm::dvec3 off = d - foot.x * x_axis - foot.y * y_axis;
     fit.add(off, widen(t.normal), share, weight);
     if (coloured) {
-        const glm::dvec3 colour(points.red[i], points.green[i], points.blue[i]);
+        const glm::dvec3 colour(samples.red[i], samples.green[i], samples.blue[i]);
         const glm::dvec3 along_x = widen(t.colour_x);
         const glm::dvec3 along_y = widen(t.colour_y);
         const glm::dvec3 here = widen(t.colour) + foot.x * along_x + foot.y * along_y;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/simplify/point_block.h"
+#include "models/simplify/sample_block.h"
 #include "models/simplify/quadric.h"
 
 #include <glm/vec3.hpp>
@@ -44,10 +44,10 @@ private:
     glm::dvec3 colour_sum_{0.0};
 };
 
-/// Adds point `i` of a block after find_nearest; `triangle` is its nearest one.
-void add_point(
+/// Adds sample `i` of a block after find_nearest; `triangle` is its nearest one.
+void add_sample(
     VertexFit& fit,
-    const PointBlock& points,
+    const SampleBlock& samples,
     std::size_t i,
     const FlatTriangle& triangle,
     double weight,

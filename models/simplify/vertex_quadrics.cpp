@@ -14,14 +14,14 @@ VertexQuadrics::VertexQuadrics(const WorkingSurface& surface, const EdgeWeights&
     : quadrics_(surface.places.size())
     , colours_(surface.coloured() ? surface.places.size() : 0) {
     for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
-        add_face(surface, face, weights.alike);
+        add_face(surface, face);
     }
     for (HalfEdge h = 0; h < surface.mesh.face_slots() * 3; ++h) {
         add_edge(surface, h, weights);
     }
 }
 
-void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face, bool alike) {
+void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face) {
     const std::array<glm::dvec3, 3> corners = surface.corner_places(face);
     const Triangle vertices = surface.mesh.corners(face);
     const glm::dvec3 area2 = area_vector(corners);
@@ -31,7 +31,7 @@ void VertexQuadrics::add_face(const WorkingSurface& surface, std::uint32_t face,
     }
     const glm::dvec3 normal = area2 / length;
     // A third of the triangle's area goes to each corner.
-    const double weight = alike ? 1.0 : length / 6.0;
+    const double weight = length / 6.0;
     Quadric quadric;
     quadric.add_plane(normal, -glm::dot(normal, corners[0]), weight);
     ColourQuadric colours;
@@ -75,7 +75,7 @@ void VertexQuadrics::add_edge(
         return;
     }
     Quadric quadric;
-    const double length2 = weights.alike ? 1.0 : glm::dot(edge, edge);
+    const double length2 = glm::dot(edge, edge);
     quadric.add_plane(upright / length, -glm::dot(upright, start) / length, weight * length2);
     quadrics_[mesh.origin(h)] += quadric;
     quadrics_[mesh.target(h)] += quadric;

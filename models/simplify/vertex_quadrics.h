@@ -27,17 +27,11 @@ struct EdgeWeights {
     double crease = 0.3;
     /// An edge is sharp when the cosine between its normals is below this.
     double crease_cosine = 0.7;
-    /// Every triangle counts as 1, not as its area, and so do the squares of edges' lengths.
-    bool alike = false;
 };
 
 /// The edge weights where quadrics are the costs, too: lighter, as the default ones only guide the
 /// place while distances decide the cost.
 inline constexpr EdgeWeights cost_weights{.boundary = 1.0, .crease = 0.1, .crease_cosine = 0.5};
-
-/// The weights where planes count alike: heavy boundaries, as they are thinner than surfaces.
-inline constexpr EdgeWeights alike_weights{
-    .boundary = 100.0, .crease = 0.0, .crease_cosine = -1.0, .alike = true};
 
 /// The quadrics of all vertices of a surface: planes of triangles, weighted by area; constraint
 /// planes along boundaries, borders of materials and creases; and colours where there are any.
@@ -55,7 +49,7 @@ public:
     void keep(std::span<const std::uint32_t> vertices);
 
 private:
-    void add_face(const WorkingSurface& surface, std::uint32_t face, bool alike);
+    void add_face(const WorkingSurface& surface, std::uint32_t face);
     void add_edge(const WorkingSurface& surface, HalfEdge h, const EdgeWeights& weights);
 
     std::vector<Quadric> quadrics_;

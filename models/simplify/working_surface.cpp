@@ -51,8 +51,19 @@ WorkingSurface::WorkingSurface(const TriangleMesh& from, const WorkingUnits& uni
     , colours(units.colours_of(from))
     , materials(from.triangle_materials) {}
 
+bool WorkingSurface::is_border_vertex(std::uint32_t vertex) const {
+    if (mesh.is_boundary_vertex(vertex)) {
+        return true;
+    }
+    bool found = false;
+    if (!materials.empty()) {
+        mesh.around(vertex, [&](HalfEdge h) { found = found || is_material_border(h); });
+    }
+    return found;
+}
+
 glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3& way) const {
-    if (materials.empty() || !holds_borders) {
+    if (materials.empty() && !mesh.is_boundary_vertex(vertex)) {
         return way;
     }
     constexpr double straight = -0.5; // The cosine between two borders that go on as one.
@@ -61,7 +72,7 @@ glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3&
     std::size_t count = 0;
     mesh.edges_around(vertex, [&](HalfEdge h) {
         normal += area_vector(corner_places(face_of(h)));
-        if (is_material_border(h)) {
+        if (is_border(h)) {
             const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
             const glm::dvec3 border = places[other] - places[vertex];
             const double length = glm::length(border);
@@ -123,10 +134,6 @@ WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units)
         }
     }
     return made;
-}
-
-glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
-    return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
 } // namespace octant::models::simplify

@@ -3,6 +3,7 @@
 #include "models/simplify/collapsible_mesh.h"
 #include "models/triangle_mesh.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -45,8 +46,6 @@ struct WorkingSurface {
     std::vector<glm::dvec3> colours;      ///< One for each vertex slot; empty = no colours.
     std::vector<std::uint32_t> materials; ///< One for each triangle slot; empty = no materials.
 
-    bool holds_borders = false; ///< Of materials, where vertices are moved.
-
     bool coloured() const { return !colours.empty(); }
 
     std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
@@ -60,8 +59,14 @@ struct WorkingSurface {
                materials[face_of(h)] != materials[face_of(mesh.twin(h))];
     }
 
-    /// The part of a move of a vertex that leaves a border of materials through it where it is:
-    /// across the surface and along the border; all of it where there is none or it is not held.
+    /// Whether the surface or a material ends at an edge.
+    bool is_border(HalfEdge h) const { return mesh.twin(h) == none || is_material_border(h); }
+
+    /// Whether an edge at a vertex is a border.
+    bool is_border_vertex(std::uint32_t vertex) const;
+
+    /// The part of a move of a vertex that leaves a border through it where it is: across the
+    /// surface and along the border; all of it where there is none.
     glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
     /// Gives the slots of what is gone back.
@@ -73,6 +78,8 @@ struct WorkingSurface {
 };
 
 /// The normal of a triangle with twice its area as its length.
-glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners);
+inline glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
+    return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
 
 } // namespace octant::models::simplify

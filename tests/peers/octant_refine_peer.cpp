@@ -14,7 +14,6 @@ namespace {
 
 Hierarchy read_hierarchy(const std::string& path, std::size_t base) {
     models::simplify::SimplifyOptions options;
-    options.quality = models::simplify::Quality::Fast;
     options.length_share = 0.03;
     options.goal.vertices = base;
     auto mesh = models::repair::repaired(models::meshfile::read_mesh(path)).mesh;

@@ -58,8 +58,8 @@ level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& opti
         TriangleMesh level = models::mesh_after(sequence, collapses);
         if (collapses == sequence.collapses.size()) {
             level = coarsest.mesh;
-        } else if (simplify.quality == models::simplify::Quality::Surface) {
-            level = models::simplify::polished(std::move(level), original, simplify);
+        } else {
+            level = models::simplify::optimized(level, original, simplify);
         }
         if (level.triangles.size() < chain.levels.back().mesh.triangles.size()) {
             const double before_m = chain.levels.back().error_m;

@@ -21,7 +21,7 @@ struct ChainOptions {
 };
 
 /// Levels of detail of an oriented manifold (repaired) whose colours may break along seams: half
-/// the faces each time, each polished and its distance to the mesh certified. Where no polygons are
+/// the faces each time, each optimized and its distance to the mesh certified. Where no polygons are
 /// given and the last level has at most 300 triangles, these are the polygons.
 models::meshfile::LevelChain
 level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& options);

@@ -118,10 +118,27 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
         {choice_option(
              "--method",
              "KIND",
-             "surface (distance to the original surface, both ways) or fast (quadrics, a short "
-             "polish); as printed in the 2005 paper: plane, triangle or bidirectional",
+             "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
+             "triangle or bidirectional",
              {"surface", "fast", "plane", "triangle", "bidirectional"},
              command.method),
+         read_option(
+             {"effort",
+              "0..9",
+              "how long to optimize; each one more doubles the steps, 0 makes none [4]",
+              0,
+              9},
+             command.effort),
+         read_option(
+             {"steps", "N", "so many steps of the optimization [those of --effort]", 0, 2e9},
+             command.steps),
+         read_option(
+             {"max-seconds",
+              "S",
+              "end the optimization after this time; --steps then repeats the result [no limit]",
+              0,
+              1e6},
+             command.max_seconds),
          read_option(
              {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
              command.colour_weight),
@@ -151,9 +168,9 @@ constexpr const char* simplify_footer =
     "fractions of the diagonal.\n"
     "Exit code 1: the mesh is written, but the goal was out of reach.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
-    "  vertices, method, chosen_by (distances, peaks, quadrics, planes or volumes, whichever was\n"
-    "  best), shells_gone, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in\n"
-    "  RGB 0..1, where there are colours), time_s;\n"
+    "  vertices, method, steps (that the optimization tried), shells_gone, error,\n"
+    "  error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB 0..1, where there are\n"
+    "  colours), time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
     "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"
     "  polygons_error;\n"
     "  as printed also reading, contractions, counted_vertices, feet, feet_outside,\n"

@@ -37,8 +37,17 @@ using base::Figures;
 
 simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diagonal_m) {
     simplify::SimplifyOptions options;
-    options.quality =
-        command.method == "fast" ? simplify::Quality::Fast : simplify::Quality::Surface;
+    options.effort =
+        command.method == "fast" ? simplify::fast_effort : simplify::surface_effort;
+    if (command.effort >= 0) {
+        options.effort = command.effort;
+    }
+    if (command.steps >= 0) {
+        options.steps = static_cast<std::size_t>(command.steps);
+    }
+    if (command.max_seconds > 0.0) {
+        options.max_seconds = command.max_seconds;
+    }
     if (command.vertices > 0) {
         options.goal.vertices = static_cast<std::size_t>(command.vertices);
     }
@@ -52,22 +61,6 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     options.keep_shells = command.keep_shells;
     options.threads = command.threads;
     return options;
-}
-
-std::string name_of(simplify::Chooser chooser) {
-    switch (chooser) {
-    case simplify::Chooser::Distances:
-        return "distances";
-    case simplify::Chooser::Peaks:
-        return "peaks";
-    case simplify::Chooser::Quadrics:
-        return "quadrics";
-    case simplify::Chooser::Planes:
-        return "planes";
-    case simplify::Chooser::Volumes:
-        break;
-    }
-    return "volumes";
 }
 
 /// The mesh as an oriented manifold, and where its colours break.
@@ -228,12 +221,24 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
-    figures["chosen_by"] = name_of(result.chosen_by);
+    figures["steps"] = result.steps;
     figures["shells_gone"] = result.shells_gone;
+    const double measured_from_s = base::process_cpu_s();
     if (!result.mesh.triangles.empty()) {
         add_distance(figures, original, result.mesh, command.out, command.threads);
     }
     figures["time_s"] = time_s;
+    if (command.json) {
+        figures["cpu_s"] = {
+            {"collapse", result.collapse_cpu_s},
+            {"optimizer", result.optimize_cpu_s},
+            {"certificate", base::process_cpu_s() - measured_from_s}};
+    }
+    if (command.max_seconds > 0.0) {
+        base::say(
+            command.quiet,
+            fmt::format("note: --steps {} instead of --max-seconds repeats this", result.steps));
+    }
     const bool short_of_faces =
         options.goal.faces && result.mesh.triangles.size() > *options.goal.faces;
     const bool short_of_vertices =

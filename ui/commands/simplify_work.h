@@ -17,6 +17,9 @@ struct SimplifyCommand {
     int faces = 0;    ///< 0: no goal
     std::string error;
     std::string method = "surface";
+    int effort = -1;          ///< That of the method
+    int steps = -1;           ///< Those of the effort
+    double max_seconds = 0.0; ///< No limit
     double colour_weight = 0.1;
     int threads = core_count();
     bool chain = false;

@@ -74,7 +74,6 @@ RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh)
     constexpr int steps = 1000;
     base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
     models::simplify::SimplifyOptions options;
-    options.quality = models::simplify::Quality::Fast;
     options.length_share = 0.03;
     if (input.base > 0) {
         options.goal.vertices = input.base;

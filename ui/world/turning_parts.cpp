@@ -49,7 +49,6 @@ double append_far(
         return 0.0;
     }
     models::simplify::SimplifyOptions options;
-    options.quality = models::simplify::Quality::Fast;
     options.goal.faces = faces;
     const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
     append(to, models::polygons::as_polygons(far), part);

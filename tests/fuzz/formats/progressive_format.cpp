@@ -36,7 +36,6 @@ models::TriangleMesh hills() {
 
 std::string progressive_bytes(const models::TriangleMesh& mesh) {
     models::simplify::SimplifyOptions options;
-    options.quality = models::simplify::Quality::Fast;
     const refine::ProgressiveMesh made(models::simplify::fast_sequence(mesh, options));
     return bytes_written(
         "seed.pm", [&](const auto& file) { refine::write_progressive(file, made); });

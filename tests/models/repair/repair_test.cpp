@@ -160,6 +160,18 @@ TEST_CASE("triangles without an area go, and what only they had goes with them")
     CHECK(after.mesh.triangles == tetrahedron().triangles);
 }
 
+TEST_CASE("a triangle without an area that closes a T-junction opens nothing when it goes") {
+    TriangleMesh box; // its edge from corner 0 to 1 has a vertex in the middle, on one side
+    box.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                      {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0, 0}};
+    box.triangles = {{0, 3, 2}, {0, 2, 1}, {0, 8, 4}, {8, 1, 5}, {8, 5, 4}, {0, 1, 8}, {1, 2, 6},
+                     {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 6}, {4, 6, 7}};
+    const RepairedMesh closed = checked(box);
+    CHECK(closed.mesh.triangles.size() == 14);
+    CHECK(closed.counts.degenerate_triangles == 1);
+    CHECK(closed.counts.boundary_loops == 0);
+}
+
 TEST_CASE("a long thin triangle is no degenerate one") {
     TriangleMesh mesh;
     mesh.vertices_m = {{0.0, 0.0, 0.0}, {1e6, 0.0, 0.0}, {5e5, 1e-3, 0.0}};

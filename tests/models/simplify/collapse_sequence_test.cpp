@@ -15,14 +15,13 @@ namespace {
 
 SimplifyOptions fast_to_40_faces() {
     SimplifyOptions options;
-    options.quality = Quality::Fast;
     options.goal.faces = 40;
     return options;
 }
 
 } // namespace
 
-TEST_CASE("a sequence leads to the mesh before the polish") {
+TEST_CASE("a sequence leads to the mesh before the optimization") {
     for (const TriangleMesh& fine : {ball(16), ring(16, 12), strip(8, 12), machined_part(6)}) {
         const Simplified result = simplified(fine, fast_to_40_faces());
         const TriangleMesh end = mesh_after(result.sequence, result.sequence.collapses.size());

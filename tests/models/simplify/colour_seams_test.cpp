@@ -87,9 +87,9 @@ TEST_CASE("unsimplified, each corner gets the colour that the file gave it") {
 TEST_CASE("simplified, no triangle mixes the colours of a seam's sides, and no crack opens") {
     const TwoHalves halves;
     const ColourSeams seams(halves.mesh, halves.corner_colours);
-    for (const Quality quality : {Quality::Surface, Quality::Fast}) {
+    for (const int effort : {surface_effort, fast_effort}) {
         SimplifyOptions options;
-        options.quality = quality;
+        options.effort = effort;
         options.goal.faces = 120;
         const TriangleMesh welded = simplified(seams.marked(), options).mesh;
         REQUIRE(boundary_edges(welded) == 0);

@@ -43,7 +43,6 @@ RefinedModel made_ground(int base) {
     models::TriangleMesh mesh = mesh_of(models::made::made_hills(made));
     mesh.name = "hills";
     models::simplify::SimplifyOptions options;
-    options.quality = models::simplify::Quality::Fast;
     options.length_share = 0.03;
     options.goal.vertices = static_cast<std::size_t>(base);
     return std::make_shared<const refine::ProgressiveMesh>(

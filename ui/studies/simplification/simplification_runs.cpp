@@ -53,9 +53,9 @@ public:
         tick_();
     }
 
-    void add_ours(const char* method, simplify::Quality quality) {
+    void add_ours(const char* method, int effort) {
         simplify::SimplifyOptions options;
-        options.quality = quality;
+        options.effort = effort;
         options.goal.faces = faces_;
         const base::Stopwatch watch;
         const simplify::Simplified result = simplify::simplified(mesh_.clean, options);
@@ -130,8 +130,8 @@ std::vector<QualityRun> quality_runs(
     std::vector<QualityRun> runs;
     for (const std::size_t wanted : faces) {
         QualityRow row(mesh, wanted, tick);
-        row.add_ours("Octant, surface", simplify::Quality::Surface);
-        row.add_ours("Octant, fast", simplify::Quality::Fast);
+        row.add_ours("Octant, surface", simplify::surface_effort);
+        row.add_ours("Octant, fast", simplify::fast_effort);
         row.add_paper("2005, both directions");
         row.add_peers(options);
         runs.insert(runs.end(), row.runs.begin(), row.runs.end());

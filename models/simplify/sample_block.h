@@ -28,18 +28,22 @@ FlatTriangle flat(const std::array<glm::dvec3, 3>& corners);
 FlatTriangle
 flat(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec3, 3>& corner_colours);
 
-/// Points in structure-of-arrays layout, so that several are worked on with one instruction, and
+inline glm::dvec3 widen(const std::array<float, 3>& v) {
+    return {v[0], v[1], v[2]};
+}
+
+/// Samples in structure-of-arrays layout, so that several are worked on with one instruction, and
 /// for each what was found nearest to it.
-class PointBlock {
+class SampleBlock {
 public:
     void clear() { size_ = 0; }
 
     std::size_t size() const { return size_; }
 
-    /// Makes room for a total of so many points, and for the rest of the last vector.
-    void make_room(std::size_t points);
+    /// Makes room for a total of so many samples, and for the rest of the last vector.
+    void make_room(std::size_t samples);
 
-    /// Adds a point. make_room must have been called for it.
+    /// Adds a sample. make_room must have been called for it.
     void add(std::uint32_t number, const std::array<float, 3>& place, float weight) {
         numbers[size_] = number;
         x[size_] = place[0];
@@ -60,17 +64,9 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Finds the nearest triangle for the points from `first` (a multiple of 8) up to `end`: fills
-/// distances2 and nearest, and colour_errors2 where `coloured`. Of triangles at the same distance
-/// the first one counts. There must be at least one triangle (asserted).
-void find_nearest(
-    PointBlock& points,
-    std::size_t first,
-    std::size_t end,
-    std::span<const FlatTriangle> triangles,
-    bool coloured);
-
-/// The squared distance from a position to the nearest of the points, of which there must be one.
-float least_distance2(PointBlock& points, const std::array<float, 3>& place);
+/// Finds the nearest triangle for all samples: fills distances2 and nearest, and colour_errors2
+/// where `coloured`. Of triangles at the same distance the first one counts. There must be at least
+/// one triangle (asserted).
+void find_nearest(SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured);
 
 } // namespace octant::models::simplify

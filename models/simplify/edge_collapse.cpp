@@ -1,0 +1,371 @@
+// Edge collapses, the cheapest first. The new vertex lies where quadrics are least
+// (vertex_quadrics.cpp); the cost decides the order.
+//
+// - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
+//   Simplification Using Quadric Error Metrics", 1997, weighted by area. It is cheap and serves
+//   while errors are far below those at the goal.
+// - By samples: the cost is how much the error against samples of the original grows, both ways
+//   (local_error.cpp). As it is expensive, it is evaluated lazily: a collapse marks the edges
+//   around it as unchecked, and an unchecked edge is evaluated anew when its old cost reaches the
+//   top of the heap.
+#include "models/simplify/edge_collapse.h"
+
+#include "models/simplify/collapse_guard.h"
+#include "models/simplify/edge_heap.h"
+#include "models/simplify/local_error.h"
+#include "models/simplify/shells.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// Of collapses at the same cost, as in a plane, short edges go first: this share of an edge's
+/// squared length counts as a squared distance.
+constexpr double length_share2 = 1e-7;
+
+/// An edge is first put into the heap with this share of its quadric, which mostly is less than its
+/// cost by samples: only what comes to the top is measured.
+constexpr double guessed_share = 0.1;
+
+class EdgeCollapse {
+public:
+    EdgeCollapse(
+        CollapsingSurface& collapsing,
+        LocalError* local,
+        Shells* shells,
+        const SimplifyOptions& options)
+        : collapsing_(collapsing)
+        , surface_(collapsing.surface())
+        , local_(local)
+        , shells_(shells)
+        , length_share2_(
+              std::max(local == nullptr ? options.length_share * options.length_share : 0.0,
+                       length_share2))
+        , show_progress_(options.show_progress)
+        , edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3))
+        , heap_(edges_ + (shells == nullptr ? 0 : shells->count()))
+        , known_(edges_, Known::Old)
+        , first_(local == nullptr ? Known::There : Known::Old)
+        , has_refused_(surface_.mesh.vertex_slots(), 0) {
+        if (!collapsing.collapses().empty()) {
+            error_ = collapsing.collapses().back().error_m / collapsing.units().diagonal_m;
+        }
+    }
+
+    void run(const Goal& goal);
+
+private:
+    /// What is known of the cost of an edge.
+    enum class Known : std::uint8_t {
+        Old,     ///< A guess, or what was found before something changed nearby.
+        There,   ///< From the samples to the triangles.
+        BothWays ///< And back.
+    };
+
+    bool is_met(const Goal& goal) const;
+    void fill();
+    HalfEdge next_edge();
+    HalfEdge taking_one(HalfEdge h);
+    bool is_allowed(HalfEdge h, const Placement& placement);
+    void update(HalfEdge edge, Known ways);
+    void load(HalfEdge h, const Placement& placement);
+    double length_cost(HalfEdge edge, const Placement& placement) const;
+    void collapse(HalfEdge h);
+    void update_around(std::uint32_t vertex);
+    void update_shell(std::uint32_t shell);
+    void drop(std::uint32_t shell);
+
+    CollapsingSurface& collapsing_;
+    WorkingSurface& surface_;
+    LocalError* local_; ///< Null: quadrics are the costs.
+    Shells* shells_;    ///< Null: none may be dropped.
+    std::vector<double> shell_costs_;
+    double length_share2_;
+    const ShowProgress& show_progress_;
+    HalfEdge edges_; ///< Greater numbers in the heap are those of shells.
+    EdgeHeap heap_;
+    std::vector<Known> known_; ///< For each edge.
+    Known first_;              ///< What is found out about an edge at first.
+    /// For each vertex whether an edge at it was taken out of the heap, as it may not collapse.
+    std::vector<std::uint8_t> has_refused_;
+    double error_ = 0.0; ///< The estimated error so far, in working units.
+    std::vector<RingFace> ring_;
+    std::vector<std::uint32_t> faces_;
+    std::vector<std::uint32_t> ring_faces_;
+};
+
+bool EdgeCollapse::is_met(const Goal& goal) const {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    return (goal.vertices && mesh.vertex_count() <= *goal.vertices) ||
+           (goal.faces && mesh.face_count() <= *goal.faces) ||
+           (goal.error_m && error_ * collapsing_.units().diagonal_m > *goal.error_m);
+}
+
+/// Puts all edges into the heap.
+void EdgeCollapse::fill() {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
+        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) {
+            update(h, first_);
+        }
+    }
+}
+
+void EdgeCollapse::run(const Goal& goal) {
+    const std::size_t start = surface_.mesh.face_count();
+    const std::size_t wanted = wanted_faces(goal);
+    std::size_t done = 0;
+    fill();
+    for (std::uint32_t shell = 0; shells_ != nullptr && shell < shells_->count(); ++shell) {
+        shell_costs_.push_back(0.0);
+        update_shell(shell);
+    }
+    while (!is_met(goal)) {
+        const HalfEdge h = next_edge();
+        if (h != none && h >= edges_) {
+            drop(h - edges_);
+            continue;
+        }
+        if (h == none) {
+            return;
+        }
+        if (goal.faces && surface_.mesh.face_count() == *goal.faces + 1) {
+            collapse(taking_one(h));
+            continue;
+        }
+        collapse(h);
+        if (++done % 256 == 0 && show_progress_ && start > wanted) {
+            show_progress_(std::min(
+                1.0,
+                static_cast<double>(start - surface_.mesh.face_count()) /
+                    static_cast<double>(start - wanted)));
+        }
+    }
+}
+
+/// The cheapest edge that may collapse; none = there is no one left.
+HalfEdge EdgeCollapse::next_edge() {
+    while (!heap_.empty()) {
+        const HalfEdge h = heap_.top();
+        if (h >= edges_) {
+            return h;
+        }
+        if (known_[h] == Known::Old) {
+            update(h, Known::There);
+        } else if (local_ != nullptr && known_[h] == Known::There) {
+            update(h, Known::BothWays);
+        } else if (
+            local_ != nullptr || is_allowed(h, collapsing_.quadrics().placement(surface_, h))) {
+            return h;
+        } else {
+            heap_.remove(h);
+            has_refused_[surface_.mesh.origin(h)] = 1;
+            has_refused_[surface_.mesh.target(h)] = 1;
+        }
+    }
+    return none;
+}
+
+/// The cheapest edge of a boundary where `h`, the cheapest of all, is none and costs not far less:
+/// it takes one triangle instead of two.
+HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
+    constexpr float max_factor = 100.0F; // Some ten times as far off there.
+    const CollapsibleMesh& mesh = surface_.mesh;
+    if (mesh.twin(h) == none) {
+        return h;
+    }
+    const float limit = max_factor * heap_.cost(h);
+    HalfEdge best = none;
+    for (HalfEdge side = 0; side < edges_; ++side) {
+        if (mesh.face_is_there(face_of(side)) && mesh.twin(side) == none) {
+            update(side, local_ == nullptr ? Known::There : Known::BothWays);
+            if (heap_.holds(side) && (best == none || heap_.cost(side) < heap_.cost(best)) &&
+                is_allowed(side, collapsing_.quadrics().placement(surface_, side))) {
+                best = side;
+            }
+        }
+    }
+    return best != none && heap_.cost(best) <= limit ? best : h;
+}
+
+/// Whether an edge may collapse: the link condition first, then the guard against fold-overs.
+bool EdgeCollapse::is_allowed(HalfEdge h, const Placement& placement) {
+    if (!surface_.mesh.may_collapse(h)) {
+        return false;
+    }
+    surface_.mesh.ring_of(h, ring_);
+    return may_move(surface_, ring_, placement.place);
+}
+
+/// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
+void EdgeCollapse::update(HalfEdge edge, Known ways) {
+    known_[edge] = ways;
+    const Placement placement = collapsing_.quadrics().placement(surface_, edge);
+    double cost = length_cost(edge, placement);
+    if (local_ == nullptr) {
+        cost += placement.cost;
+    } else if (ways == Known::Old) {
+        cost += guessed_share * placement.cost;
+    } else if (is_allowed(edge, placement)) {
+        load(edge, placement);
+        cost += ways == Known::There ? local_->measured_there() - local_->present_there()
+                                     : local_->measured() - local_->present();
+        if (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
+            surface_.is_border_vertex(surface_.mesh.target(edge))) {
+            cost = std::max(cost, placement.cost); // Samples hardly see where borders are.
+        }
+    } else {
+        heap_.remove(edge);
+        return;
+    }
+    if (surface_.mesh.twin(edge) == none) {
+        cost *= 2.0; // It takes one triangle instead of two.
+    }
+    heap_.set(edge, static_cast<float>(cost));
+}
+
+/// Loads the samples around an edge, whose ring must be in ring_, and the triangles that its
+/// collapse would leave.
+void EdgeCollapse::load(HalfEdge h, const Placement& placement) {
+    faces_.clear();
+    faces_.push_back(face_of(h));
+    if (surface_.mesh.twin(h) != none) {
+        faces_.push_back(face_of(surface_.mesh.twin(h)));
+    }
+    ring_faces_.clear();
+    for (const RingFace& face : ring_) {
+        faces_.push_back(face.face);
+        ring_faces_.push_back(face.face);
+    }
+    local_->gather(faces_);
+    local_->set_ring(ring_, placement.place, placement.colour);
+}
+
+double EdgeCollapse::length_cost(HalfEdge edge, const Placement& placement) const {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const glm::dvec3 along =
+        surface_.places[mesh.target(edge)] - surface_.places[mesh.origin(edge)];
+    return length_share2_ * placement.weight * glm::dot(along, along);
+}
+
+/// Collapses an edge, moves the samples to their new nearest triangles and updates the costs around
+/// it.
+void EdgeCollapse::collapse(HalfEdge h) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const std::uint32_t kept = mesh.origin(h);
+    const Placement placement = collapsing_.quadrics().placement(surface_, h);
+    mesh.ring_of(h, ring_);
+    if (local_ != nullptr) {
+        load(h, placement);
+        local_->measured();
+        error_ = std::max(error_, std::sqrt(local_->max_distance2()));
+    } else if (placement.weight > 0.0) {
+        error_ = std::max(error_, std::sqrt(placement.cost / placement.weight));
+    }
+    for (const HalfEdge side : {h, mesh.twin(h)}) {
+        if (side != none) {
+            heap_.remove(mesh.edge_of(side));
+            heap_.remove(mesh.edge_of(next_of(side)));
+            heap_.remove(mesh.edge_of(previous_of(side)));
+        }
+    }
+    const std::size_t before = mesh.face_count();
+    const std::uint32_t shell = shells_ == nullptr ? none : shells_->shell_of(face_of(h));
+    collapsing_.collapse(h, placement, error_);
+    if (shell != none) {
+        shells_->lose(shell, before - mesh.face_count());
+        update_shell(shell);
+    }
+    if (local_ != nullptr) {
+        local_->keep(faces_, ring_faces_, kept);
+    }
+    update_around(kept);
+}
+
+/// Updates the edges at a vertex. Edges one ring further are marked as unchecked where samples
+/// count, and where edges were refused, which may collapse now.
+void EdgeCollapse::update_around(std::uint32_t vertex) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    mesh.edges_around(vertex, [&](HalfEdge h) {
+        const std::uint32_t other = mesh.origin(h) == vertex ? mesh.target(h) : mesh.origin(h);
+        if (local_ == nullptr && has_refused_[other] == 0) {
+            return;
+        }
+        has_refused_[other] = 0;
+        mesh.edges_around(other, [&](HalfEdge far) {
+            const HalfEdge edge = mesh.edge_of(far);
+            known_[edge] = Known::Old;
+            if (!heap_.holds(edge)) {
+                heap_.set(edge, heap_.cost(edge));
+            }
+        });
+    });
+    mesh.edges_around(vertex, [&](HalfEdge h) { update(mesh.edge_of(h), first_); });
+}
+
+/// Puts a shell into the heap, with its cost for each two triangles, which a collapse takes.
+void EdgeCollapse::update_shell(std::uint32_t shell) {
+    // Others have not got so small that they may be dropped soon.
+    constexpr std::size_t max_faces = 200;
+    const std::size_t faces = shells_->face_count(shell);
+    if (faces == 0 || faces > max_faces || shells_->count_left() < 2) {
+        heap_.remove(edges_ + shell);
+        return;
+    }
+    if (!(shell_costs_[shell] > 0.0)) {
+        shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
+    }
+    heap_.set(
+        edges_ + shell,
+        static_cast<float>(shell_costs_[shell] * 2.0 / static_cast<double>(faces)));
+}
+
+/// Drops a shell if that still costs as little as was found before.
+void EdgeCollapse::drop(std::uint32_t shell) {
+    const double before = shell_costs_[shell];
+    shell_costs_[shell] = 0.0;
+    update_shell(shell);
+    if (shell_costs_[shell] > 1.01 * before || shells_->count_left() < 2) {
+        return;
+    }
+    heap_.remove(edges_ + shell);
+    shells_->drop(shell, [&](std::uint32_t face) {
+        for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
+            heap_.remove(h);
+        }
+    });
+}
+
+} // namespace
+
+void collapse_by_quadrics(
+    CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options) {
+    EdgeCollapse(collapsing, nullptr, nullptr, options).run(goal);
+}
+
+std::size_t collapse_by_samples(
+    CollapsingSurface& collapsing,
+    SurfaceSamples& samples,
+    const OriginalSurface& original,
+    const Goal& goal,
+    const SimplifyOptions& options) {
+    LocalError local(collapsing.surface(), samples, original);
+    std::optional<Shells> shells;
+    if (!options.keep_shells) {
+        shells.emplace(collapsing, samples, original);
+    }
+    EdgeCollapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options)
+        .run(goal);
+    return shells ? shells->count() - shells->count_left() : 0;
+}
+
+} // namespace octant::models::simplify

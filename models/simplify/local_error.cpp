@@ -1,0 +1,314 @@
+// The cost that orders all steps: Y. Kim, B. U. Lee, "Error measure for vertex simplification",
+// 2005, section II.2, distance to triangles in both directions, but against the original surface
+// instead of the mesh before: from samples of it, and back to it by a tree. The way back counts
+// more where the original faces against the triangle, so that no triangle folds over.
+#include "models/simplify/local_error.h"
+
+#include "models/simplify/collapse_guard.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// The shares of a triangle's area for which three points on it and its corners stand. The points
+/// alone would do for the mean (Gauss), but the largest distance mostly is that of a vertex.
+constexpr double point_share = 0.3;
+constexpr double corner_share = 0.1 / 3.0;
+constexpr double near_weight = 2.0 / 3.0;
+constexpr double far_weight = 1.0 / 6.0;
+
+/// The point that is nearest to a corner.
+glm::dvec3 point_at(const std::array<glm::dvec3, 3>& corners, std::size_t corner) {
+    return near_weight * corners[corner] +
+           far_weight * (corners[(corner + 1) % 3] + corners[(corner + 2) % 3]);
+}
+
+} // namespace
+
+void LocalError::gather(std::span<const std::uint32_t> faces) {
+    block_.clear();
+    present_there_ = 0.0;
+    present_back_ = 0.0;
+    for (const std::uint32_t face : faces) {
+        samples_.gather(face, block_);
+        present_there_ += samples_.error(face) - samples_.back_error(face);
+        present_back_ += samples_.back_error(face);
+    }
+    area_ = 0.0;
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        area_ += static_cast<double>(block_.weights[i]);
+    }
+}
+
+void LocalError::set_ring(
+    std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour) {
+    triangles_.clear();
+    near_.clear();
+    turns_.clear();
+    moving_ = ring.empty() ? none : surface_.mesh.origin(ring.front().half_edge);
+    for (const RingFace& face : ring) {
+        const std::uint32_t next = surface_.mesh.target(face.half_edge);
+        const std::uint32_t last = surface_.mesh.origin(previous_of(face.half_edge));
+        ColouredTriangle made{{none, next, last}, moved_corners(surface_, face, place), {}};
+        if (surface_.coloured()) {
+            made.colours = {
+                colour,
+                surface_.colours[next],
+                surface_.colours[last]};
+        }
+        triangles_.push_back(made);
+        near_.push_back(face.face);
+        turns_.push_back(face.half_edge % 3);
+    }
+    flatten();
+}
+
+void LocalError::move_corner(const glm::dvec3& place, const glm::dvec3& colour) {
+    for (ColouredTriangle& triangle : triangles_) {
+        triangle.places[0] = place;
+        triangle.colours[0] = colour;
+    }
+    flatten();
+}
+
+void LocalError::set_triangles(
+    std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near) {
+    triangles_.assign(triangles.begin(), triangles.end());
+    near_.assign(near.begin(), near.end());
+    turns_.assign(near.size(), 0);
+    moving_ = none;
+    flatten();
+}
+
+void LocalError::flatten() {
+    flat_.clear();
+    for (const ColouredTriangle& triangle : triangles_) {
+        flat_.push_back(
+            surface_.coloured() ? flat(triangle.places, triangle.colours)
+                                : flat(triangle.places));
+    }
+}
+
+double LocalError::measured_there() {
+    if (block_.size() == 0) {
+        return 0.0;
+    }
+    find_nearest(block_, flat_, samples_.coloured());
+    work_done_ += work();
+    const Penalty& penalty = samples_.penalty();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        sum += static_cast<double>(block_.weights[i]) *
+               penalty.of(static_cast<double>(block_.distances2[i]));
+    }
+    if (samples_.coloured()) {
+        for (std::size_t i = 0; i < block_.size(); ++i) {
+            sum += static_cast<double>(block_.weights[i]) *
+                   static_cast<double>(block_.colour_errors2[i]);
+        }
+    }
+    return sum;
+}
+
+WayBack LocalError::way_back(const OriginalPoint& start, const glm::dvec3& place) const {
+    WayBack found;
+    double distance2 = 0.0;
+    found.foot = original_.nearest_from(start.triangle, place, distance2);
+    found.distance2 = static_cast<float>(distance2);
+    return found;
+}
+
+double LocalError::measured_back(double limit) {
+    const Penalty& penalty = samples_.penalty();
+    back_errors_.assign(triangles_.size(), 0.0);
+    from_points_.resize(triangles_.size());
+    max_back2_ = 0.0;
+    if (!triangles_.empty() && triangles_[0].vertices[0] == none) {
+        const WayBack& near =
+            moving_ != none ? samples_.from_vertex(moving_) : samples_.from_face(near_[0])[0];
+        from_moving_ = way_back(near.foot, triangles_[0].places[0]);
+        max_back2_ = static_cast<double>(from_moving_.distance2);
+    }
+    double sum = 0.0;
+    for (std::size_t t = 0; t < triangles_.size() && sum <= limit; ++t) {
+        const std::array<glm::dvec3, 3>& corners = triangles_[t].places;
+        const glm::dvec3 normal = area_vector(corners);
+        const double area = 0.5 * glm::length(normal);
+        double mean = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            WayBack& from = from_points_[t][i];
+            from = way_back(
+                samples_.from_face(near_[t])[(turns_[t] + i) % 3].foot, point_at(corners, i));
+            if (glm::dot(original_.normal(from.foot.triangle), normal) < 0.0) {
+                from.distance2 += static_cast<float>(area);
+            }
+            const auto distance2 = static_cast<double>(from.distance2);
+            max_back2_ = std::max(max_back2_, distance2);
+            mean += point_share * penalty.of(distance2);
+        }
+        for (const std::uint32_t vertex : triangles_[t].vertices) {
+            const WayBack& from =
+                vertex == none ? from_moving_ : samples_.from_vertex(vertex);
+            mean += corner_share * penalty.of(static_cast<double>(from.distance2));
+        }
+        back_errors_[t] = area * mean;
+        sum += back_errors_[t];
+    }
+    return sum;
+}
+
+/// A triangle of the original from which to look for the foot of a point on a present triangle:
+/// that of the nearest sample in the lists around it that faces its way.
+std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place) {
+    constexpr double against = 100.0; // A factor of the squared distance.
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const glm::dvec3 normal = area_vector(surface_.corner_places(face));
+    std::uint32_t start = 0;
+    double least2 = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> looked(1, face);
+    for (std::size_t i = 0; i < looked.size(); ++i) {
+        samples_.for_each(looked[i], [&](std::uint32_t number) {
+            const SurfaceSample& sample = samples_[number];
+            const bool faces_it = glm::dot(original_.normal(sample.triangle), normal) > 0.0;
+            const glm::dvec3 off = widen(sample.place) - place;
+            const double away2 = glm::dot(off, off) * (faces_it ? 1.0 : against);
+            if (away2 < least2) {
+                least2 = away2;
+                start = sample.triangle;
+            }
+        });
+        const bool is_found = std::isfinite(least2);
+        for (const std::uint32_t corner : mesh.corners(looked[i])) {
+            mesh.around(corner, [&](HalfEdge h) {
+                if ((i == 0 || !is_found) &&
+                    std::ranges::find(looked, face_of(h)) == looked.end()) {
+                    looked.push_back(face_of(h));
+                }
+            });
+        }
+    }
+    return start;
+}
+
+double LocalError::measure_all_back() {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    const auto start_from = [&](WayBack& from, std::uint32_t face, const glm::dvec3& place) {
+        if (from.foot.triangle == none) {
+            from.foot.triangle = start_near(face, place);
+        }
+    };
+    double most2 = 0.0;
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        if (mesh.vertex_is_there(vertex)) {
+            WayBack& from = samples_.from_vertex(vertex);
+            start_from(from, mesh.face_at(vertex), surface_.places[vertex]);
+            from = way_back(from.foot, surface_.places[vertex]);
+            most2 = std::max(most2, static_cast<double>(from.distance2));
+        }
+    }
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (mesh.face_is_there(face)) {
+            const std::array<glm::dvec3, 3> corners = surface_.corner_places(face);
+            for (std::size_t i = 0; i < 3; ++i) {
+                start_from(samples_.from_face(face)[i], face, point_at(corners, i));
+            }
+            triangles_.assign(1, {mesh.corners(face), corners, {}});
+            near_.assign(1, face);
+            turns_.assign(1, 0);
+            measured_back();
+            samples_.from_face(face) = from_points_[0];
+            samples_.set_back_error(face, back_errors_[0]);
+            most2 = std::max(most2, max_back2_);
+        }
+    }
+    return most2;
+}
+
+double LocalError::measured(double limit) {
+    const double there = measured_there();
+    return there > limit ? there : there + measured_back(limit - there);
+}
+
+double LocalError::max_there2() const {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        most = std::max(most, block_.distances2[i]);
+    }
+    return static_cast<double>(most);
+}
+
+double LocalError::work() const {
+    constexpr double work_of_foot = 40.0; // In distances to triangles.
+    const auto triangles = static_cast<double>(triangles_.size());
+    return triangles * (static_cast<double>(block_.size()) + 3.0 * work_of_foot);
+}
+
+VertexFit LocalError::fit(bool with_back) const {
+    VertexFit fit;
+    const Penalty& penalty = samples_.penalty();
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        const double weight = static_cast<double>(block_.weights[i]) *
+                              penalty.weight(static_cast<double>(block_.distances2[i]));
+        add_sample(
+            fit,
+            block_,
+            i,
+            flat_[static_cast<std::size_t>(block_.nearest[i])],
+            weight,
+            samples_.coloured());
+    }
+    double around = 0.0;
+    for (std::size_t t = 0; with_back && t < triangles_.size(); ++t) {
+        const glm::dvec3 normal = area_vector(triangles_[t].places);
+        const double length = glm::length(normal);
+        if (length > 0.0) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const WayBack& from = samples_.from_face(near_[t])[(turns_[t] + i) % 3];
+                const glm::dvec3 off = widen(from.foot.place) - point_at(triangles_[t].places, i);
+                const double weight = 0.5 * length * penalty.weight(glm::dot(off, off));
+                fit.add(off, normal / length, i == 0 ? near_weight : far_weight, point_share * weight);
+            }
+            around += 0.5 * length;
+        }
+    }
+    if (with_back && moving_ != none && around > 0.0) {
+        const WayBack& from = samples_.from_vertex(moving_);
+        const glm::dvec3 off = widen(from.foot.place) - triangles_[0].places[0];
+        const glm::dvec3 normal = original_.normal(from.foot.triangle);
+        const double length = glm::length(normal);
+        if (length > 0.0) {
+            const double weight = corner_share * around * penalty.weight(glm::dot(off, off));
+            fit.add(off, normal / length, 1.0, weight);
+        }
+    }
+    return fit;
+}
+
+void LocalError::keep(
+    std::span<const std::uint32_t> emptied,
+    std::span<const std::uint32_t> faces,
+    std::uint32_t vertex) {
+    samples_.assign(block_, emptied, faces);
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        const std::uint32_t first = triangles_[t].vertices[0];
+        const Triangle corners = surface_.mesh.corners(faces[t]);
+        std::size_t turn = 0;
+        while (turn < 2 && corners[turn] != (first == none ? vertex : first)) {
+            ++turn;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            samples_.from_face(faces[t])[(turn + i) % 3] = from_points_[t][i];
+        }
+        samples_.set_back_error(faces[t], back_errors_[t]);
+    }
+    if (vertex != none) {
+        samples_.from_vertex(vertex) = from_moving_;
+    }
+}
+
+} // namespace octant::models::simplify

@@ -1,0 +1,120 @@
+#pragma once
+
+#include "models/simplify/original_surface.h"
+#include "models/simplify/sample_block.h"
+#include "models/simplify/surface_samples.h"
+#include "models/simplify/vertex_fit.h"
+#include "models/simplify/working_surface.h"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace octant::models::simplify {
+
+/// The corners of a triangle, and their colours where there are any.
+struct ColouredTriangle {
+    std::array<std::uint32_t, 3> vertices{none, none, none}; ///< none = it is new or moves.
+    std::array<glm::dvec3, 3> places{};
+    std::array<glm::dvec3, 3> colours{};
+};
+
+/// The error around a step, both ways: of the samples whose triangles change, to the triangles as
+/// they would be, and of points of these triangles back to the original. A step that moves or makes
+/// a vertex has it as corner 0 of every new triangle.
+class LocalError {
+public:
+    LocalError(
+        const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
+        : surface_(surface)
+        , samples_(samples)
+        , original_(original) {}
+
+    /// Loads the samples of the triangles that change.
+    void gather(std::span<const std::uint32_t> faces);
+
+    /// Sets the new triangles: those of a ring with their moving corner at `place`, in `colour`.
+    void set_ring(
+        std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
+
+    /// Moves corner 0 of all new triangles.
+    void move_corner(const glm::dvec3& place, const glm::dvec3& colour);
+
+    /// Sets the new triangles. Each is expected to be near the present one of `near`.
+    void set_triangles(
+        std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
+
+    /// Measures the ways back of all present triangles. Returns the largest squared distance.
+    double measure_all_back();
+
+    /// Measures from the samples to the new triangles.
+    double measured_there();
+
+    /// Measures from the new triangles to the original, until the sum exceeds `limit`.
+    double measured_back(double limit = std::numeric_limits<double>::infinity());
+
+    /// Both; only a lower bound where that exceeds `limit`.
+    double measured(double limit = std::numeric_limits<double>::infinity());
+
+    /// The largest squared distance that was measured last, in each direction.
+    double max_there2() const;
+    double max_back2() const { return max_back2_; }
+    double max_distance2() const { return std::max(max_there2(), max_back2_); }
+
+    /// The sum of the present errors of the triangles that were loaded.
+    double present() const { return present_there_ + present_back_; }
+    double present_there() const { return present_there_; }
+
+    /// Below this an error may be nothing but the rounding of the samples.
+    double rounding() const { return sample_rounding * sample_rounding * area_; }
+
+    /// The least-squares step of corner 0, from what measured_there() saw last; with the present
+    /// ways back where the new triangles are still the present ones.
+    VertexFit fit(bool with_back) const;
+
+    /// About how many distances to triangles one measurement takes.
+    double work() const;
+
+    /// The sum of that over all measurements so far.
+    double work_done() const { return work_done_; }
+
+    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of `faces`,
+    /// the numbers of the new triangles in their order. `emptied` are those that were loaded, and
+    /// `vertex` the number of the vertex that is new or moves, or none.
+    void keep(
+        std::span<const std::uint32_t> emptied,
+        std::span<const std::uint32_t> faces,
+        std::uint32_t vertex);
+
+private:
+    void flatten();
+    std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);
+    WayBack way_back(const OriginalPoint& start, const glm::dvec3& place) const;
+
+    const WorkingSurface& surface_;
+    SurfaceSamples& samples_;
+    const OriginalSurface& original_;
+    SampleBlock block_;
+    std::vector<ColouredTriangle> triangles_;
+    std::vector<std::uint32_t> near_; ///< For each new triangle a present one.
+    /// The corner of that one which is corner 0 of the new one, where known.
+    std::vector<std::uint32_t> turns_;
+    std::vector<FlatTriangle> flat_;
+    std::vector<double> back_errors_; ///< For each new triangle.
+    std::vector<std::array<WayBack, 3>> from_points_; ///< By the corners of each new triangle.
+    WayBack from_moving_; ///< From corner 0 where that is new or moves.
+    /// The vertex that moves, or is merged with another one; none = it is new.
+    std::uint32_t moving_ = none;
+    double max_back2_ = 0.0;
+    double work_done_ = 0.0;
+    double present_there_ = 0.0;
+    double present_back_ = 0.0;
+    double area_ = 0.0;
+};
+
+} // namespace octant::models::simplify

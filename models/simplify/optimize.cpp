@@ -1,0 +1,587 @@
+// Lowers the error of a simplified surface by local steps, after H. Hoppe, T. DeRose, T. Duchamp,
+// J. McDonald, W. Stuetzle, "Mesh Optimization", 1993: a vertex moves to where a least-squares fit
+// leads, an edge flips, or a vertex is relocated (the cheapest edge collapses, and one splits where
+// that helps most).
+//
+// Deviations: the error is two-sided, and penalties rise faster than squares (Penalty), which
+// lowers the largest distance too. Steps are not tried at random: a queue orders them by the
+// expected reduction per unit of work. What a step achieved is what the next one nearby is expected
+// to achieve, less a part. The number of triangles stays instead of being weighed against the
+// error.
+#include "models/simplify/optimize.h"
+
+#include "models/simplify/collapse_guard.h"
+#include "models/simplify/edge_heap.h"
+#include "models/simplify/local_error.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// A distance of so many root mean squares counts twice.
+constexpr double high = 1.5;
+/// The shares of an error that a step is expected to take away before one was tried.
+constexpr double expected_of_move = 0.1;
+constexpr double expected_of_flip = 0.05;
+constexpr double expected_of_split = 0.6;
+/// The next move of the same vertex is expected to achieve this share of the last one, and the
+/// moves and flips around it these.
+constexpr double expected_again = 0.5;
+constexpr double expected_beside = 0.25;
+/// At most so many distances count as one step; mostly there are some 2,000.
+constexpr double work_of_step = 20'000.0;
+/// A step is made only if it takes away this share of the error around it.
+constexpr double min_share = 1e-3;
+
+class Optimizer {
+public:
+    Optimizer(
+        WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
+        : surface_(surface)
+        , samples_(samples)
+        , local_(surface, samples, original)
+        , vertices_(surface.mesh.vertex_slots())
+        , edges_(surface.mesh.face_slots() * 3)
+        , queue_(vertices_ + 2 * edges_)
+        , collapses_(edges_)
+        , collapse_is_checked_(edges_, 0)
+        , split_is_checked_(edges_, 0) {}
+
+    std::size_t run(const OptimizeOptions& options);
+
+private:
+    using Id = std::uint32_t;
+
+    Id flip_of(HalfEdge edge) const { return static_cast<Id>(vertices_) + edge; }
+    Id split_of(HalfEdge edge) const { return static_cast<Id>(vertices_ + edges_) + edge; }
+
+    void measure_all();
+    void fill();
+    void expect(Id id, double gain, double work);
+    void expect_split(HalfEdge edge);
+    double error_at(HalfEdge edge) const;
+    double work_at(HalfEdge edge) const;
+    void try_step(Id id);
+    void try_move(std::uint32_t vertex);
+    void try_flip(HalfEdge h);
+    void try_split(HalfEdge h);
+    void relocate(HalfEdge split, HalfEdge collapsed);
+
+    /// A vertex that a split or a collapse would make.
+    struct MadeVertex {
+        glm::dvec3 place{0.0};
+        glm::dvec3 colour{0.0};
+        double change = 0.0; ///< Of the error; infinite where it is not allowed.
+    };
+
+    MadeVertex split_vertex(HalfEdge h);
+    MadeVertex collapsed_vertex(HalfEdge h);
+    HalfEdge cheapest_collapse();
+    bool touch(HalfEdge split, HalfEdge collapsed) const;
+    void load_split(HalfEdge h);
+    void load_collapse(HalfEdge h);
+    void changed_around(std::uint32_t vertex, double gain, double work, bool connectivity);
+
+    WorkingSurface& surface_;
+    SurfaceSamples& samples_;
+    LocalError local_;
+    std::size_t vertices_;
+    std::size_t edges_;
+    EdgeHeap queue_;     ///< By the negative expected reduction per unit of work.
+    EdgeHeap collapses_; ///< By the growth of the error.
+    std::vector<std::uint8_t> collapse_is_checked_;
+    std::vector<std::uint8_t> split_is_checked_;
+    double max_distance2_ = 0.0;
+    std::vector<RingFace> ring_;
+    std::vector<std::uint32_t> faces_;
+    std::vector<std::uint32_t> ring_faces_;
+    std::vector<ColouredTriangle> fan_;
+    std::vector<std::uint32_t> near_;
+};
+
+/// Measures the ways back and the largest distance.
+void Optimizer::measure_all() {
+    samples_.set_penalty({1.0 / std::max(high * high * samples_.mean2(), 1e-30)});
+    max_distance2_ = local_.measure_all_back();
+    for (std::uint32_t sample = 0; sample < samples_.size(); ++sample) {
+        max_distance2_ =
+            std::max(max_distance2_, static_cast<double>(samples_[sample].distance2));
+    }
+}
+
+double Optimizer::error_at(HalfEdge edge) const {
+    const HalfEdge twin = surface_.mesh.twin(edge);
+    return samples_.error(face_of(edge)) + (twin == none ? 0.0 : samples_.error(face_of(twin)));
+}
+
+/// About how much work a step at the two triangles of an edge is, in distances.
+double Optimizer::work_at(HalfEdge edge) const {
+    constexpr double fixed = 100.0;
+    const HalfEdge twin = surface_.mesh.twin(edge);
+    const std::size_t count = samples_.count(face_of(edge)) +
+                              (twin == none ? 0 : samples_.count(face_of(twin)));
+    return fixed + 8.0 * static_cast<double>(count);
+}
+
+/// Puts a step into the queue, or raises what is expected of it.
+void Optimizer::expect(Id id, double gain, double work) {
+    const auto key = static_cast<float>(-gain / work);
+    if (gain > 0.0 && (!queue_.holds(id) || key < queue_.cost(id))) {
+        queue_.set(id, key);
+    }
+}
+
+void Optimizer::expect_split(HalfEdge edge) {
+    split_is_checked_[edge] = 0;
+    expect(split_of(edge), expected_of_split * error_at(edge), 2.0 * work_at(edge));
+}
+
+void Optimizer::fill() {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        if (!mesh.vertex_is_there(vertex)) {
+            continue;
+        }
+        double error = 0.0;
+        double work = 0.0;
+        mesh.around(vertex, [&](HalfEdge h) {
+            error += samples_.error(face_of(h));
+            work += work_at(h);
+        });
+        expect(vertex, expected_of_move * error, work);
+    }
+    for (HalfEdge h = 0; h < edges_; ++h) {
+        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h) {
+            expect(flip_of(h), expected_of_flip * error_at(h), work_at(h));
+            expect_split(h);
+            collapses_.set(h, 0.0F);
+        }
+    }
+}
+
+std::size_t Optimizer::run(const OptimizeOptions& options) {
+    measure_all();
+    fill();
+    std::size_t steps = 0;
+    while (steps < options.max_steps && !queue_.empty()) {
+        if (steps % 64 == 0 && options.is_time_over && options.is_time_over()) {
+            break;
+        }
+        if (steps % 1024 == 0 && options.show_progress) {
+            options.show_progress(
+                static_cast<double>(steps) / static_cast<double>(options.max_steps));
+        }
+        try_step(queue_.top());
+        // Steps among very many triangles or samples count several times.
+        steps = std::max(steps + 1, static_cast<std::size_t>(local_.work_done() / work_of_step));
+    }
+    return steps;
+}
+
+void Optimizer::try_step(Id id) {
+    if (id < vertices_) {
+        queue_.remove(id);
+        try_move(id);
+    } else if (id < vertices_ + edges_) {
+        queue_.remove(id);
+        try_flip(id - static_cast<Id>(vertices_));
+    } else {
+        try_split(id - static_cast<Id>(vertices_ + edges_));
+    }
+}
+
+/// Moves a vertex, and changes its colour, if a full or a shorter step of the fit lessens the error.
+void Optimizer::try_move(std::uint32_t vertex) {
+    surface_.mesh.ring_at(vertex, ring_, faces_);
+    const glm::dvec3 place = surface_.places[vertex];
+    const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
+    local_.gather(faces_);
+    const double before = local_.present();
+    if (before <= local_.rounding()) {
+        return;
+    }
+    local_.set_ring(ring_, place, colour);
+    local_.measured_there();
+    const VertexFit fit = local_.fit(true);
+    const glm::dvec3 way = surface_.along_borders(vertex, fit.way());
+    const double work = local_.work();
+    for (const double step : {1.0, 0.4}) {
+        const glm::dvec3 there = place + step * way;
+        const glm::dvec3 new_colour = colour + step * fit.colour_change();
+        if (!may_move(surface_, ring_, there)) {
+            continue;
+        }
+        local_.move_corner(there, new_colour);
+        const double limit = (1.0 - min_share) * before;
+        const double after = local_.measured(limit);
+        if (after < limit && local_.max_distance2() <= max_distance2_) {
+            surface_.places[vertex] = there;
+            if (surface_.coloured()) {
+                surface_.colours[vertex] = new_colour;
+            }
+            local_.keep(faces_, faces_, vertex);
+            expect(vertex, expected_again * (before - after), work);
+            changed_around(vertex, before - after, work, false);
+            return;
+        }
+    }
+}
+
+/// Renews what is expected of the steps around a vertex at which something changed.
+void Optimizer::changed_around(
+    std::uint32_t vertex, double gain, double work, bool connectivity) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    mesh.around(vertex, [&](HalfEdge h) {
+        for (const HalfEdge side : {h, next_of(h)}) {
+            const HalfEdge edge = mesh.edge_of(side);
+            if (connectivity) {
+                expect(flip_of(edge), expected_of_flip * error_at(edge), work_at(edge));
+                expect_split(edge);
+                collapses_.set(edge, 0.0F);
+            } else {
+                expect(flip_of(edge), 0.2 * expected_beside * gain, work);
+                split_is_checked_[edge] = 0;
+            }
+            collapse_is_checked_[edge] = 0;
+        }
+        if (connectivity) {
+            expect(mesh.target(h), expected_of_move * samples_.error(face_of(h)), work_at(h));
+        } else {
+            expect(mesh.target(h), expected_beside * gain, work);
+        }
+    });
+    if (connectivity) {
+        expect(vertex, expected_again * gain, work);
+    }
+}
+
+void Optimizer::try_flip(HalfEdge h) {
+    CollapsibleMesh& mesh = surface_.mesh;
+    if (mesh.twin(h) == none || surface_.is_material_border(h) || !mesh.may_flip(h)) {
+        return;
+    }
+    const std::uint32_t u = mesh.origin(h);
+    const std::uint32_t w = mesh.target(h);
+    const std::uint32_t x = mesh.origin(previous_of(h));
+    const std::uint32_t y = mesh.origin(previous_of(mesh.twin(h)));
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        ColouredTriangle made{
+            {a, b, c}, {surface_.places[a], surface_.places[b], surface_.places[c]}, {}};
+        if (surface_.coloured()) {
+            made.colours = {surface_.colours[a], surface_.colours[b], surface_.colours[c]};
+        }
+        return made;
+    };
+    const std::array old = {triangle(u, w, x), triangle(w, u, y)};
+    const std::array made = {triangle(y, x, u), triangle(x, y, w)};
+    if (!may_flip_to({old[0].places, old[1].places}, {made[0].places, made[1].places})) {
+        return;
+    }
+    faces_.assign({face_of(h), face_of(mesh.twin(h))});
+    local_.gather(faces_);
+    const double before = local_.present();
+    if (before <= local_.rounding()) {
+        return;
+    }
+    local_.set_triangles(made, faces_);
+    const double limit = 0.99 * before;
+    const double after = local_.measured(limit);
+    if (!(after < limit) || local_.max_distance2() > max_distance2_) {
+        return;
+    }
+    mesh.flip(h);
+    local_.keep(faces_, faces_, none);
+    const double work = local_.work();
+    for (const std::uint32_t vertex : {u, w, x, y}) {
+        expect(vertex, expected_beside * (before - after), work);
+    }
+    for (const std::uint32_t face : faces_) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const HalfEdge edge = mesh.edge_of(3 * face + corner);
+            expect(flip_of(edge), expected_beside * (before - after), work);
+            split_is_checked_[edge] = 0;
+            collapse_is_checked_[edge] = 0;
+            if (!collapses_.holds(edge)) {
+                collapses_.set(edge, 0.0F);
+            }
+        }
+    }
+}
+
+/// Loads the triangles around an edge that would split, into a fan around the new vertex.
+void Optimizer::load_split(HalfEdge h) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    faces_.assign(1, face_of(h));
+    fan_.clear();
+    const glm::dvec3 middle =
+        0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
+    const glm::dvec3 colour =
+        surface_.coloured()
+            ? 0.5 * (surface_.colours[mesh.origin(h)] + surface_.colours[mesh.target(h)])
+            : glm::dvec3(0.0);
+    const auto add = [&](std::uint32_t b, std::uint32_t c) {
+        ColouredTriangle made{
+            {none, b, c}, {middle, surface_.places[b], surface_.places[c]}, {}};
+        if (surface_.coloured()) {
+            made.colours = {colour, surface_.colours[b], surface_.colours[c]};
+        }
+        fan_.push_back(made);
+    };
+    // In the order of CollapsibleMesh::split.
+    for (const HalfEdge side : {h, mesh.twin(h)}) {
+        if (side == none) {
+            continue;
+        }
+        if (side != h) {
+            faces_.push_back(face_of(side));
+        }
+        const std::uint32_t opposite = mesh.origin(previous_of(side));
+        add(opposite, mesh.origin(side));
+        add(mesh.target(side), opposite);
+    }
+    local_.gather(faces_);
+    near_.clear();
+    for (std::size_t i = 0; i < fan_.size(); ++i) {
+        near_.push_back(faces_[i / 2]);
+    }
+    local_.set_triangles(fan_, near_);
+}
+
+/// The vertex that a split of an edge would make.
+Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
+    load_split(h);
+    MadeVertex made{fan_[0].places[0], fan_[0].colours[0], std::numeric_limits<double>::infinity()};
+    const double present = local_.present();
+    if (present <= local_.rounding()) {
+        return made;
+    }
+    const auto is_allowed = [&](const glm::dvec3& place) {
+        for (std::size_t i = 0; i < fan_.size(); ++i) {
+            std::array<glm::dvec3, 3> corners = fan_[i].places;
+            corners[0] = place;
+            if (!may_become(surface_.corner_places(faces_[i / 2]), corners)) {
+                return false;
+            }
+        }
+        return true;
+    };
+    glm::dvec3 place = made.place;
+    glm::dvec3 colour = made.colour;
+    for (int fit = 0; fit < 2; ++fit) {
+        local_.measured_there();
+        const VertexFit step = local_.fit(false);
+        place += step.way();
+        colour += step.colour_change();
+        local_.move_corner(place, colour);
+    }
+    if (is_allowed(place)) {
+        const double after = local_.measured(present);
+        if (after < present && local_.max_distance2() <= max_distance2_) {
+            made = {place, colour, after - present};
+        }
+    }
+    return made;
+}
+
+void Optimizer::load_collapse(HalfEdge h) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    mesh.ring_of(h, ring_);
+    faces_.assign(1, face_of(h));
+    if (mesh.twin(h) != none) {
+        faces_.push_back(face_of(mesh.twin(h)));
+    }
+    ring_faces_.clear();
+    for (const RingFace& face : ring_) {
+        faces_.push_back(face.face);
+        ring_faces_.push_back(face.face);
+    }
+    local_.gather(faces_);
+}
+
+/// The vertex that a collapse of an edge would leave.
+Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    MadeVertex made{glm::dvec3(0.0), glm::dvec3(0.0), std::numeric_limits<double>::infinity()};
+    if (!mesh.may_collapse(h) || surface_.is_border_vertex(mesh.origin(h)) ||
+        surface_.is_border_vertex(mesh.target(h))) {
+        return made;
+    }
+    load_collapse(h);
+    const std::uint32_t u = mesh.origin(h);
+    const std::uint32_t w = mesh.target(h);
+    glm::dvec3 place = 0.5 * (surface_.places[u] + surface_.places[w]);
+    glm::dvec3 colour = surface_.coloured() ? 0.5 * (surface_.colours[u] + surface_.colours[w])
+                                            : glm::dvec3(0.0);
+    local_.set_ring(ring_, place, colour);
+    for (int fit = 0; fit < 2; ++fit) {
+        local_.measured_there();
+        const VertexFit step = local_.fit(false);
+        place += step.way();
+        colour += step.colour_change();
+        local_.move_corner(place, colour);
+    }
+    if (may_move(surface_, ring_, place)) {
+        const double after = local_.measured();
+        if (local_.max_distance2() <= max_distance2_) {
+            made = {place, colour, after - local_.present()};
+        }
+    }
+    return made;
+}
+
+/// The edge whose collapse costs least; none where no edge may collapse.
+HalfEdge Optimizer::cheapest_collapse() {
+    while (!collapses_.empty()) {
+        const HalfEdge edge = collapses_.top();
+        if (collapse_is_checked_[edge] != 0) {
+            return edge;
+        }
+        collapse_is_checked_[edge] = 1;
+        const bool is_edge = surface_.mesh.face_is_there(face_of(edge)) &&
+                             surface_.mesh.edge_of(edge) == edge;
+        const double change =
+            is_edge ? collapsed_vertex(edge).change : std::numeric_limits<double>::infinity();
+        if (std::isinf(change)) {
+            collapses_.remove(edge);
+        } else {
+            collapses_.set(edge, static_cast<float>(change));
+        }
+    }
+    return none;
+}
+
+/// Whether triangles around both edges share a vertex.
+bool Optimizer::touch(HalfEdge split, HalfEdge collapsed) const {
+    const CollapsibleMesh& mesh = surface_.mesh;
+    std::vector<std::uint32_t> near;
+    for (const HalfEdge side : {split, mesh.twin(split)}) {
+        if (side != none) {
+            const Triangle corners = mesh.corners(face_of(side));
+            near.insert(near.end(), corners.begin(), corners.end());
+        }
+    }
+    bool found = false;
+    for (const std::uint32_t end : {mesh.origin(collapsed), mesh.target(collapsed)}) {
+        mesh.around(end, [&](HalfEdge h) {
+            for (const std::uint32_t corner : mesh.corners(face_of(h))) {
+                found = found || std::ranges::find(near, corner) != near.end();
+            }
+        });
+    }
+    return found;
+}
+
+/// Splits an edge if that takes more away than the cheapest collapse elsewhere costs. The first
+/// time only finds out what it is worth.
+void Optimizer::try_split(HalfEdge h) {
+    const Id id = split_of(h);
+    const CollapsibleMesh& mesh = surface_.mesh;
+    if (!mesh.face_is_there(face_of(h)) || mesh.edge_of(h) != h ||
+        surface_.is_border(h)) {
+        queue_.remove(id);
+        return;
+    }
+    const HalfEdge cheapest = cheapest_collapse();
+    if (cheapest == none) {
+        queue_.remove(id);
+        return;
+    }
+    const auto cost = static_cast<double>(collapses_.cost(cheapest));
+    if (split_is_checked_[h] == 0) {
+        split_is_checked_[h] = 1;
+        const double gain = -split_vertex(h).change - cost;
+        if (gain > min_share * cost) {
+            queue_.set(id, static_cast<float>(-gain / (4.0 * work_at(h))));
+        } else {
+            queue_.remove(id);
+        }
+        return;
+    }
+    queue_.remove(id);
+    if (touch(h, cheapest)) {
+        return;
+    }
+    relocate(h, cheapest);
+}
+
+/// Collapses one edge and splits another one with the triangles that are free then.
+void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
+    CollapsibleMesh& mesh = surface_.mesh;
+    const MadeVertex apart = split_vertex(split);
+    const MadeVertex merged = collapsed_vertex(collapsed);
+    const double gain = -apart.change - merged.change;
+    if (!(gain > 0.0)) {
+        return;
+    }
+    // The collapse.
+    load_collapse(collapsed);
+    local_.set_ring(ring_, merged.place, merged.colour);
+    local_.measured();
+    const double work = local_.work();
+    const std::uint32_t kept = mesh.origin(collapsed);
+    const std::uint32_t gone = mesh.target(collapsed);
+    std::array<std::uint32_t, 2> free = {face_of(collapsed), none};
+    for (const HalfEdge side : {collapsed, mesh.twin(collapsed)}) {
+        if (side == none) {
+            continue;
+        }
+        free[1] = face_of(side);
+        for (const HalfEdge at : {side, next_of(side), previous_of(side)}) {
+            const HalfEdge edge = mesh.edge_of(at);
+            collapses_.remove(edge);
+            queue_.remove(flip_of(edge));
+            queue_.remove(split_of(edge));
+        }
+    }
+    mesh.collapse(collapsed);
+    surface_.places[kept] = merged.place;
+    if (surface_.coloured()) {
+        surface_.colours[kept] = merged.colour;
+    }
+    local_.keep(faces_, ring_faces_, kept);
+    queue_.remove(gone);
+    // The split.
+    load_split(split);
+    local_.move_corner(apart.place, apart.colour);
+    local_.measured();
+    const std::uint32_t left = face_of(split);
+    const std::uint32_t right = mesh.twin(split) == none ? none : face_of(mesh.twin(split));
+    mesh.split(split, gone, free);
+    std::vector<std::uint32_t> made = {left, free[0]};
+    if (right != none) {
+        made.insert(made.end(), {free[1], right});
+    }
+    if (!surface_.materials.empty()) {
+        surface_.materials[free[0]] = surface_.materials[left];
+        if (right != none) {
+            surface_.materials[free[1]] = surface_.materials[right];
+        }
+    }
+    surface_.places[gone] = apart.place;
+    if (surface_.coloured()) {
+        surface_.colours[gone] = apart.colour;
+    }
+    local_.keep(faces_, made, gone);
+    changed_around(kept, gain, work, true);
+    changed_around(gone, gain, work, true);
+}
+
+} // namespace
+
+std::size_t optimize(
+    WorkingSurface& surface,
+    SurfaceSamples& samples,
+    const OriginalSurface& original,
+    const OptimizeOptions& options) {
+    return Optimizer(surface, samples, original).run(options);
+}
+
+} // namespace octant::models::simplify

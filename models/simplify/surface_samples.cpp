@@ -1,0 +1,278 @@
+// The samples by which the error against the original surface is kept up to date. Weighted by area
+// they approximate the integral of the squared distance over the original. Lists of samples at
+// triangles make a step cost what its neighbourhood holds, however large the mesh.
+#include "models/simplify/surface_samples.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// The share of the area that vertices stand for where there are samples between them.
+constexpr double vertex_share = 0.3;
+
+/// The barycentric weights of point `i` of the R2 sequence (M. Roberts, 2018), folded into a
+/// triangle.
+glm::dvec3 spread_weights(std::size_t i) {
+    const double step = 0.5 + static_cast<double>(i);
+    double u = std::fmod(step * 0.7548776662466927, 1.0);
+    double v = std::fmod(step * 0.5698402909980532, 1.0);
+    if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    return {1.0 - u - v, u, v};
+}
+
+} // namespace
+
+SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wanted) {
+    const CollapsibleMesh& mesh = original.mesh;
+    std::vector<double> areas(mesh.face_slots(), 0.0);
+    std::vector<double> vertex_areas(mesh.vertex_slots(), 0.0);
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        areas[face] = 0.5 * glm::length(area_vector(original.corner_places(face)));
+        for (const std::uint32_t vertex : mesh.corners(face)) {
+            vertex_areas[vertex] += areas[face] / 3.0;
+        }
+    }
+    make_face_room(mesh.face_slots());
+    const std::size_t vertices = mesh.vertex_count();
+    samples_.reserve(std::max(wanted, vertices));
+    if (wanted <= vertices) {
+        add_vertices(original, vertex_areas, vertices / std::max<std::size_t>(wanted, 1));
+        return;
+    }
+    for (double& area : vertex_areas) {
+        area *= vertex_share;
+    }
+    add_vertices(original, vertex_areas, 1);
+    add_on_faces(original, areas, wanted - vertices);
+}
+
+/// Adds every stride-th vertex, which stands for those before it too: neighbours mostly follow each
+/// other.
+void SurfaceSamples::add_vertices(
+    const WorkingSurface& from, std::span<const double> areas, std::size_t stride) {
+    double area = 0.0;
+    std::size_t counted = 0;
+    for (std::uint32_t vertex = 0; vertex < areas.size(); ++vertex) {
+        if (!from.mesh.vertex_is_there(vertex)) {
+            continue;
+        }
+        area += areas[vertex];
+        if (++counted % stride != 0 && vertex + 1 != areas.size()) {
+            continue;
+        }
+        const std::uint32_t face = from.mesh.face_at(vertex);
+        glm::dvec3 weights(0.0);
+        for (int i = 0; i < 3; ++i) {
+            weights[i] = from.mesh.corners(face)[static_cast<std::size_t>(i)] == vertex ? 1.0 : 0.0;
+        }
+        add(from, face, weights, area);
+        area = 0.0;
+    }
+}
+
+/// Adds points spread evenly over the area: point k at (k + 1/2) / count of the accumulated area.
+void SurfaceSamples::add_on_faces(
+    const WorkingSurface& from, std::span<const double> areas, std::size_t count) {
+    double total = 0.0;
+    for (const double area : areas) {
+        total += area;
+    }
+    const double spacing = total / static_cast<double>(count);
+    double end = 0.0;
+    std::size_t placed = 0;
+    for (std::uint32_t face = 0; face < areas.size(); ++face) {
+        end += areas[face];
+        const auto until =
+            std::min(count, static_cast<std::size_t>(std::max(0.0, end / spacing + 0.5)));
+        const std::size_t here = spacing > 0.0 && until > placed ? until - placed : 0;
+        for (std::size_t i = 0; i < here; ++i) {
+            const glm::dvec3 weights = here == 1 ? glm::dvec3(1.0 / 3.0) : spread_weights(i);
+            add(from, face, weights, (1.0 - vertex_share) * spacing);
+        }
+        placed += here;
+    }
+}
+
+/// Adds a sample on a triangle of the original.
+void SurfaceSamples::add(
+    const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area) {
+    const std::array<glm::dvec3, 3> corners = from.corner_places(face);
+    const Triangle& vertices = from.mesh.corners(face);
+    SurfaceSample sample;
+    sample.place = measure::narrow(
+        weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
+    sample.weight = static_cast<float>(area);
+    if (from.coloured()) {
+        colours_.push_back(measure::narrow(
+            weights.x * from.colours[vertices[0]] + weights.y * from.colours[vertices[1]] +
+            weights.z * from.colours[vertices[2]]));
+    }
+    const auto number = static_cast<std::uint32_t>(samples_.size());
+    sample.face = face;
+    sample.triangle = face;
+    sample.next = first_[face];
+    samples_.push_back(sample);
+    first_[face] = number;
+    ++counts_[face];
+}
+
+void SurfaceSamples::gather(std::uint32_t face, SampleBlock& block) const {
+    block.make_room(block.size() + counts_[face]);
+    for_each(face, [&](std::uint32_t number) {
+        const SurfaceSample& sample = samples_[number];
+        if (coloured()) {
+            const std::array<float, 3>& colour = colours_[number];
+            block.red[block.size()] = colour[0];
+            block.green[block.size()] = colour[1];
+            block.blue[block.size()] = colour[2];
+        }
+        block.add(number, sample.place, sample.weight);
+    });
+}
+
+void SurfaceSamples::assign(
+    const SampleBlock& block,
+    std::span<const std::uint32_t> emptied,
+    std::span<const std::uint32_t> faces) {
+    for (const std::uint32_t face : emptied) {
+        clear(face);
+    }
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        SurfaceSample& sample = samples_[block.numbers[i]];
+        const std::uint32_t face = faces[static_cast<std::size_t>(block.nearest[i])];
+        sample.next = first_[face];
+        first_[face] = block.numbers[i];
+        sample.face = face;
+        sample.distance2 = block.distances2[i];
+        ++counts_[face];
+        const double colour_error2 =
+            coloured() ? static_cast<double>(block.colour_errors2[i]) : 0.0;
+        errors_[face] +=
+            static_cast<double>(block.weights[i]) *
+            (penalty_.of(static_cast<double>(block.distances2[i])) + colour_error2);
+    }
+}
+
+void SurfaceSamples::clear(std::uint32_t face) {
+    first_[face] = none;
+    counts_[face] = 0;
+    errors_[face] = 0.0;
+    back_errors_[face] = 0.0;
+}
+
+void SurfaceSamples::put(std::uint32_t sample, std::uint32_t face, float distance2) {
+    SurfaceSample& put = samples_[sample];
+    put.next = first_[face];
+    put.face = face;
+    put.distance2 = distance2;
+    first_[face] = sample;
+    ++counts_[face];
+    errors_[face] +=
+        static_cast<double>(put.weight) * penalty_.of(static_cast<double>(distance2));
+}
+
+void SurfaceSamples::make_face_room(std::size_t count) {
+    first_.resize(std::max(count, first_.size()), none);
+    counts_.resize(first_.size(), 0);
+    errors_.resize(first_.size(), 0.0);
+    back_errors_.resize(first_.size(), 0.0);
+}
+
+void SurfaceSamples::assign_all(
+    std::span<const std::uint32_t> faces,
+    std::span<const float> distances2,
+    const CollapsibleMesh& mesh) {
+    const std::size_t face_slots = mesh.face_slots();
+    // Fresh ones: there may have been far more triangles.
+    first_ = std::vector<std::uint32_t>(face_slots, none);
+    counts_ = std::vector<std::uint32_t>(face_slots, 0);
+    errors_ = std::vector<double>(face_slots, 0.0);
+    back_errors_ = std::vector<double>(face_slots, 0.0);
+    from_faces_ = std::vector<std::array<WayBack, 3>>(face_slots);
+    from_vertices_ = std::vector<WayBack>(mesh.vertex_slots());
+    std::vector<std::uint32_t> ends(face_slots + 1, 0);
+    for (const std::uint32_t face : faces) {
+        ++counts_[face];
+        ++ends[face + 1];
+    }
+    for (std::size_t face = 0; face < face_slots; ++face) {
+        ends[face + 1] += ends[face];
+    }
+    const std::vector<SurfaceSample> before = std::move(samples_);
+    const std::vector<std::array<float, 3>> colours = std::move(colours_);
+    samples_.resize(before.size());
+    colours_.resize(colours.size());
+    for (std::uint32_t number = 0; number < before.size(); ++number) {
+        const std::uint32_t face = faces[number];
+        const std::uint32_t place = ends[face]++;
+        SurfaceSample& sample = samples_[place];
+        sample = before[number];
+        sample.face = face;
+        sample.distance2 = distances2[number];
+        sample.next = first_[face];
+        first_[face] = place;
+        if (!colours.empty()) {
+            colours_[place] = colours[number];
+        }
+    }
+    set_penalty(penalty_);
+}
+
+void SurfaceSamples::set_penalty(const Penalty& penalty) {
+    penalty_ = penalty;
+    std::ranges::fill(errors_, 0.0);
+    for (const SurfaceSample& sample : samples_) {
+        errors_[sample.face] += static_cast<double>(sample.weight) *
+                                penalty_.of(static_cast<double>(sample.distance2));
+    }
+}
+
+double SurfaceSamples::mean2() const {
+    double sum = 0.0;
+    double area = 0.0;
+    for (const SurfaceSample& sample : samples_) {
+        const auto weight = static_cast<double>(sample.weight);
+        sum += weight * static_cast<double>(sample.distance2);
+        area += weight;
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+std::uint32_t nearest_face_from(
+    const WorkingSurface& surface,
+    std::uint32_t start,
+    const std::array<float, 3>& place,
+    float& distance2) {
+    const CollapsibleMesh& mesh = surface.mesh;
+    std::uint32_t nearest = start;
+    distance2 = std::numeric_limits<float>::max();
+    std::uint32_t looked = none;
+    while (nearest != looked) {
+        looked = nearest;
+        for (const std::uint32_t corner : mesh.corners(looked)) {
+            mesh.around(corner, [&](HalfEdge h) {
+                const FlatTriangle triangle = flat(surface.corner_places(face_of(h)));
+                measure::FramePoints<float> found;
+                measure::find_in_frame<false>(found, place, triangle);
+                if (found.distance2 < distance2) {
+                    distance2 = found.distance2;
+                    nearest = face_of(h);
+                }
+            });
+        }
+    }
+    return nearest;
+}
+
+} // namespace octant::models::simplify

@@ -1,0 +1,141 @@
+#include "models/measure/mesh_distance.h"
+#include "models/simplify/collapsible_mesh.h"
+#include "models/simplify/original_surface.h"
+#include "models/simplify/simplify.h"
+#include "models/simplify/working_surface.h"
+#include "tests/models/simplify/simplify_meshes.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+using namespace octant::models;
+using namespace octant::models::simplify;
+using namespace octant::tests;
+
+namespace {
+
+double rms_m(const TriangleMesh& a, const TriangleMesh& b) {
+    return measure::distance(a, b, {.tightness = 1.05, .negligible_m = 1e-4, .samples = 20'000})
+        .rms_m();
+}
+
+/// Two materials left and right of x = 1.
+TriangleMesh two_grounds(TriangleMesh mesh) {
+    mesh.materials = {{"grass", glm::vec3(0.2F)}, {"sand", glm::vec3(0.8F)}};
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto& v = mesh.vertices_m;
+        mesh.triangle_materials.push_back((v[a].x + v[b].x + v[c].x) / 3.0 < 1.0 ? 0 : 1);
+    }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("more effort never leads farther off than collapses alone") {
+    for (const TriangleMesh& fine : {ball(40), ring(40, 24), machined_part(12)}) {
+        SimplifyOptions options;
+        options.goal.faces = 300;
+        options.effort = 0;
+        double last_m = rms_m(fine, simplified(fine, options).mesh);
+        for (const int effort : {1, 4}) {
+            options.effort = effort;
+            const TriangleMesh made = simplified(fine, options).mesh;
+            CHECK(made.triangles.size() <= 300);
+            CHECK(is_manifold(made));
+            CHECK(boundary_edges(made) == 0);
+            const double now_m = rms_m(fine, made);
+            CHECK(now_m <= last_m);
+            last_m = now_m;
+        }
+    }
+}
+
+TEST_CASE("the number of steps that was told repeats a result") {
+    SimplifyOptions options;
+    options.goal.faces = 200;
+    const Simplified by_effort = simplified(ball(24), options);
+    options.effort = 0;
+    options.steps = by_effort.steps;
+    CHECK(same_bytes(simplified(ball(24), options).mesh, by_effort.mesh));
+    options.steps.reset();
+    options.max_seconds = 1e-9;
+    CHECK(simplified(ball(24), options).steps == 0);
+}
+
+TEST_CASE("vertices move along a border and across the surface, its ends across it alone") {
+    const TriangleMesh sheet = two_grounds(strip(4, 8));
+    const WorkingSurface surface(sheet, WorkingUnits::of(sheet, 0.1));
+    const auto moved = [&](const glm::dvec3& place_m) {
+        const auto found = std::ranges::find_if(sheet.vertices_m, [&](const glm::dvec3& v) {
+            return glm::distance(v, place_m) < 1e-9;
+        });
+        REQUIRE(found != sheet.vertices_m.end());
+        const auto vertex = static_cast<std::uint32_t>(found - sheet.vertices_m.begin());
+        return surface.along_borders(vertex, {1.0, 2.0, 3.0});
+    };
+    const glm::dvec3 whole(1.0, 2.0, 3.0);
+    CHECK(moved({0.5, 0.5, 0.0}) == whole);
+    INFO("between two materials");
+    CHECK(glm::distance(moved({1.0, 0.5, 0.0}), {0.0, 2.0, 3.0}) < 1e-12);
+    CHECK(glm::distance(moved({1.0, 0.0, 0.0}), {0.0, 0.0, 3.0}) < 1e-12);
+    INFO("at the boundary");
+    CHECK(glm::distance(moved({0.5, 0.0, 0.0}), {1.0, 0.0, 3.0}) < 1e-12);
+}
+
+TEST_CASE("a split edge leaves a closed manifold with two triangles and one vertex more") {
+    const TriangleMesh made = octahedron();
+    std::vector<Triangle> triangles = made.triangles;
+    CollapsibleMesh mesh(made.vertices_m.size(), triangles);
+    mesh.collapse(0);
+    REQUIRE(mesh.face_count() == 6);
+    std::uint32_t vertex = 0;
+    while (mesh.vertex_is_there(vertex)) {
+        ++vertex;
+    }
+    std::array<std::uint32_t, 2> free{};
+    std::size_t found = 0;
+    HalfEdge edge = none;
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (mesh.face_is_there(face)) {
+            edge = 3 * face;
+        } else {
+            free.at(found++) = face;
+        }
+    }
+    mesh.split(edge, vertex, free);
+    CHECK(mesh.face_count() == 8);
+    CHECK(mesh.vertex_count() == 6);
+    CHECK(mesh.target(edge) == vertex);
+    TriangleMesh split = made;
+    split.triangles.clear();
+    std::size_t corners = 0;
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        split.triangles.push_back(mesh.corners(face));
+    }
+    for (std::uint32_t v = 0; v < 6; ++v) {
+        mesh.around(v, [&](HalfEdge h) { corners += mesh.origin(h) == v ? 1U : 0U; });
+    }
+    CHECK(corners == 24);
+    CHECK(is_manifold(split));
+    CHECK(boundary_edges(split) == 0);
+}
+
+TEST_CASE("the way back keeps to the side of a thin part from which it starts") {
+    TriangleMesh sheet; // two squares, the lower one seen from below
+    sheet.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0},
+                        {0.0, 0.0, 0.1}, {1.0, 0.0, 0.1}, {1.0, 1.0, 0.1}, {0.0, 1.0, 0.1}};
+    sheet.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+    const WorkingSurface surface(sheet, WorkingUnits{});
+    const OriginalSurface original(surface);
+    double distance2 = 0.0;
+    const OriginalPoint upper = original.nearest_from(2, {0.25, 0.75, 0.02}, distance2);
+    CHECK(upper.triangle == 3);
+    CHECK(distance2 == Approx(0.08 * 0.08));
+    const OriginalPoint lower = original.nearest_from(0, {0.25, 0.75, 0.02}, distance2);
+    CHECK(lower.triangle == 1);
+    CHECK(distance2 == Approx(0.02 * 0.02));
+}
