@@ -78,11 +78,12 @@ GroundAssembly::GroundAssembly(
 }
 
 HeightFigures GroundAssembly::put_outline() {
+    const int edge = layout_.level(0).edge;
     const std::array<std::int16_t, 4> corners = {
         heights_.stored(heights_.number(0, 0)),
-        heights_.stored(heights_.number(heights_.columns - 1, 0)),
-        heights_.stored(heights_.number(0, heights_.rows - 1)),
-        heights_.stored(heights_.number(heights_.columns - 1, heights_.rows - 1))};
+        heights_.stored(heights_.padded_number(edge, 0)),
+        heights_.stored(heights_.padded_number(0, edge)),
+        heights_.stored(heights_.padded_number(edge, edge))};
     std::memcpy(memory_.data() + layout_.corners(), corners.data(), sizeof corners);
     const std::int64_t sum = put_finest_ranges();
     for (int level = layout_.range_level() - 1; level >= 0; --level) {

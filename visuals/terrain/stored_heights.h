@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,9 +23,32 @@ struct StoredHeights {
              static_cast<std::size_t>(column)];
     }
 
+    /// The number at a place of the padded square. Beyond the last column and row the field goes on
+    /// as its reflection in the point on its border, so that slopes do not bend there.
+    std::int16_t padded_number(int column, int row) const {
+        const int last_column = std::min(column, columns - 1);
+        const int last_row = std::min(row, rows - 1);
+        if (column == last_column && row == last_row) {
+            return number(column, row);
+        }
+        const int west = std::max(2 * last_column - column, 0);
+        const int south = std::max(2 * last_row - row, 0);
+        const auto reflected = [&](int at_row) {
+            return 2 * number(last_column, at_row) - number(west, at_row);
+        };
+        const int value = 2 * reflected(last_row) - reflected(south);
+        return static_cast<std::int16_t>(std::clamp(value, lowest(), highest()));
+    }
+
     std::int16_t stored(std::int16_t number) const {
         return static_cast<std::int16_t>(number * multiplier + addend);
     }
+
+private:
+    /// The lowest and highest number that can be stored.
+    int lowest() const { return std::max(-32768, (-32768 - addend) / multiplier); }
+
+    int highest() const { return std::min(32767, (32767 - addend) / multiplier); }
 };
 
 } // namespace octant::visuals::terrain

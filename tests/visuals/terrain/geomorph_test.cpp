@@ -131,3 +131,16 @@ TEST_CASE("without geomorphs all vertices are at their samples, with them the me
     const MeshCopy all_morphed(ground.mesher.mesh(whole, {3.0, any_triangles, true}));
     CHECK(all_rigid.indices == all_morphed.indices);
 }
+
+TEST_CASE("the ground at the border of fields of any size moves as slowly as within") {
+    // Steep ground of few samples, as the Karakoram at 90 m. Samples at the border of a field whose
+    // size is no power of two and one lie beside the middles of their edges if they are moved
+    // there.
+    for (const auto& [columns, rows] : {std::pair{52, 37}, {65, 50}, {40, 65}, {65, 65}}) {
+        INFO(columns << " x " << rows);
+        ErrorGround ground(stretched(rough_field(columns, rows, 4), 3.0F));
+        const Moves moves = moves_of(ground, {12.0, 1'000'000, true});
+        CHECK(moves.vertices > 10);
+        CHECK(moves.largest_m < 11.0 * 0.01 * 12.0 / 869.1 + 6e-5);
+    }
+}
