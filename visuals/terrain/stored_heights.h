@@ -16,6 +16,8 @@ struct StoredHeights {
     int multiplier = 1;
     int addend = 0;
     double number_unit_m = 1.0; ///< The height difference of two successive numbers.
+    int lowest = -32768;        ///< The limits of padded_number.
+    int highest = 32767;
 
     std::int16_t number(int column, int row) const {
         return numbers
@@ -37,18 +39,12 @@ struct StoredHeights {
             return 2 * number(last_column, at_row) - number(west, at_row);
         };
         const int value = 2 * reflected(last_row) - reflected(south);
-        return static_cast<std::int16_t>(std::clamp(value, lowest(), highest()));
+        return static_cast<std::int16_t>(std::clamp(value, lowest, highest));
     }
 
     std::int16_t stored(std::int16_t number) const {
         return static_cast<std::int16_t>(number * multiplier + addend);
     }
-
-private:
-    /// The lowest and highest number that can be stored.
-    int lowest() const { return std::max(-32768, (-32768 - addend) / multiplier); }
-
-    int highest() const { return std::min(32767, (32767 - addend) / multiplier); }
 };
 
 } // namespace octant::visuals::terrain

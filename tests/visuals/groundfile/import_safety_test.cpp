@@ -97,8 +97,7 @@ void write_earlier_version(
     const auto put_checksum = [&](std::size_t index, std::uint64_t checksum) {
         std::memcpy(&checksums[8 * index], &checksum, sizeof checksum);
     };
-    const terrain::StoredHeights heights{
-        numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
+    const terrain::StoredHeights heights = terrain::stored_heights(numbers, shape, false);
     terrain::GroundAssembly assembly(shape, layout, heights, memory, 1);
     assembly.put_outline();
     for (std::size_t tile = 0; tile < assembly.tiles();) {

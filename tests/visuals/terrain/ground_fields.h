@@ -5,6 +5,7 @@
 #include "visuals/terrain/ground_assembly.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace octant::visuals::terrain {
 
@@ -15,7 +16,8 @@ rough_field(int columns, int rows, unsigned seed = 1, int range_m = 900) {
 }
 
 /// The height of the padded square: beyond its last column and row a field goes on as its
-/// reflection in the point on its border, as far as 16 bits hold that.
+/// reflection in the point on its border, as far as 16 bits hold that, in whole
+/// metres.
 inline double padded_height_m(const models::heights::HeightField& field, int column, int row) {
     const auto at_m = [&field](int x, int y) {
         return static_cast<double>(field.height_m(std::max(x, 0), std::max(y, 0)));
@@ -36,8 +38,8 @@ inline double padded_height_m(const models::heights::HeightField& field, int col
         static_cast<double>(field.highest_m()));
     return std::clamp(
         2.0 * reflected_m(y) - reflected_m(2 * y - row),
-        shape.height_base_m - 32768.0 * shape.height_unit_m,
-        shape.height_base_m + 32767.0 * shape.height_unit_m);
+        std::ceil(shape.height_base_m - 32768.0 * shape.height_unit_m),
+        std::floor(shape.height_base_m + 32767.0 * shape.height_unit_m));
 }
 
 } // namespace octant::visuals::terrain
