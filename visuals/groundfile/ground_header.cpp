@@ -79,6 +79,11 @@ bool is_sound(const GroundHeader& h) {
            h.name_length <= h.name.size() && h.progress.stage <= GroundProgress::Stage::Complete;
 }
 
+/// Whether the quadtree's square has no samples beyond the field.
+bool fills_its_square(const GroundShape& shape) {
+    return shape.columns == shape.rows && GroundLayout(shape).level(0).edge == shape.columns - 1;
+}
+
 /// The length of the longest beginning of a text that has at most `longest` bytes and ends with a
 /// whole character.
 std::size_t length_cut(std::string_view text, std::size_t longest) {
@@ -267,6 +272,15 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
         header.system_checksum != part_checksum(header.system) ||
         header.deviation_checksum != part_checksum(header.deviation) || !is_sound(header)) {
         error_in(path, "expected a sound header, got a damaged one: import it again");
+    }
+    if (header.version <= GroundHeader::fifth_version && !fills_its_square(shape_of(header))) {
+        error_in(
+            path,
+            fmt::format(
+                "expected a ground of version {}, got version {}, whose heights end otherwise at "
+                "the map's border: import it again",
+                GroundHeader::right_version,
+                header.version));
     }
     if (header.layout != hash_of(shape_of(header))) {
         error_in(path, "expected today's layout, got that of another release: import it again");

@@ -54,7 +54,10 @@ struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
     static constexpr std::array<char, 16> right_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 5;
+    static constexpr std::uint32_t right_version = 6;
+    /// The same as version 6, but errors and heights beyond the field's border are those of a field
+    /// that repeats its last column and row there. read_header takes a field without such samples.
+    static constexpr std::uint32_t fifth_version = 5;
     /// The same as version 5, but with the codes of all grounds (GroundShape::has_own_codes).
     static constexpr std::uint32_t fourth_version = 4;
     /// The same as version 4, but without errors without room (GroundShape::has_both_rooms).
@@ -118,7 +121,8 @@ bool may_be_stored(const GroundShape& shape);
 std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header);
 
 /// The header at the beginning of a file's bytes, of this version or an earlier one. Throws Error
-/// when there is none, when it is damaged, or when it does not fit today's layout.
+/// when there is none, when it is damaged, or when it does not fit today's layout. Throws Error also
+/// for a version below 6 where the field is not a square of 2^n + 1 samples.
 GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file);
 
 } // namespace octant::visuals::groundfile

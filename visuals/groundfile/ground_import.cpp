@@ -276,7 +276,8 @@ void Import::build() {
         source_.spacing_m(),
         progress_.lowest_m,
         progress_.highest_m);
-    const StoredHeights heights = heights_of(numbers(), source_, shape_);
+    const StoredHeights heights =
+        terrain::stored_heights(numbers(), shape_, source_.whole_metres());
     const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
     const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
     GroundAssembly assembly(shape_, layout_, heights, memory, options_.threads);

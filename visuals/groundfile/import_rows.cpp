@@ -83,18 +83,4 @@ void read_rows(
     }
 }
 
-terrain::StoredHeights heights_of(
-    std::span<const std::int16_t> numbers,
-    const models::heights::HeightSource& source,
-    const terrain::GroundShape& shape) {
-    terrain::StoredHeights heights{
-        numbers, source.columns(), source.rows(), 1, 0, shape.height_unit_m};
-    if (source.whole_metres()) {
-        heights.multiplier = static_cast<int>(1.0 / shape.height_unit_m);
-        heights.addend = static_cast<int>(-shape.height_base_m / shape.height_unit_m);
-        heights.number_unit_m = 1.0;
-    }
-    return heights;
-}
-
 } // namespace octant::visuals::groundfile

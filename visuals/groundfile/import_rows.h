@@ -3,7 +3,6 @@
 #include "models/heights/height_source.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/terrain/ground_layout.h"
-#include "visuals/terrain/stored_heights.h"
 
 #include <cstdint>
 #include <span>
@@ -23,12 +22,5 @@ void read_rows(
     int first_row,
     std::span<std::int16_t> numbers,
     GroundProgress& progress);
-
-/// The heights that the numbers of all rows, read by read_rows, stand for in a ground of that
-/// shape. `numbers` must outlive them.
-terrain::StoredHeights heights_of(
-    std::span<const std::int16_t> numbers,
-    const models::heights::HeightSource& source,
-    const terrain::GroundShape& shape);
 
 } // namespace octant::visuals::groundfile

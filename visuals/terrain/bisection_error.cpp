@@ -244,7 +244,7 @@ std::int64_t twice_area(const Corner& a, const Corner& b, std::int64_t x, std::i
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/// The height of a triangle's plane; the triangle has an area.
+/// The height of a triangle's plane.
 double plane_at(const std::array<Corner, 3>& at, std::int64_t x, std::int64_t y) {
     const std::int64_t area = twice_area(at[0], at[1], at[2].x, at[2].y);
     const std::int64_t a = twice_area(at[1], at[2], x, y);
@@ -254,50 +254,36 @@ double plane_at(const std::array<Corner, 3>& at, std::int64_t x, std::int64_t y)
            static_cast<double>(area);
 }
 
-/// The largest deviation of the samples in one triangle, edges included.
+/// The largest deviation of the lattice's samples in one triangle, edges included, as far as the
+/// field or a lattice cell with a part of it reaches.
 double error_of_triangle(const StoredHeights& heights, std::array<Corner, 3> at, int stride) {
     std::int64_t area = twice_area(at[0], at[1], at[2].x, at[2].y);
-    if (area == 0) {
-        return 0.0;
-    }
     if (area < 0) {
         std::swap(at[1], at[2]);
         area = -area;
     }
     const auto [west, east] = std::minmax({at[0].x, at[1].x, at[2].x});
     const auto [south, north] = std::minmax({at[0].y, at[1].y, at[2].y});
-    // The lattice and the field's last column and row.
     const auto on_lattice = [stride](std::int64_t from) {
         return (from + stride - 1) / stride * stride;
     };
+    // No part of the field lies beyond these lines of the lattice.
+    const std::int64_t last_x = std::min(east, on_lattice(heights.columns - 1));
+    const std::int64_t last_y = std::min(north, on_lattice(heights.rows - 1));
     double largest = 0.0;
-    for (std::int64_t line = on_lattice(south); line < north + stride; line += stride) {
-        const std::int64_t y = std::min<std::int64_t>(line, heights.rows - 1);
-        for (std::int64_t pixel = on_lattice(west); pixel < east + stride; pixel += stride) {
-            const std::int64_t x = std::min<std::int64_t>(pixel, heights.columns - 1);
+    for (std::int64_t y = on_lattice(south); y <= last_y; y += stride) {
+        for (std::int64_t x = on_lattice(west); x <= last_x; x += stride) {
             const std::int64_t a = twice_area(at[1], at[2], x, y);
             const std::int64_t b = twice_area(at[2], at[0], x, y);
             const std::int64_t c = area - a - b;
             if (a < 0 || b < 0 || c < 0) {
                 continue;
             }
-            const double height = heights.number(static_cast<int>(x), static_cast<int>(y));
+            const double height = heights.padded_number(static_cast<int>(x), static_cast<int>(y));
             largest = std::max(largest, std::abs(height - plane_at(at, x, y)));
         }
     }
     return largest;
-}
-
-/// The height of the point of an edge that is nearest to a place.
-double height_beside(const std::array<Corner, 2>& edge, std::int64_t x, std::int64_t y) {
-    const auto& [a, b] = edge;
-    const std::int64_t length2 = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
-    if (length2 == 0) {
-        return a.height;
-    }
-    const std::int64_t along = (x - a.x) * (b.x - a.x) + (y - a.y) * (b.y - a.y);
-    const double share = static_cast<double>(along) / static_cast<double>(length2);
-    return a.height + std::clamp(share, 0.0, 1.0) * (b.height - a.height);
 }
 
 } // namespace
@@ -311,7 +297,7 @@ void node_errors(const DiamondRow& row, Diamond first, float* errors) {
     run_kernel(row, first, true, errors);
 }
 
-float clamped_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond) {
+float padded_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond) {
     using Step = std::array<int, 2>;
     // For each kind of diamond the directions from the middle to both ends of the hypotenuse and
     // then to both apexes.
@@ -323,26 +309,18 @@ float clamped_error(const StoredHeights& heights, const DiamondPlace& place, Dia
     }};
     const auto corner = [&](std::size_t index) {
         const Step& step = steps[static_cast<std::size_t>(diamond)][index];
-        const int x = std::min(place.column + step[0] * place.half, heights.columns - 1);
-        const int y = std::min(place.row + step[1] * place.half, heights.rows - 1);
-        return Corner{x, y, x < 0 || y < 0 ? 0.0 : heights.number(x, y)};
+        const int x = place.column + step[0] * place.half;
+        const int y = place.row + step[1] * place.half;
+        return Corner{x, y, x < 0 || y < 0 ? 0.0 : heights.padded_number(x, y)};
     };
-    const std::int64_t x = std::min(place.column, heights.columns - 1);
-    const std::int64_t y = std::min(place.row, heights.rows - 1);
-    const double appears_at = height_beside({corner(0), corner(1)}, x, y);
     double largest = 0.0;
-    double folded = 0.0;
     for (const std::size_t apex : {std::size_t{2}, std::size_t{3}}) {
         const std::array<Corner, 3> triangle = {corner(0), corner(1), corner(apex)};
-        const Corner& end = triangle[2];
-        if (end.x >= 0 && end.y >= 0) {
+        if (triangle[2].x >= 0 && triangle[2].y >= 0) {
             largest = std::max(largest, error_of_triangle(heights, triangle, place.stride));
-            const bool has_area = twice_area(triangle[0], triangle[1], end.x, end.y) != 0;
-            folded = has_area ? std::max(folded, std::abs(appears_at - plane_at(triangle, x, y)))
-                              : folded;
         }
     }
-    return static_cast<float>(largest + folded);
+    return static_cast<float>(largest);
 }
 
 } // namespace octant::visuals::terrain

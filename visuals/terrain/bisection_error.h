@@ -44,11 +44,9 @@ struct DiamondPlace {
     int stride = 1;
 };
 
-/// The same for a single diamond anywhere in the field, legs included. Its corners are moved onto
-/// the field's last column and row where they lie beyond; samples there are always looked at.
-/// Triangles without area and those beyond the field's south and west sides do not count. Where the
-/// middle then lies beside the hypotenuse, the distance of the planes from the hypotenuse's nearest
-/// point, where the middle appears, is added.
-float clamped_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond);
+/// The same for a single diamond anywhere in the padded square (StoredHeights::padded_number), legs
+/// included: what lies beyond the field does not count, but for the next samples `stride` apart.
+/// Triangles beyond the field's south and west sides do not count.
+float padded_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond);
 
 } // namespace octant::visuals::terrain

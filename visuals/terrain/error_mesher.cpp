@@ -21,9 +21,8 @@
 // small.
 //
 // Deviations:
-// - Where the field's end cuts a node, a centre lies beside the line between its ends. It appears
-//   at the height of the nearest point of that line, so that the ground around it may move a
-//   little; its error includes that.
+// - Where the field's end cuts a node, the mesh is that of the padded square (ground_layout.h), and
+//   its triangles are cut off at the border (fan_triangles.cpp).
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/error_mesher.h"
 
@@ -60,7 +59,9 @@ ErrorMesher::ErrorMesher(const GroundTiles& ground)
     : ground_(&ground)
     , rule_(ground)
     , survey_(rule_)
-    , horizon_(ground) {}
+    , horizon_(ground)
+    , border_vertices_(
+          static_cast<std::size_t>(ground.rows()) + static_cast<std::size_t>(ground.columns())) {}
 
 GroundMesh ErrorMesher::mesh(const MeshView& view, const ErrorTarget& target) {
     if (meshed_ && view == view_ && target == target_) {
@@ -115,6 +116,8 @@ void ErrorMesher::make_room() {
     std::fill_n(middle_vertex_.begin(), count, Four{});
     vertex_count_ = 0;
     index_count_ = 0;
+    cut_nodes_ = 0;
+    ++mesh_number_;
 }
 
 /// The root's fan with its corners and centre.
@@ -126,21 +129,16 @@ ErrorMesher::EmittedFan ErrorMesher::root_fan() {
     root.beyond = {};
     for (std::size_t q = 0; q < 4; ++q) {
         const std::size_t place = ring_of_quadrant[q];
-        root.ring[place] = fixed_vertex(samples.ring(place), memory.corner_height(q));
+        root.ring[place] = fixed_vertex(samples.padded_ring(place), memory.corner_height(q));
     }
     root.ring[centre_of_ring] =
-        fixed_vertex(samples.at(1, 1), memory.centre_height(memory.spot(0, 0)));
+        fixed_vertex(samples.padded(1, 1), memory.centre_height(memory.spot(0, 0)));
     return root;
 }
 
-/// A vertex that is always there; the existing one if there is one at the same sample.
+/// A vertex that is always there.
 std::uint32_t ErrorMesher::fixed_vertex(Sample at, std::int16_t height) {
-    for (std::uint32_t k = 0; k < vertex_count_; ++k) {
-        if (is_at(at, k)) {
-            return k;
-        }
-    }
-    return add_vertex({at, vertex_count_, vertex_count_, 0.5F, height, 1.0F});
+    return add_vertex({at, vertex_count_, vertex_count_, height, 1.0F});
 }
 
 /// The weight of a vertex; `share_below` tells r where it is needed.
@@ -166,40 +164,17 @@ inline std::uint32_t ErrorMesher::add_vertex(const NewVertex& made) {
     if (made.weight < 1.0F) {
         const float from_a = vertices_[made.end_a].position_m.z;
         const float from_b = vertices_[made.end_b].position_m.z;
-        const float middle_m = made.share == 0.5F // the same whichever end comes first
-                                   ? 0.5F * (from_a + from_b)
-                                   : from_a + made.share * (from_b - from_a);
+        const float middle_m = 0.5F * (from_a + from_b);
         height_m += (1.0F - made.weight) * (middle_m - height_m);
     }
     vertices_[vertex] = {{east_m, north_m, height_m}, 0};
     origins_[vertex] = {
-        static_cast<std::uint16_t>(made.at.column),
-        static_cast<std::uint16_t>(made.at.row),
+        static_cast<std::uint16_t>(std::min(made.at.column, ground_->columns() - 1)),
+        static_cast<std::uint16_t>(std::min(made.at.row, ground_->rows() - 1)),
         made.end_a,
         made.end_b,
         made.weight};
     return vertex;
-}
-
-bool ErrorMesher::is_at(Sample at, std::uint32_t vertex) const {
-    return origins_[vertex].column == at.column && origins_[vertex].row == at.row;
-}
-
-/// The vertex of a sample of a cut fan, which may coincide with one of its ends.
-std::uint32_t ErrorMesher::cut_vertex(NewVertex made) {
-    if (is_at(made.at, made.end_a)) {
-        return made.end_a;
-    }
-    if (is_at(made.at, made.end_b)) {
-        return made.end_b;
-    }
-    const VertexOrigin& a = origins_[made.end_a];
-    const VertexOrigin& b = origins_[made.end_b];
-    const glm::dvec2 along(b.column - a.column, b.row - a.row);
-    const glm::dvec2 own(made.at.column - a.column, made.at.row - a.row);
-    made.share =
-        static_cast<float>(std::clamp(glm::dot(own, along) / glm::dot(along, along), 0.0, 1.0));
-    return add_vertex(made);
 }
 
 /// Whether a quadrant is drawn by a child.
@@ -225,26 +200,25 @@ void ErrorMesher::emit(EmittedFan& fan) {
     add_middles(samples, spot, middles, fan);
     const unsigned covered = split | node.hidden;
     const unsigned children = split & ~unsigned{node.hidden};
-    const Sample centre = samples.at(1, 1);
+    const Sample centre = samples.padded(1, 1);
     const glm::dvec2 eye = eye_ - glm::dvec2(centre.column, centre.row);
-    runs_[fan.node].first = static_cast<std::uint32_t>(index_count_ / 3);
-    if (samples.is_cut()) {
-        const PartRow row =
-            parts_of_cut_fan(samples, parts_of(middles, covered, children), eye, view_.order);
-        bool any = false;
-        for (unsigned k = 0; k < row.count; ++k) {
-            emit_part(fan, row.part[k]);
-            any = any || row.part[k] < first_child_part;
-        }
-        counters_.fans += any ? 1 : 0;
-    } else {
-        const PartOrder& order = orders_[wedge_towards(eye.x, eye.y)];
-        const unsigned triangles = order.triangles(middles, covered);
-        counters_.fans += triangles != 0 ? 1 : 0;
-        for (unsigned left = triangles | order.children[children]; left != 0; left &= left - 1) {
-            emit_part(fan, order.part[static_cast<std::size_t>(std::countr_zero(left))]);
+    const PartOrder& order = orders_[wedge_towards(eye.x, eye.y)];
+    const unsigned triangles = order.triangles(middles, covered);
+    const std::size_t before = index_count_;
+    runs_[fan.node].first = static_cast<std::uint32_t>(before / 3);
+    const bool is_cut = samples.is_cut();
+    if (is_cut) {
+        make_room_at_border();
+    }
+    for (unsigned left = triangles | order.children[children]; left != 0; left &= left - 1) {
+        const unsigned part = order.part[static_cast<std::size_t>(std::countr_zero(left))];
+        if (is_cut && part < first_child_part) {
+            emit_part_within_border(fan, samples, part);
+        } else {
+            emit_part(fan, part);
         }
     }
+    counters_.fans += is_cut ? (index_count_ > before ? 1 : 0) : (triangles != 0 ? 1 : 0);
     runs_[fan.node].end = static_cast<std::uint32_t>(index_count_ / 3);
 }
 
@@ -260,6 +234,71 @@ inline void ErrorMesher::emit_part(const EmittedFan& fan, unsigned part) {
     corner[1] = fan.ring[part_sides[part].from];
     corner[2] = fan.ring[part_sides[part].to];
     index_count_ += 3;
+}
+
+/// Makes room for what the border adds to one node: three triangles for one, and their corners.
+void ErrorMesher::make_room_at_border() {
+    ++cut_nodes_;
+    const std::size_t count = nodes_.size();
+    if (indices_.size() < 24 * count + 48 * cut_nodes_) {
+        indices_.resize(30 * count + 96 * cut_nodes_);
+    }
+    if (vertices_.size() < 5 * count + 4 + 32 * cut_nodes_) {
+        vertices_.resize(6 * count + 4 + 64 * cut_nodes_);
+        origins_.resize(std::max(origins_.size(), vertices_.size()));
+    }
+}
+
+/// Puts what the field's border leaves of a triangle of a fan into the mesh.
+void ErrorMesher::emit_part_within_border(
+    const EmittedFan& fan, const FanSamples& samples, unsigned part) {
+    const auto corner = [&](std::size_t place) {
+        const std::uint32_t vertex = fan.ring[place];
+        return BorderCorner{samples.padded_ring(place), vertices_[vertex].position_m.z, vertex};
+    };
+    BorderPolygon left = within_border(
+        {corner(centre_of_ring), corner(part_sides[part].from), corner(part_sides[part].to)},
+        samples.last());
+    if (left.count < 3) {
+        return;
+    }
+    for (unsigned k = 0; k < left.count; ++k) {
+        if (left.corner[k].vertex == BorderCorner::no_vertex) {
+            left.corner[k].vertex = border_vertex(left.corner[k]);
+        }
+    }
+    // Back to front: triangles beside each other are separated by a line from the first corner.
+    const glm::dvec2 first(left.corner[0].at.column, left.corner[0].at.row);
+    std::array<unsigned, 3> order = {2, 2, 2};
+    for (unsigned k = 3; k < left.count; ++k) {
+        const Sample& between = left.corner[k - 1].at;
+        const glm::dvec2 line = glm::dvec2(between.column, between.row) - first;
+        const glm::dvec2 eye = eye_ - first;
+        order[k - 2] = k;
+        if (line.x * eye.y - line.y * eye.x <= 0.0) {
+            std::rotate(order.begin(), order.begin() + k - 2, order.begin() + k - 1);
+        }
+    }
+    for (unsigned n = 0; n + 2 < left.count; ++n) {
+        const unsigned k = order[view_.order == PaintOrder::BackToFront ? n : left.count - 3 - n];
+        indices_[index_count_++] = left.corner[0].vertex;
+        indices_[index_count_++] = left.corner[k - 1].vertex;
+        indices_[index_count_++] = left.corner[k].vertex;
+    }
+}
+
+/// The vertex where the border crosses an edge.
+std::uint32_t ErrorMesher::border_vertex(const BorderCorner& corner) {
+    const auto rows = static_cast<std::size_t>(ground_->rows());
+    const bool eastern = corner.at.column == ground_->columns() - 1;
+    BorderVertex& known = border_vertices_
+        [eastern ? static_cast<std::size_t>(corner.at.row)
+                 : rows + static_cast<std::size_t>(corner.at.column)];
+    if (known.mesh != mesh_number_) {
+        known = {mesh_number_, fixed_vertex(corner.at, 0)};
+        vertices_[known.vertex].position_m.z = corner.height;
+    }
+    return known.vertex;
 }
 
 /// The fan of a child, which takes its corners from its parent.
@@ -287,14 +326,8 @@ ErrorMesher::add_centre(const FanSamples& samples, std::int16_t height, EmittedF
     const ErrorNode& node = nodes_[fan.node];
     const float weight = weight_of(
         node.on, [&] { return rule_.share_below_centre(node.level, node.column, node.row); });
-    const NewVertex made{samples.at(1, 1), fan.end_a, fan.end_b, 0.5F, height, weight};
-    std::uint32_t& centre = fan.ring[centre_of_ring];
-    if (!samples.is_cut()) {
-        centre = add_vertex(made);
-    } else {
-        const std::uint32_t north_east = fan.ring[4];
-        centre = is_at(made.at, north_east) ? north_east : cut_vertex(made);
-    }
+    const NewVertex made{samples.padded(1, 1), fan.end_a, fan.end_b, height, weight};
+    fan.ring[centre_of_ring] = add_vertex(made);
 }
 
 /// Fills in the mid-points beside quadrants that are not hidden, and tells the nodes beyond the
@@ -325,18 +358,12 @@ inline std::uint32_t ErrorMesher::add_middle(
     const float weight = weight_of(node.middle[edge], [&] {
         return rule_.share_below_middle(node.level, node.column, node.row, edge);
     });
-    const NewVertex made{
-        samples.ring(2 * edge + 1),
-        fan.ring[2 * edge],
-        fan.ring[(2 * edge + 2) % 8],
-        0.5F,
-        height,
-        weight};
-    if (!samples.is_cut()) {
-        return add_vertex(made);
-    }
-    const std::uint32_t centre = fan.ring[centre_of_ring];
-    return is_at(made.at, centre) ? centre : cut_vertex(made);
+    return add_vertex(
+        {samples.padded_ring(2 * edge + 1),
+         fan.ring[2 * edge],
+         fan.ring[(2 * edge + 2) % 8],
+         height,
+         weight});
 }
 
 } // namespace octant::visuals::terrain

@@ -4,6 +4,7 @@
 #include "visuals/terrain/error_rule.h"
 #include "visuals/terrain/error_survey.h"
 #include "visuals/terrain/fan_shape.h"
+#include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/horizon_error.h"
@@ -94,9 +95,14 @@ private:
         Sample at{};
         std::uint32_t end_a = 0;
         std::uint32_t end_b = 0;
-        float share = 0.5F;      ///< Where between its ends it appears; 0 is end a and 1 is end b.
         std::int16_t height = 0; ///< The height as stored.
         float weight = 1.0F;
+    };
+
+    /// The vertex at a sample where the field's border crosses an edge of the mesh.
+    struct BorderVertex {
+        std::uint32_t mesh = 0; ///< The last mesh that had it, by mesh_number_.
+        std::uint32_t vertex = 0;
     };
 
     void make_room();
@@ -105,9 +111,11 @@ private:
     template <typename ShareBelow>
     float weight_of(float critical, const ShareBelow& share_below) const;
     std::uint32_t add_vertex(const NewVertex& made);
-    std::uint32_t cut_vertex(NewVertex made);
     void emit(EmittedFan& fan);
     void emit_part(const EmittedFan& fan, unsigned part);
+    void make_room_at_border();
+    void emit_part_within_border(const EmittedFan& fan, const FanSamples& samples, unsigned part);
+    std::uint32_t border_vertex(const BorderCorner& corner);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
     void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);
     void add_middles(
@@ -117,7 +125,6 @@ private:
         EmittedFan& fan);
     std::uint32_t add_middle(
         const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
-    bool is_at(Sample at, std::uint32_t vertex) const;
     bool is_drawn(const ErrorNode& node, unsigned quadrant) const;
     Four drawn_children(const ErrorNode& node) const;
     void measure_drawn(std::uint32_t node) const;
@@ -149,6 +156,10 @@ private:
     std::vector<std::uint32_t> indices_;
     std::vector<models::ColourVertex> last_vertices_; ///< The vertices of the last mesh but one.
     std::vector<std::uint32_t> last_indices_;
+    /// For each sample on the last column and then on the last row.
+    std::vector<BorderVertex> border_vertices_;
+    std::uint32_t mesh_number_ = 0;
+    std::size_t cut_nodes_ = 0; ///< How many nodes of this mesh the field's border cuts.
     std::uint32_t vertex_count_ = 0;
     std::size_t index_count_ = 0;
     MeshCounters counters_;

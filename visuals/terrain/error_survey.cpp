@@ -31,7 +31,7 @@ double room_share(const ErrorTarget& target) {
 float ErrorSurvey::limit_for(const ErrorTarget& target) {
     assert(target.error_px >= 0.0 && target.most_triangles >= 1);
     nodes_tested_ = 0;
-    margin_ = target.geomorphs ? 1.0F : 0.0F;
+    geomorphs_ = target.geomorphs;
     const float most = std::max(rule_->limit_of(target.error_px), least_limit);
     if (target.most_triangles >= any_triangles) {
         start(most);
@@ -137,13 +137,19 @@ inline ErrorPlace ErrorSurvey::child_place(const ErrorPlace& place, unsigned qua
         place.gaps};
 }
 
+/// Whether the field's border cuts a node.
+inline bool ErrorSurvey::is_cut(const GroundLayout::Level& at, const ErrorPlace& place) const {
+    const GroundTiles& ground = rule_->ground();
+    return (place.column + 1) * at.edge >= ground.columns() ||
+           (place.row + 1) * at.edge >= ground.rows();
+}
+
 /// Finds out which children are hidden, and what they need from their parent.
 inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
     const GroundLayout& layout = rule_->ground().layout();
     const GroundLayout::Level& at = layout.level(from.place.level + 1);
     const bool own_gaps = from.place.level < layout.range_level();
     std::array<HeightGaps, 4>& own = gaps_[static_cast<std::size_t>(from.place.level) + 1];
-    const float margin_m = margin_ * from.error_m;
     for (unsigned q = 0; q < 4; ++q) {
         const ErrorPlace place = child_place(from.place, q);
         if (place.column >= at.columns || place.row >= at.rows) {
@@ -157,6 +163,9 @@ inline void ErrorSurvey::test_children(const Visit& from, Children& children) {
             gaps = &own[q];
         }
         if (from.planes != 0) {
+            // Where the border cuts a node, points on it are between samples of the padded square.
+            const bool moves = geomorphs_ || is_cut(at, place);
+            const float margin_m = moves ? from.error_m : 0.0F;
             children.planes[q] = rule_->planes_cutting_node(place, *gaps, margin_m, from.planes);
             children.hidden |= children.planes[q] == outside_frustum ? 1U << q : 0U;
         }
@@ -178,7 +187,7 @@ ErrorSurvey::count(const Visit& from, const ErrorNode& node, std::array<int, 4>&
         node.middle[0], node.middle[1], node.middle[2], node.middle[3]};
     const FanLimits limits{node.on, middle, node.hidden, from.replaced};
     if (samples.is_cut()) {
-        const FanTriangles triangles = triangles_with_area(samples);
+        const FanTriangles triangles = triangles_within_border(samples);
         replaced = triangles.of_quadrant;
         count_fan(limits, triangles, high_, steps_);
     } else if (node.hidden != 0) {

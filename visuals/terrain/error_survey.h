@@ -103,6 +103,7 @@ private:
     template <bool counting>
     std::uint32_t visit(const Visit& from);
     static ErrorPlace child_place(const ErrorPlace& place, unsigned quadrant);
+    bool is_cut(const GroundLayout::Level& at, const ErrorPlace& place) const;
     void test_children(const Visit& from, Children& children);
     void count(const Visit& from, const ErrorNode& node, std::array<int, 4>& replaced);
 
@@ -112,9 +113,9 @@ private:
     StepCount steps_;
     std::array<std::array<HeightGaps, 4>, 16> gaps_; ///< By level and quadrant, during a walk.
     float high_ = 0.0F;
-    /// How far from their samples vertices of a quadrant's triangles may be drawn, in errors of the
-    /// parent's centre, which all those that move need: 1 with geomorphs.
-    float margin_ = 0.0F;
+    /// Whether vertices of a quadrant's triangles may be drawn as far from their samples as the
+    /// error of the parent's centre, which all those that move need.
+    bool geomorphs_ = false;
     int most_triangles_ = 0;  ///< A walk stops once it has counted more.
     bool more_above_ = false; ///< Something visible appears only above high_.
     int nodes_tested_ = 0;

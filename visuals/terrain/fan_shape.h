@@ -59,8 +59,8 @@ struct Sample {
     int row;
 };
 
-/// The nine samples that the triangles of a node's fan may use. Those beyond the field are moved
-/// onto its last column and row.
+/// The nine samples that the triangles of a node's fan may use. at() and what uses it move those
+/// beyond the field onto its last column and row; padded() leaves them where they are.
 class FanSamples {
 public:
     /// `ground` is anything that has columns() and rows() in samples; `edge` is the node's edge in
@@ -73,7 +73,7 @@ public:
         , west_(column * edge)
         , south_(row * edge) {}
 
-    /// Whether some samples were moved, so that triangles may have no area.
+    /// Whether some samples lie beyond the field, so that moved triangles may have no area.
     bool is_cut() const {
         return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_;
     }
@@ -83,6 +83,18 @@ public:
             std::min(west_ + half_edges_east * half_, last_column_),
             std::min(south_ + half_edges_north * half_, last_row_)};
     }
+
+    Sample padded(int half_edges_east, int half_edges_north) const {
+        return {west_ + half_edges_east * half_, south_ + half_edges_north * half_};
+    }
+
+    /// padded() of a place of fan_ring or of the centre.
+    Sample padded_ring(std::size_t place) const {
+        return place == centre_of_ring ? padded(1, 1)
+                                       : padded(fan_ring[place].east, fan_ring[place].north);
+    }
+
+    Sample last() const { return {last_column_, last_row_}; }
 
     /// Of a place of fan_ring or of the centre.
     Sample ring(std::size_t place) const {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace octant::visuals::terrain {
 
@@ -20,7 +21,7 @@ struct FanTriangles {
 /// The triangles of a node that the field's end does not cut.
 inline constexpr FanTriangles all_triangles;
 
-/// The triangles of a node at the field's north or east end.
+/// The triangles of a node at the field's north or east end whose samples are moved onto it.
 inline FanTriangles triangles_with_area(const FanSamples& samples) {
     FanTriangles triangles;
     triangles.of_quadrant = {};
@@ -38,6 +39,33 @@ inline FanTriangles triangles_with_area(const FanSamples& samples) {
     }
     return triangles;
 }
+
+/// A corner of a triangle of the padded square, or of what the field's border leaves of one.
+struct BorderCorner {
+    Sample at{};
+    float height = 0.0F;
+    /// The vertex at this corner; nothing where the border crosses an edge.
+    std::uint32_t vertex = no_vertex;
+
+    static constexpr std::uint32_t no_vertex = 0xffffffffU;
+};
+
+/// The part of a triangle within the field, counter-clockwise as the triangle; it has no area where
+/// there are fewer than three corners.
+struct BorderPolygon {
+    std::array<BorderCorner, 5> corner{};
+    unsigned count = 0;
+
+    int triangles() const { return count < 3 ? 0 : static_cast<int>(count) - 2; }
+};
+
+/// The part of a bisection's triangle up to the field's last column and row. Edges are level,
+/// upright or diagonal, so that the border crosses them at samples, and at the same height from
+/// either side.
+BorderPolygon within_border(const std::array<BorderCorner, 3>& triangle, const Sample& last);
+
+/// The triangles of a node at the field's north or east end that are left within the field.
+FanTriangles triangles_within_border(const FanSamples& samples);
 
 /// From which limits on the parts of a fan are in the mesh.
 struct FanLimits {

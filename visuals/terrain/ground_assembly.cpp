@@ -59,6 +59,29 @@ std::int16_t stored_number(float height_m, const GroundShape& shape) {
     return static_cast<std::int16_t>(std::bit_cast<std::int64_t>(number + no_fraction));
 }
 
+StoredHeights
+stored_heights(std::span<const std::int16_t> numbers, const GroundShape& shape, bool whole_metres) {
+    StoredHeights heights{numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
+    const double base_m = shape.height_base_m;
+    double lowest_m = std::ceil(base_m - 32768.0 * shape.height_unit_m);
+    double highest_m = std::floor(base_m + 32767.0 * shape.height_unit_m);
+    if (std::abs(base_m) <= 32000.0) { // metres must be 16-bit numbers, too
+        lowest_m = std::max(lowest_m, -32768.0);
+        highest_m = std::min(highest_m, 32767.0);
+    }
+    if (whole_metres) {
+        heights.multiplier = static_cast<int>(1.0 / shape.height_unit_m);
+        heights.addend = static_cast<int>(-base_m / shape.height_unit_m);
+        heights.number_unit_m = 1.0;
+        heights.lowest = static_cast<int>(lowest_m);
+        heights.highest = static_cast<int>(highest_m);
+    } else {
+        heights.lowest = static_cast<int>((lowest_m - base_m) / shape.height_unit_m);
+        heights.highest = static_cast<int>((highest_m - base_m) / shape.height_unit_m);
+    }
+    return heights;
+}
+
 GroundAssembly::GroundAssembly(
     const GroundShape& shape,
     const GroundLayout& layout,
@@ -78,11 +101,12 @@ GroundAssembly::GroundAssembly(
 }
 
 HeightFigures GroundAssembly::put_outline() {
+    const int edge = layout_.level(0).edge;
     const std::array<std::int16_t, 4> corners = {
         heights_.stored(heights_.number(0, 0)),
-        heights_.stored(heights_.number(heights_.columns - 1, 0)),
-        heights_.stored(heights_.number(0, heights_.rows - 1)),
-        heights_.stored(heights_.number(heights_.columns - 1, heights_.rows - 1))};
+        heights_.stored(heights_.padded_number(edge, 0)),
+        heights_.stored(heights_.padded_number(0, edge)),
+        heights_.stored(heights_.padded_number(edge, edge))};
     std::memcpy(memory_.data() + layout_.corners(), corners.data(), sizeof corners);
     const std::int64_t sum = put_finest_ranges();
     for (int level = layout_.range_level() - 1; level >= 0; --level) {

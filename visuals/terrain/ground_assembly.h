@@ -22,6 +22,11 @@ GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, d
 /// The stored number that is nearest to a height.
 std::int16_t stored_number(float height_m, const GroundShape& shape);
 
+/// The heights of a field whose numbers are metres, or stored numbers; `numbers` must outlive them.
+/// The limits are whole metres in either form, so that both make the same ground.
+StoredHeights
+stored_heights(std::span<const std::int16_t> numbers, const GroundShape& shape, bool whole_metres);
+
 /// What the numbers themselves tell about a ground.
 struct HeightFigures {
     float lowest_m = 0.0F;

@@ -39,7 +39,7 @@ GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
         static_cast<double>(field.lowest_m()),
         static_cast<double>(field.highest_m()));
     const std::vector<std::int16_t> numbers = numbers_of(field, shape, threads);
-    const StoredHeights heights{numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
+    const StoredHeights heights = stored_heights(numbers, shape, false);
     const GroundLayout layout(shape);
     const std::shared_ptr<std::byte[]> memory(new std::byte[layout.total_bytes()]);
     std::memset(memory.get(), 0, layout.first_tile());

@@ -47,7 +47,7 @@ ErrorCodes codes_of(const GroundShape& shape);
 ///
 /// The quadtree is that of quadtree.h: level 0 is the root, each level halves the edge, and the
 /// last level's edge is two samples. The field is padded to a square of 2^n + 1 samples by
-/// repeating its last column and row in place, and nodes without area do not exist. Every sample
+/// its reflection (StoredHeights::padded_number), and nodes wholly beyond it do not exist. Every sample
 /// but the root's four corners is a NodePart of exactly one node. So heights and errors are each
 /// stored once, 3.5 bytes a sample, and the first levels alone are a coarser ground (an image
 /// pyramid without repetition).

@@ -96,8 +96,9 @@ ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target)
     return eased;
 }
 
-/// The elevation of that border of far ground that leaves the picture first: of its end, seen at
-/// the ground's mean height but not above level, when the view turns down, else of where it begins.
+/// The elevation of that border of far ground that leaves the picture first: of the highest ground
+/// at its end when the view turns down, so that mountains there count, else of where it begins,
+/// below its end at the ground's mean height but not above level.
 double HorizonError::missing_rad(const MeshView& view) const {
     const GroundTiles& ground = rule_.ground();
     const glm::dvec2 half_m = ground.half_extent_m();
@@ -110,10 +111,12 @@ double HorizonError::missing_rad(const MeshView& view) const {
     }
     const double level = glm::length(glm::dvec2(view.ahead));
     const double away_m = std::max(end * level, ground.spacing_m());
-    const double over_m = std::max(view.eye_m.z - static_cast<double>(ground.facts().mean_m), 0.0);
-    const double end_rad = -std::atan2(over_m, away_m);
+    const auto over_m = [&view](float height_m) {
+        return view.eye_m.z - static_cast<double>(height_m);
+    };
+    const double end_rad = -std::atan2(std::max(over_m(ground.facts().mean_m), 0.0), away_m);
     const bool above = std::atan2(view.ahead.z, level) > end_rad;
-    return above ? end_rad - far_ground_rad : end_rad;
+    return above ? end_rad - far_ground_rad : -std::atan2(over_m(ground.facts().highest_m), away_m);
 }
 
 } // namespace octant::visuals::terrain

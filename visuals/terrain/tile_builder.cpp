@@ -137,30 +137,26 @@ void TileBuilder::fetch_children(Room room) {
 /// The stored height of a sample, whose place is given in half edges from the field's south-west
 /// corner.
 std::int16_t TileBuilder::height(int column, int row) const {
-    return heights_.stored(heights_.number(
-        std::min(column * extent_.half, heights_.columns - 1),
-        std::min(row * extent_.half, heights_.rows - 1)));
+    return heights_.stored(heights_.padded_number(column * extent_.half, row * extent_.half));
 }
 
 void TileBuilder::put_heights() {
     const Extent& e = extent_;
     auto* const tile = reinterpret_cast<std::int16_t*>(tile_.data());
-    const int inside =
-        std::clamp((heights_.columns - 1 - e.half) / e.at.edge + 1 - e.first_column, 0, e.columns);
     const auto part = [&](std::size_t which, int from_west, int from_south) {
         for (int row = 0; row < e.rows; ++row) {
             std::int16_t* const out =
                 tile + which * e.at.tile_nodes + index_of(0, row, 1 << e.at.tile_shift);
             const int up = 2 * (e.first_row + row) + from_south;
             const int across = 2 * e.first_column + from_west;
-            const std::int16_t* const numbers = &heights_.numbers[index_of(
-                std::min(across * e.half, heights_.columns - 1),
-                std::min(up * e.half, heights_.rows - 1),
-                heights_.columns)];
-            for (int column = 0; column < inside; ++column) {
-                out[column] = heights_.stored(numbers[column * e.at.edge]);
+            const int left = heights_.columns - 1 - across * e.half;
+            const bool within = left >= 0 && up * e.half < heights_.rows;
+            const int copied = within ? std::min(left / e.at.edge + 1, e.columns) : 0;
+            for (int column = 0; column < copied; ++column) {
+                out[column] = heights_.stored(
+                    heights_.number(across * e.half + column * e.at.edge, up * e.half));
             }
-            for (int column = inside; column < e.columns; ++column) {
+            for (int column = copied; column < e.columns; ++column) {
                 out[column] = height(across + 2 * column, up);
             }
         }

@@ -153,8 +153,7 @@ void TileBuilder::raise_to_room(
         middle += edges.step;
     }
     const auto number = [this](int column, int row) {
-        return static_cast<int>(heights_.number(
-            std::min(column, heights_.columns - 1), std::min(row, heights_.rows - 1)));
+        return static_cast<int>(heights_.padded_number(column, row));
     };
     for (int i = inside; i < count; ++i) {
         const bool turned = edges.alternate && (i & 1) != 0;
@@ -199,7 +198,7 @@ void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> code
         float& error = errors_[static_cast<std::size_t>(i)];
         if (i < begin || i >= end) {
             const DiamondPlace place{first + i * e.at.edge, row, e.half, e.stride};
-            error = clamped_error(heights_, place, turned(i));
+            error = padded_error(heights_, place, turned(i));
         }
         codes[static_cast<std::size_t>(i)] = coder_.code_of(error + unseen_by(i, row, diamond));
     }

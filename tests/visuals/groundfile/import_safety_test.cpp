@@ -23,6 +23,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "whole_metres_tiff.h"
@@ -96,8 +97,7 @@ void write_earlier_version(
     const auto put_checksum = [&](std::size_t index, std::uint64_t checksum) {
         std::memcpy(&checksums[8 * index], &checksum, sizeof checksum);
     };
-    const terrain::StoredHeights heights{
-        numbers, shape.columns, shape.rows, 1, 0, shape.height_unit_m};
+    const terrain::StoredHeights heights = terrain::stored_heights(numbers, shape, false);
     terrain::GroundAssembly assembly(shape, layout, heights, memory, 1);
     assembly.put_outline();
     for (std::size_t tile = 0; tile < assembly.tiles();) {
@@ -214,16 +214,33 @@ TEST_CASE("a header keeps the coordinate system, and one of the first version ha
     spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
     CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
 
-    GroundHeader first = header_of({40, 30, 30.0, 7.0, 1.0, false, false}, facts);
+    GroundHeader first = header_of({33, 33, 30.0, 7.0, 1.0, false, false}, facts);
     first.version = 1;
     auto page = page_of(first);
     std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
     CHECK_FALSE(facts_of(read_header("header", page)).system);
-    first.version = 6;
-    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 6"));
+    first.version = 7;
+    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 7"));
 
     facts.system->wkt.assign(4000, 'x');
     CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
+}
+
+TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts the square") {
+    for (const auto& [columns, rows] : {std::pair{40, 30}, {40, 40}, {65, 33}, {33, 34}}) {
+        INFO(columns << " x " << rows);
+        for (std::uint32_t version = 1; version <= 5; ++version) {
+            GroundHeader header =
+                header_of({columns, rows, 30.0, 7.0, 1.0, version > 3, version > 4}, {});
+            header.version = version;
+            CHECK_THROWS_WITH(read_header("header", page_of(header)), Contains("import it again"));
+        }
+        CHECK_NOTHROW(
+            read_header("header", page_of(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
+    }
+    GroundHeader whole = header_of({33, 33, 30.0, 7.0, 1.0}, {});
+    whole.version = 5;
+    CHECK_NOTHROW(read_header("header", page_of(whole)));
 }
 
 TEST_CASE("a ground of version 3 is read, and all its errors have full room") {

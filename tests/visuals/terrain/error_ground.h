@@ -36,8 +36,8 @@ MeshView any_view(Numbers& numbers, const models::heights::HeightField& field);
 /// An error that such grounds are meshed at.
 double any_error_px(Numbers& numbers);
 
-/// The mesh in whole samples by its origins, in drawing order. Fails the test where vertices are
-/// not in plan where their samples are, or two at the same one.
+/// The mesh in whole samples by its origins, in drawing order. Fails the test where vertices
+/// of triangles are not in plan where their samples are, or two at the same one.
 std::vector<SampleTriangle> origin_triangles(
     const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m);
 

@@ -49,27 +49,18 @@ public:
         const Point end = end_of(middle, half);
         const Point apex{-end.y, end.x};
         double error = 0.0;
-        double folded = 0.0;
         for (const int side : {1, -1}) {
-            std::array<Point, 3> corners = {
+            const std::array<Point, 3> corners = {
                 {{middle.x + end.x, middle.y + end.y},
                  {middle.x - end.x, middle.y - end.y},
                  {middle.x + side * apex.x, middle.y + side * apex.y}}};
             if (!padded(corners[2].x, corners[2].y)) {
                 continue;
             }
-            for (Point& corner : corners) {
-                corner = moved(corner);
-            }
             const int stride = look == Look::AtAll ? 1 : std::max(1, half / 16);
             error = std::max(error, of_triangle(corners, stride));
-            if (cross(corners[0], corners[1], corners[2]) != 0.0 && look == Look::AsBuilt) {
-                folded = std::max(
-                    folded,
-                    std::abs(plane(corners, moved(middle)) - beside(corners, moved(middle))));
-            }
         }
-        return error + folded;
+        return error;
     }
 
 private:
@@ -79,10 +70,6 @@ private:
 
     bool padded(int x, int y) const {
         return x >= 0 && y >= 0 && x <= root_edge_ && y <= root_edge_;
-    }
-
-    Point moved(Point at) const {
-        return {std::min(at.x, field_.columns() - 1), std::min(at.y, field_.rows() - 1)};
     }
 
     static bool is_odd(int x, int half) { return (x / half) % 2 != 0; }
@@ -137,9 +124,9 @@ private:
 
     std::uint8_t with_room(Point at, int half, std::uint8_t below) const {
         const Point end = end_of(at, half);
-        const double ends_m = height(moved({at.x + end.x, at.y + end.y})) +
-                              height(moved({at.x - end.x, at.y - end.y}));
-        const double move_m = std::abs(height(moved(at)) - 0.5 * ends_m);
+        const double ends_m =
+            height({at.x + end.x, at.y + end.y}) + height({at.x - end.x, at.y - end.y});
+        const double move_m = std::abs(height(at) - 0.5 * ends_m);
         const double below_m = static_cast<double>(meaning_.metres(below));
         const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
         const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
@@ -187,21 +174,13 @@ private:
                cross(at[0], at[1], at[2]);
     }
 
-    /// The height of the point of the first edge that is nearest to a place.
-    double beside(const std::array<Point, 3>& at, Point p) const {
-        const Point edge{at[1].x - at[0].x, at[1].y - at[0].y};
-        const double along = (p.x - at[0].x) * edge.x + (p.y - at[0].y) * edge.y;
-        const double share = std::clamp(along / (edge.x * edge.x + edge.y * edge.y), 0.0, 1.0);
-        return height(at[0]) + share * (height(at[1]) - height(at[0]));
-    }
-
-    /// Over every stride-th sample and those of the field's last column and row.
+    /// Over every stride-th sample, up to the first ones that are not within the field.
     double of_triangle(const std::array<Point, 3>& at, int stride) const {
         const double area = cross(at[0], at[1], at[2]);
         double error = 0.0;
-        for (int y = 0; area != 0.0 && y < field_.rows() - 1 + stride; y += stride) {
+        for (int y = 0; y < field_.rows() - 1 + stride; y += stride) {
             for (int x = 0; x < field_.columns() - 1 + stride; x += stride) {
-                const Point p = moved({x, y});
+                const Point p{x, y};
                 const double a = cross(at[1], at[2], p) / area;
                 const double b = cross(at[2], at[0], p) / area;
                 const double c = cross(at[0], at[1], p) / area;
@@ -213,7 +192,7 @@ private:
         return error;
     }
 
-    double height(Point at) const { return static_cast<double>(field_.height_m(at.x, at.y)); }
+    double height(Point at) const { return padded_height_m(field_, at.x, at.y); }
 
     const models::heights::HeightField& field_;
     const ErrorCodes& meaning_;
@@ -250,8 +229,7 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
     }
 }
 
-/// Number of samples whose stored error is not that of the definition. Rounding may make a
-/// difference where triangles are shrunk at a padded rim.
+/// Number of samples whose stored error is not that of the definition, rounding aside.
 int wrong_errors(const models::heights::HeightField& field) {
     const GroundTiles ground = ground_of(field);
     const PlainErrors least(field, ground.codes(), 1.0 - 1e-6);

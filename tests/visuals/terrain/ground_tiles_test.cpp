@@ -35,19 +35,19 @@ TEST_CASE("every sample of a ground of any size is read back exactly") {
     }
 }
 
-TEST_CASE("corners and nodes hold the samples of their places, padded ones those of the rim") {
+TEST_CASE("corners and nodes hold the samples of their places, beyond the field its reflection") {
     for (const auto& [columns, rows] : sizes) {
         const models::heights::HeightField field = rough_field(columns, rows);
         const GroundTiles ground = ground_of(field);
         const auto at = [&field](int column, int row) {
-            return field.height_m(
-                std::min(column, field.columns() - 1), std::min(row, field.rows() - 1));
+            return static_cast<float>(padded_height_m(field, column, row));
         };
         INFO(columns << " x " << rows);
         CHECK(ground.corner_m(0) == at(0, 0));
-        CHECK(ground.corner_m(1) == at(columns, 0));
-        CHECK(ground.corner_m(2) == at(0, rows));
-        CHECK(ground.corner_m(3) == at(columns, rows));
+        const int end = ground.layout().level(0).edge;
+        CHECK(ground.corner_m(1) == at(end, 0));
+        CHECK(ground.corner_m(2) == at(0, end));
+        CHECK(ground.corner_m(3) == at(end, end));
         int wrong = 0;
         for (int level = 0; level < ground.levels(); ++level) {
             const GroundLayout::Level& layout = ground.layout().level(level);
