@@ -91,7 +91,7 @@ private:
         const CollapsibleMesh& mesh = surface_.mesh;
         for (HalfEdge h = 0; h < costs_.size() && mesh.face_count() > options_.faces; ++h) {
             if (is_edge(h) && costs_[h] <= most && moved_[mesh.origin(h)] == 0 &&
-                moved_[mesh.target(h)] == 0 && mesh.may_collapse(h)) {
+                moved_[mesh.target(h)] == 0 && surface_.may_collapse(h)) {
                 try_collapse(h);
             }
         }

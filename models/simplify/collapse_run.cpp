@@ -197,7 +197,7 @@ bool CollapseRun::next_edge(HalfEdge& h) {
 
 /// Where the vertex goes that an edge collapses into.
 Placement CollapseRun::placed(HalfEdge h) {
-    if (chooser_ != Chooser::Volumes) {
+    if (chooser_ != Chooser::Volumes || surface_.locks_border()) {
         return collapsing_.quadrics().placement(surface_, h);
     }
     surface_.mesh.ring_of(h, ring_);
@@ -207,7 +207,7 @@ Placement CollapseRun::placed(HalfEdge h) {
 /// Whether an edge may collapse: link condition first, then the guard against fold-overs and
 /// slivers.
 bool CollapseRun::is_allowed(HalfEdge h, const Placement& placement) {
-    if (!surface_.mesh.may_collapse(h)) {
+    if (!surface_.may_collapse(h)) {
         return false;
     }
     surface_.mesh.ring_of(h, ring_);

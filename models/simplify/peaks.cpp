@@ -211,6 +211,9 @@ glm::dvec3 PeakLowering::way_of_worst_sample() const {
 /// Tries to move a vertex along the fitted direction or towards what its farthest sample misses,
 /// with shorter and shorter steps.
 void PeakLowering::lower_at(std::uint32_t vertex) {
+    if (surface_.is_locked(vertex)) {
+        return;
+    }
     around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
     const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);

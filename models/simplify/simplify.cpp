@@ -135,6 +135,9 @@ CollapseSequence
 sequence_to(const Goal& goal, TriangleMesh original, const SimplifyOptions& options) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     WorkingSurface surface(original, units);
+    if (options.lock_border) {
+        surface.lock_border(original, units);
+    }
     std::optional<TrackedPoints> points;
     if (options.quality == Quality::Surface) {
         points.emplace(
@@ -215,6 +218,9 @@ Simplified
 simplified_to_count(TriangleMesh original, const SimplifyOptions& options, Chooser chosen_by) {
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     WorkingSurface surface(original, units);
+    if (options.lock_border) {
+        surface.lock_border(original, units);
+    }
     const bool measures = measures_distances(chosen_by);
     CollapsingSurface collapsing(surface, units, weights_for(chosen_by));
     begin_in_rounds(collapsing, chosen_by, options);
@@ -294,7 +300,10 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     if (options.goal.error_m) {
         return simplified_to_error(std::move(original), options);
     }
-    return best_of_passes(std::move(original), options, {simplified_to_count, resplit});
+    // Revisions divide edges of borders.
+    return options.lock_border
+               ? simplified_to_count(std::move(original), options, Chooser::Distances)
+               : best_of_passes(std::move(original), options, {simplified_to_count, resplit});
 }
 
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {
@@ -312,6 +321,9 @@ polished(TriangleMesh mesh, const TriangleMesh& original, const SimplifyOptions&
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const TargetMesh target(original, units);
     WorkingSurface surface(mesh, units);
+    if (options.lock_border) {
+        surface.lock_border(mesh, units);
+    }
     TrackedPoints points =
         points_on(surface, target, wanted_points(target, surface.mesh.face_count(), options));
     return with_normals(polished_in(surface, points, mesh, target, units, options), original);

@@ -60,6 +60,8 @@ struct SimplifyOptions {
     double length_share = 0.0;
     /// No shell of a mesh may vanish, also where a goal cannot be reached then.
     bool keep_shells = false;
+    /// Vertices of boundaries stay where they are, all of them.
+    bool lock_border = false;
     /// Triangles that are no higher than the error so far may turn over (collapse_guard.h).
     /// fast_sequence lets none: selective refinement shows every state between.
     bool low_may_turn = true;

@@ -232,6 +232,9 @@ bool TurningBack::step_along_axes(std::uint32_t vertex, const Heights& before) {
 
 /// Tries to move one vertex so that there is less turned area at it.
 void TurningBack::move(std::uint32_t vertex) {
+    if (surface_.is_locked(vertex)) {
+        return;
+    }
     around_.take_ring(vertex);
     const glm::dvec3 place = surface_.places[vertex];
     around_.set_ring(place, colour(vertex));
