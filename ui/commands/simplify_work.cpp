@@ -418,12 +418,21 @@ SharedVertices shared_vertices(
 }
 
 /// Where all common vertices of two files have one coordinate in common, such as tiles of a map,
-/// those of the simplified mesh get it, too.
+/// those of the simplified mesh get it, too, but for other vertices of the original that are
+/// locked.
 void straighten_borders(
     models::TriangleMesh& made,
     const SharedVertices& made_shared,
     const models::TriangleMesh& original,
     const SharedVertices& original_shared) {
+    std::set<std::array<double, 3>> others;
+    for (const glm::dvec3& at_m : original.vertices_m) {
+        others.insert({at_m.x, at_m.y, at_m.z});
+    }
+    const auto is_free = [&](std::uint32_t vertex) {
+        const glm::dvec3& at_m = made.vertices_m[vertex];
+        return !others.contains({at_m.x, at_m.y, at_m.z});
+    };
     for (const auto& [files, vertices] : made_shared) {
         const auto before = original_shared.find(files);
         for (int axis = 0; axis < 3 && before != original_shared.end(); ++axis) {
@@ -433,7 +442,8 @@ void straighten_borders(
             });
             for (const std::uint32_t vertex :
                  is_straight ? vertices : std::vector<std::uint32_t>()) {
-                made.vertices_m[vertex][axis] = at;
+                double& coordinate = made.vertices_m[vertex][axis];
+                coordinate = is_free(vertex) ? at : coordinate;
             }
         }
     }
