@@ -2,6 +2,7 @@
 
 #include "models/material.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -19,14 +20,22 @@ using Triangle = std::array<std::uint32_t, 3>;
 using CornerColours = std::array<glm::vec3, 3>;
 
 /// A triangle mesh as files hold it, in the file's own axes and units (metres for aircraft).
-/// Corners share vertices; colours belong to vertices, normals to corners, materials to triangles.
+/// Corners share vertices; colours belong to vertices, normals and texture coordinates to corners,
+/// materials to triangles. Where texture coordinates or normals break along a seam, the corners of
+/// one vertex point to several of them.
 struct TriangleMesh {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
     std::vector<glm::vec3> colours; ///< one a vertex, display values 0..1; empty = no colours
     std::vector<Triangle> triangles;
     std::vector<glm::vec3> normals; ///< unit vectors that corner_normals points into; often empty
-    std::vector<Triangle> corner_normals;          ///< one a triangle; empty where `normals` is
+    std::vector<Triangle> corner_normals; ///< one a triangle; empty where `normals` is
+    /// Places on the pictures of materials that corner_texture_coordinates points into: u to the
+    /// right and v up from a picture's lower left corner, 1 is its width or height; often empty.
+    std::vector<glm::vec2> texture_coordinates;
+    /// One a triangle, three times no_index for a triangle without; empty where
+    /// `texture_coordinates` is.
+    std::vector<Triangle> corner_texture_coordinates;
     std::vector<Material> materials;               ///< empty = none
     std::vector<std::uint32_t> triangle_materials; ///< one a triangle; empty where `materials` is
     std::vector<std::string> notes; ///< what reading or repairing it found; often none

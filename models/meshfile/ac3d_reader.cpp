@@ -117,6 +117,7 @@ private:
     /// How an object's picture lies on its surfaces.
     struct ObjectPicture {
         std::uint32_t number = BakedPictures::none;
+        bool is_named = false;
         glm::vec2 repeat{1.0F};
         glm::vec2 shift{0.0F};
     };
@@ -124,7 +125,8 @@ private:
     void take_picture(ObjectPicture& picture) {
         std::string_view rest = words_.rest_of_line();
         const std::string name = taken_ac3d_name(rest, words_);
-        if (mesh_.takes_pictures() && !name.empty() && name != "empty_texture_no_mapping") {
+        picture.is_named = !name.empty() && name != "empty_texture_no_mapping";
+        if (mesh_.takes_pictures() && picture.is_named) {
             picture.number = mesh_.pictures().picture(name);
         }
     }
@@ -135,16 +137,16 @@ private:
     }
 
     /// What follows a corner's vertex: where it lies on the picture, from the lower left corner.
-    glm::vec2 taken_place(const ObjectPicture& picture) {
+    /// No index where the object has no picture.
+    std::uint32_t taken_place(const ObjectPicture& picture) {
         const auto words = split_words(words_.rest_of_line());
-        if (picture.number == BakedPictures::none || words.size() < 2) {
-            return glm::vec2(0.0F);
+        if (!picture.is_named || words.size() < 2) {
+            return no_index;
         }
         const glm::vec2 place(
             static_cast<float>(finite_number(words[0]).value_or(0.0)),
             static_cast<float>(finite_number(words[1]).value_or(0.0)));
-        const glm::vec2 on_picture = place * picture.repeat + picture.shift;
-        return {on_picture.x, 1.0F - on_picture.y};
+        return mesh_.add_texture_coordinates(place * picture.repeat + picture.shift);
     }
 
     glm::dvec3 vector() {
@@ -225,13 +227,13 @@ private:
         corners_.clear();
         for (long i = 0; i < count; ++i) {
             const long vertex = words_.whole("a vertex", 0, last);
-            const glm::vec2 on_picture = taken_place(picture);
+            const std::uint32_t texture = taken_place(picture);
             if (is_polygon) {
                 corners_.push_back(
                     {.vertex = static_cast<std::uint32_t>(
                          first_vertex + static_cast<std::size_t>(vertex)),
                      .normal = no_index,
-                     .on_picture = on_picture});
+                     .texture = texture});
             }
         }
         if (!is_polygon || count < 3) {

@@ -1,11 +1,23 @@
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_formats.h"
+#include "models/no_index.h"
 #include "sim/base/format_once.h"
 
 #include <fmt/format.h>
 #include <iterator>
 
 namespace octant::models::meshfile {
+
+std::string only_picture(const TriangleMesh& mesh) {
+    std::string found;
+    for (const Material& material : mesh.materials) {
+        if (!found.empty() && !material.picture.empty() && material.picture != found) {
+            return {};
+        }
+        found = material.picture.empty() ? found : material.picture;
+    }
+    return found;
+}
 
 std::string ac3d_text(const TriangleMesh& mesh) {
     std::string text = "AC3Db\n";
@@ -21,10 +33,11 @@ std::string ac3d_text(const TriangleMesh& mesh) {
             colour.y,
             colour.z);
     }
-    fmt::format_to(
-        out,
-        "OBJECT world\nkids 1\nOBJECT poly\nname \"mesh\"\nnumvert {}\n",
-        mesh.vertices_m.size());
+    text += "OBJECT world\nkids 1\nOBJECT poly\nname \"mesh\"\n";
+    if (const std::string picture = only_picture(mesh); !picture.empty()) {
+        fmt::format_to(out, "texture \"{}\"\n", picture);
+    }
+    fmt::format_to(out, "numvert {}\n", mesh.vertices_m.size());
     for (const glm::dvec3& place_m : mesh.vertices_m) {
         fmt::format_to(out, "{} {} {}\n", place_m.x, place_m.y, place_m.z);
     }
@@ -35,8 +48,13 @@ std::string ac3d_text(const TriangleMesh& mesh) {
             fmt::format_to(out, "mat {}\n", mesh.triangle_materials[t]);
         }
         text += "refs 3\n";
-        for (const std::uint32_t vertex : mesh.triangles[t]) {
-            fmt::format_to(out, "{} 0 0\n", vertex);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t texture = mesh.corner_texture_coordinates.empty()
+                                              ? no_index
+                                              : mesh.corner_texture_coordinates[t][k];
+            const glm::vec2 place =
+                texture == no_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
+            fmt::format_to(out, "{} {} {}\n", mesh.triangles[t][k], place.x, place.y);
         }
     }
     text += "kids 0\n";

@@ -112,6 +112,21 @@ bool is_good(const std::array<glm::vec2, 3>& places) {
 
 } // namespace
 
+fs::path picture_file(const fs::path& mesh_file, const std::string& name, const fs::path& folder) {
+    std::string slashes = name;
+    std::ranges::replace(slashes, '\\', '/');
+    std::error_code ignored;
+    const fs::path beside = mesh_file.parent_path();
+    for (const fs::path& from : {folder.empty() ? beside : folder, beside}) {
+        for (const fs::path& file : {from / slashes, from / fs::path(slashes).filename()}) {
+            if (fs::is_regular_file(file, ignored)) {
+                return file;
+            }
+        }
+    }
+    return beside / slashes;
+}
+
 template <typename Read>
 std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     const auto [at, is_new] = known_.try_emplace(name, none);
@@ -130,16 +145,9 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
 
 std::uint32_t BakedPictures::picture(const std::string& name) {
     return kept(name, [&] {
-        std::string slashes = name;
-        std::ranges::replace(slashes, '\\', '/');
-        std::error_code ignored;
-        const fs::path beside = mesh_file_.parent_path();
-        for (const fs::path& folder : {folder_.empty() ? beside : folder_, beside}) {
-            for (const fs::path& file : {folder / slashes, folder / fs::path(slashes).filename()}) {
-                if (fs::is_regular_file(file, ignored)) {
-                    return heights::read_image(file);
-                }
-            }
+        const fs::path file = picture_file(mesh_file_, name, folder_);
+        if (std::error_code ignored; fs::is_regular_file(file, ignored)) {
+            return heights::read_image(file);
         }
         error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
     });

@@ -17,6 +17,13 @@
 
 namespace octant::models::meshfile {
 
+/// The file of a picture that a mesh names: as it is named, else by its last name, in `folder`
+/// (empty: none) or beside the mesh; beside the mesh where there is no such file.
+std::filesystem::path picture_file(
+    const std::filesystem::path& mesh_file,
+    const std::string& name,
+    const std::filesystem::path& folder = {});
+
 /// The pictures on the surfaces of a mesh, and the colours that they leave at its vertices.
 class BakedPictures {
 public:

@@ -14,50 +14,57 @@ const Json* object_in(const Json& json, const char* name) {
     return found != json.end() && found->is_object() ? &*found : nullptr;
 }
 
-} // namespace
-
-GltfPicture picture_of_material(GltfData& data, std::size_t material, BakedPictures& pictures) {
-    const std::string where = fmt::format("materials[{}]", material);
+/// A material's baseColorTexture; null where it has none.
+const Json* base_texture(GltfData& data, std::size_t material) {
     const Json* rough = object_in(data.entry("materials", material), "pbrMetallicRoughness");
-    const Json* base = rough != nullptr ? object_in(*rough, "baseColorTexture") : nullptr;
-    if (base == nullptr) {
-        return {};
-    }
-    const auto texture = data.index(*base, "index", data.count_of("textures"), where);
-    if (!texture) {
-        return {};
-    }
-    const auto image =
-        data.index(data.entry("textures", *texture), "source", data.count_of("images"), where);
-    if (!image) {
-        return {};
-    }
-    constexpr std::size_t most_sets = 8;
-    const std::size_t set = data.index(*base, "texCoord", most_sets, where).value_or(0);
-    const std::string name = fmt::format("images[{}]", *image);
-    return {pictures.picture(name, data.image_bytes(*image)), fmt::format("TEXCOORD_{}", set)};
+    return rough != nullptr ? object_in(*rough, "baseColorTexture") : nullptr;
 }
 
-std::vector<glm::vec2> places_on_picture(
-    GltfData& data, const Json& attributes, const GltfPicture& picture, std::size_t count) {
-    std::vector<glm::vec2> places;
-    if (picture.number == BakedPictures::none) {
-        return places;
+std::optional<std::size_t> image_of(GltfData& data, std::size_t material) {
+    const std::string where = fmt::format("materials[{}]", material);
+    const Json* base = base_texture(data, material);
+    const auto texture = base == nullptr
+                             ? std::nullopt
+                             : data.index(*base, "index", data.count_of("textures"), where);
+    return texture ? data.index(
+                         data.entry("textures", *texture), "source", data.count_of("images"), where)
+                   : std::nullopt;
+}
+
+} // namespace
+
+std::uint32_t baked_picture(GltfData& data, std::size_t material, BakedPictures& pictures) {
+    const auto image = image_of(data, material);
+    return image ? pictures.picture(fmt::format("images[{}]", *image), data.image_bytes(*image))
+                 : BakedPictures::none;
+}
+
+void take_picture(
+    GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made) {
+    const auto image = image_of(data, material);
+    if (!image) {
+        return;
     }
-    const auto index =
-        data.index(attributes, picture.places.c_str(), data.count_of("accessors"), "attributes");
-    if (!index) {
-        return places;
+    const Json uri = data.entry("images", *image).value("uri", Json());
+    if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
+        made.picture = picture_file(path, uri.get<std::string>()).string();
+        return;
     }
-    const GltfNumbers numbers = data.accessor(*index);
-    if (numbers.parts() != 2 || numbers.count() != count) {
-        return places;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        places.emplace_back(
-            static_cast<float>(numbers.at(i, 0)), static_cast<float>(numbers.at(i, 1)));
-    }
-    return places;
+    made.picture = fmt::format("picture-{}", *image);
+    made.picture_bytes = std::make_shared<const std::string>(data.image_bytes(*image));
+}
+
+std::optional<std::size_t>
+texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
+    constexpr std::size_t most_sets = 8;
+    const Json* base = material ? base_texture(data, *material) : nullptr;
+    const std::size_t set =
+        base == nullptr ? 0 : data.index(*base, "texCoord", most_sets, "materials").value_or(0);
+    return data.index(
+        attributes,
+        fmt::format("TEXCOORD_{}", set).c_str(),
+        data.count_of("accessors"),
+        "attributes");
 }
 
 } // namespace octant::models::meshfile

@@ -1,27 +1,26 @@
 #pragma once
 
+#include "models/material.h"
 #include "models/meshfile/baked_pictures.h"
 #include "models/meshfile/gltf_data.h"
 
-#include <glm/vec2.hpp>
-
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <filesystem>
+#include <optional>
 
 namespace octant::models::meshfile {
 
-/// A material's base colour picture: its number, and which of a primitive's lists of places is its.
-struct GltfPicture {
-    std::uint32_t number = BakedPictures::none;
-    std::string places; ///< "TEXCOORD_0"
-};
+/// The number of a material's base colour picture among `pictures`, read once. What cannot be read
+/// is noted and left out.
+std::uint32_t baked_picture(GltfData& data, std::size_t material, BakedPictures& pictures);
 
-/// Reads the picture of a material, once. What cannot be read is noted and left out.
-GltfPicture picture_of_material(GltfData& data, std::size_t material, BakedPictures& pictures);
+/// Names a material's base colour picture in `made`: the file, or the bytes in the file at `path`.
+void take_picture(
+    GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made);
 
-/// A primitive's places on its picture, one a vertex; empty where it has none of `count`.
-std::vector<glm::vec2> places_on_picture(
-    GltfData& data, const Json& attributes, const GltfPicture& picture, std::size_t count);
+/// The accessor of a primitive's texture coordinates: those of its material's base colour picture,
+/// the first ones where there is none; nothing where the primitive has none.
+std::optional<std::size_t>
+texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes);
 
 } // namespace octant::models::meshfile

@@ -10,6 +10,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace octant::models::meshfile {
@@ -59,6 +60,7 @@ private:
         const std::string where = fmt::format("meshes[{}].primitives", index);
         vertices_.clear();
         normals_.clear();
+        texture_coordinates_.clear();
         for (const Json& primitive :
              data_.list(data_.entry("meshes", index), "primitives", where)) {
             if (!primitive.is_object()) {
@@ -95,24 +97,24 @@ private:
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);
         const std::uint32_t used = material ? used_material(*material) : no_index;
-        const GltfPicture picture = material && mesh_.takes_pictures()
-                                        ? picture_of_material(data_, *material, mesh_.pictures())
-                                        : GltfPicture();
-        const std::vector<glm::vec2> places = places_on_picture(data_, *attributes, picture, count);
+        const std::uint32_t picture = material && mesh_.takes_pictures()
+                                          ? baked_picture(data_, *material, mesh_.pictures())
+                                          : BakedPictures::none;
+        const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
         const auto add = [&,
                           first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const auto corner = [&](std::uint32_t vertex) {
                 return Corner{
                     first + vertex,
                     first_normal == no_index ? no_index : first_normal + vertex,
-                    places.empty() ? glm::vec2(0.0F) : places[vertex]};
+                    first_texture == no_index ? no_index : first_texture + vertex};
             };
             std::array<Corner, 3> triangle{corner(a), corner(b), corner(c)};
             if (placement.mirrors()) {
                 std::swap(triangle[1], triangle[2]);
             }
             mesh_.add_polygon(
-                triangle, used, places.empty() ? BakedPictures::none : picture.number);
+                triangle, used, first_texture == no_index ? BakedPictures::none : picture);
         };
         add_triangles(mode, corners, add, where);
     }
@@ -233,6 +235,30 @@ private:
         return first;
     }
 
+    /// The first of the texture coordinates of a primitive's vertices; no_index where it has none.
+    std::uint32_t texture_coordinates(
+        std::optional<std::size_t> material, const Json& attributes, std::size_t count) {
+        const auto index = texture_accessor(data_, material, attributes);
+        if (!index) {
+            return no_index;
+        }
+        const auto known = texture_coordinates_.find(*index);
+        if (known != texture_coordinates_.end() && known->second.second == count) {
+            return known->second.first;
+        }
+        const GltfNumbers list = data_.accessor(*index);
+        if (list.parts() != 2 || list.count() != count) {
+            return no_index;
+        }
+        const auto first = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
+        for (std::size_t i = 0; i < count; ++i) { // glTF counts v downwards
+            mesh_.add_texture_coordinates(
+                {static_cast<float>(list.at(i, 0)), 1.0F - static_cast<float>(list.at(i, 1))});
+        }
+        texture_coordinates_[*index] = {first, count};
+        return first;
+    }
+
     std::vector<std::uint32_t>
     corner_list(const Json& primitive, std::size_t count, const std::string& where) {
         std::vector<std::uint32_t> corners;
@@ -285,6 +311,7 @@ private:
                 opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
             }
         }
+        take_picture(data_, index, path_, made);
         return materials_[index] = mesh_.add_material(std::move(made), opacity);
     }
 
@@ -294,6 +321,7 @@ private:
     std::vector<std::uint32_t> materials_; ///< of the file, as materials of the mesh
     std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint32_t, std::size_t>> vertices_;
     std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> normals_;
+    std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> texture_coordinates_;
     std::size_t numbers_ = 0;
     std::size_t skipped_ = 0;
 };

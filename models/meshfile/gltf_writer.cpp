@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -20,37 +21,55 @@ using Json = nlohmann::ordered_json;
 constexpr int float_type = 5126;
 constexpr int index_type = 5125;
 
-/// A mesh whose vertices have one normal each: the first keeps the vertex, others get copies.
+/// A mesh whose vertices have one normal and one pair of texture coordinates each: the first keeps
+/// the vertex, others get copies.
 struct Split {
     std::vector<std::uint32_t> vertices; ///< of the mesh, for each one here
     std::vector<std::uint32_t> normals;  ///< likewise; empty without
+    std::vector<std::uint32_t> textures; ///< likewise
     std::vector<Triangle> triangles;
 };
 
-Split split_by_normals(const TriangleMesh& mesh) {
+Split split_by_corners(const TriangleMesh& mesh) {
     Split split;
     for (std::uint32_t v = 0; v < mesh.vertices_m.size(); ++v) {
         split.vertices.push_back(v);
     }
     split.triangles = mesh.triangles;
-    if (mesh.normals.empty()) {
+    const bool has_normals = !mesh.corner_normals.empty();
+    const bool has_textures = !mesh.corner_texture_coordinates.empty();
+    if (!has_normals && !has_textures) {
         return split;
     }
-    split.normals.assign(mesh.vertices_m.size(), no_index);
-    std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> known;
+    split.normals.assign(has_normals ? mesh.vertices_m.size() : 0, no_index);
+    split.textures.assign(has_textures ? mesh.vertices_m.size() : 0, no_index);
+    std::vector<bool> is_taken(mesh.vertices_m.size(), false);
+    using Key = std::tuple<std::uint32_t, float, float, float, float, float>;
+    std::map<Key, std::uint32_t> known;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[t][k];
-            const std::uint32_t normal = mesh.corner_normals[t][k];
-            const glm::vec3& n = mesh.normals[normal];
-            const auto [at, is_new] = known.try_emplace({vertex, n.x, n.y, n.z}, vertex);
-            if (is_new && split.normals[vertex] == no_index) {
-                split.normals[vertex] = normal;
-            } else if (is_new) {
+            const std::uint32_t normal = has_normals ? mesh.corner_normals[t][k] : no_index;
+            const std::uint32_t texture =
+                has_textures ? mesh.corner_texture_coordinates[t][k] : no_index;
+            const glm::vec3 n = normal == no_index ? glm::vec3(0.0F) : mesh.normals[normal];
+            const glm::vec2 place =
+                texture == no_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
+            const auto [at, is_new] =
+                known.try_emplace({vertex, n.x, n.y, n.z, place.x, place.y}, vertex);
+            if (is_new && is_taken[vertex]) {
                 at->second = static_cast<std::uint32_t>(split.vertices.size());
                 split.vertices.push_back(vertex);
-                split.normals.push_back(normal);
+                split.normals.resize(has_normals ? split.vertices.size() : 0);
+                split.textures.resize(has_textures ? split.vertices.size() : 0);
             }
+            if (is_new && has_normals) {
+                split.normals[at->second] = normal;
+            }
+            if (is_new && has_textures) {
+                split.textures[at->second] = texture;
+            }
+            is_taken[vertex] = true;
             split.triangles[t][k] = at->second;
         }
     }
@@ -61,22 +80,22 @@ class GltfWriting {
 public:
     explicit GltfWriting(const TriangleMesh& mesh)
         : mesh_(mesh)
-        , split_(split_by_normals(mesh)) {
+        , split_(split_by_corners(mesh))
+        , origin_m_(gltf_origin_m(bounds_of(mesh))) {
         json_["asset"] = {{"version", "2.0"}};
         json_["scene"] = 0;
         json_["scenes"] = Json::array({{{"nodes", {0}}}});
         json_["nodes"] = Json::array({{{"mesh", 0}}});
+        if (origin_m_ != glm::dvec3(0.0)) {
+            json_["nodes"][0]["translation"] = {origin_m_.x, origin_m_.y, origin_m_.z};
+        }
         add_vertices();
         if (mesh.materials.empty()) {
             add_primitive(no_index);
         }
         for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
             add_primitive(material);
-            const glm::dvec3 c = linear_from_display(glm::dvec3(mesh.materials[material].colour));
-            json_["materials"].push_back(
-                {{"name", mesh.materials[material].name},
-                 {"pbrMetallicRoughness",
-                  {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
+            add_material(mesh.materials[material]);
         }
         json_["meshes"] = Json::array({{{"primitives", primitives_}}});
         json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
@@ -87,6 +106,35 @@ public:
     const std::string& bytes() const { return bytes_; }
 
 private:
+    void add_material(const Material& material) {
+        const glm::dvec3 c = linear_from_display(glm::dvec3(material.colour));
+        json_["materials"].push_back(
+            {{"name", material.name},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
+        if (material.picture_bytes && is_gltf_picture(*material.picture_bytes)) {
+            json_["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {
+                {"index", texture_of(material)}};
+        }
+    }
+
+    /// The number of the texture of a material's picture, written once.
+    std::size_t texture_of(const Material& material) {
+        const auto [at, is_new] = textures_.try_emplace(material.picture, textures_.size());
+        if (is_new) {
+            const std::string& picture = *material.picture_bytes;
+            json_["bufferViews"].push_back(
+                {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", picture.size()}});
+            bytes_ += picture;
+            bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+            json_["images"].push_back(
+                {{"bufferView", json_["bufferViews"].size() - 1},
+                 {"mimeType", picture.starts_with("\x89PNG") ? "image/png" : "image/jpeg"}});
+            json_["textures"].push_back({{"source", json_["images"].size() - 1}});
+        }
+        return at->second;
+    }
+
     /// Gives the accessor's number; its numbers stand from `first` to the end of the bytes.
     std::size_t
     add_accessor(std::size_t first, std::size_t count, int component, const char* type) {
@@ -111,7 +159,7 @@ private:
         glm::vec3 least(0.0F);
         glm::vec3 most(0.0F);
         for (std::size_t v = 0; v < count; ++v) {
-            const glm::vec3 place_m(mesh_.vertices_m[split_.vertices[v]]);
+            const glm::vec3 place_m(mesh_.vertices_m[split_.vertices[v]] - origin_m_);
             least = v == 0 ? place_m : glm::min(least, place_m);
             most = v == 0 ? place_m : glm::max(most, place_m);
             append_vector(place_m);
@@ -127,6 +175,16 @@ private:
                     normal == no_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
             }
             attributes_["NORMAL"] = add_accessor(first, count, float_type, "VEC3");
+        }
+        if (!split_.textures.empty()) {
+            const std::size_t first = bytes_.size();
+            for (const std::uint32_t texture : split_.textures) { // glTF counts v downwards
+                const glm::vec2 place = texture == no_index ? glm::vec2(0.0F, 1.0F)
+                                                            : mesh_.texture_coordinates[texture];
+                append_number(bytes_, place.x);
+                append_number(bytes_, 1.0F - place.y);
+            }
+            attributes_["TEXCOORD_0"] = add_accessor(first, count, float_type, "VEC2");
         }
         if (!mesh_.colours.empty()) {
             const std::size_t first = bytes_.size();
@@ -160,6 +218,8 @@ private:
 
     const TriangleMesh& mesh_;
     Split split_;
+    glm::dvec3 origin_m_;
+    std::map<std::string, std::size_t> textures_; ///< by their pictures
     std::string bytes_;
     Json json_;
     Json attributes_;
@@ -171,6 +231,20 @@ std::string text_of(const Json& json) {
 }
 
 } // namespace
+
+glm::dvec3 gltf_origin_m(const Bounds& bounds) {
+    constexpr double far = 2.0; // times its own size
+    const glm::dvec3 size_m = bounds.most_m - bounds.least_m;
+    const glm::dvec3 middle_m = 0.5 * (bounds.least_m + bounds.most_m);
+    const glm::dvec3 away_m = glm::abs(middle_m);
+    const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
+    const bool is_far = std::max({away_m.x, away_m.y, away_m.z}) > far * largest_m;
+    return is_far ? glm::dvec3(glm::vec3(middle_m)) : glm::dvec3(0.0);
+}
+
+bool is_gltf_picture(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG") || bytes.starts_with("\xff\xd8\xff");
+}
 
 std::string gltf_text(const TriangleMesh& mesh) {
     GltfWriting writing(mesh);

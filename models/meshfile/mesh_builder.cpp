@@ -90,6 +90,20 @@ std::uint32_t MeshBuilder::add_normal(const glm::dvec3& normal) {
     return static_cast<std::uint32_t>(mesh_.normals.size() - 1);
 }
 
+std::uint32_t MeshBuilder::add_texture_coordinates(const glm::vec2& coordinates) {
+    mesh_.texture_coordinates.push_back(coordinates);
+    return static_cast<std::uint32_t>(mesh_.texture_coordinates.size() - 1);
+}
+
+/// Where a corner lies on its picture, in shares from the upper left corner.
+glm::vec2 MeshBuilder::on_picture(const Corner& corner) const {
+    if (corner.texture == no_index) {
+        return glm::vec2(0.0F);
+    }
+    const glm::vec2& coordinates = mesh_.texture_coordinates[corner.texture];
+    return {coordinates.x, 1.0F - coordinates.y};
+}
+
 std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
     mesh_.materials.push_back(std::move(material));
     opacities_.push_back(opacity);
@@ -103,7 +117,8 @@ void MeshBuilder::add_polygon(
         add_triangle(triangle, material);
         if (options_.pictures) {
             pictures_.add_triangle(
-                picture, {triangle[0].on_picture, triangle[1].on_picture, triangle[2].on_picture});
+                picture,
+                {on_picture(triangle[0]), on_picture(triangle[1]), on_picture(triangle[2])});
         }
     };
     if (corners.size() == 3) {
@@ -123,11 +138,13 @@ void MeshBuilder::add_triangle(const std::array<Corner, 3>& corners, std::uint32
     const auto& [a, b, c] = corners;
     mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
     mesh_.corner_normals.push_back({a.normal, b.normal, c.normal});
+    mesh_.corner_texture_coordinates.push_back({a.texture, b.texture, c.texture});
     mesh_.triangle_materials.push_back(material);
     two_sided_.push_back(is_two_sided_);
     groups_.push_back(group_);
     has_normals_ =
         has_normals_ || a.normal != no_index || b.normal != no_index || c.normal != no_index;
+    has_texture_coordinates_ = has_texture_coordinates_ || a.texture != no_index;
     has_materials_ = has_materials_ || material != no_index;
 }
 
@@ -144,6 +161,7 @@ TriangleMesh MeshBuilder::finish() {
 
 void MeshBuilder::finish_part() {
     finish_normals();
+    finish_texture_coordinates();
     finish_materials();
     leave_out_transparent();
     bake_pictures();
@@ -240,6 +258,9 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
     if (!mesh_.corner_normals.empty()) {
         take(mesh_.corner_normals);
     }
+    if (!mesh_.corner_texture_coordinates.empty()) {
+        take(mesh_.corner_texture_coordinates);
+    }
     if (!mesh_.triangle_materials.empty()) {
         take(mesh_.triangle_materials);
     }
@@ -314,6 +335,33 @@ void MeshBuilder::finish_normals() {
     for (std::size_t n = 0; n < faulty_normals_.size(); ++n) {
         if (faulty_normals_[n]) {
             mesh_.normals[n] = glm::vec3(0.0F, 0.0F, 1.0F);
+        }
+    }
+}
+
+void MeshBuilder::finish_texture_coordinates() {
+    if (!has_texture_coordinates_) {
+        mesh_.texture_coordinates.clear();
+        mesh_.corner_texture_coordinates = std::vector<Triangle>(); // As large as the triangles.
+        return;
+    }
+    const auto is_missing = [&](std::uint32_t index) {
+        return index == no_index || !std::isfinite(mesh_.texture_coordinates[index].x) ||
+               !std::isfinite(mesh_.texture_coordinates[index].y);
+    };
+    std::vector<bool> used(mesh_.texture_coordinates.size(), false);
+    for (Triangle& corners : mesh_.corner_texture_coordinates) {
+        if (std::ranges::any_of(corners, is_missing)) {
+            corners = {no_index, no_index, no_index};
+            continue;
+        }
+        for (const std::uint32_t corner : corners) {
+            used[corner] = true;
+        }
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) {
+            mesh_.texture_coordinates[i] = glm::vec2(0.0F); // Perhaps not finite.
         }
     }
 }

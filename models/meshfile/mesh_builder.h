@@ -25,7 +25,7 @@ namespace octant::models::meshfile {
 struct Corner {
     std::uint32_t vertex = no_index;
     std::uint32_t normal = no_index;
-    glm::vec2 on_picture{0.0F}; ///< in shares from the upper left corner
+    std::uint32_t texture = no_index; ///< of add_texture_coordinates
 };
 
 /// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
@@ -62,6 +62,12 @@ public:
     /// corner by the triangle's own normal.
     std::uint32_t add_normal(const glm::dvec3& normal);
 
+    /// From a picture's lower left corner. A triangle with a corner that has none, or none that is
+    /// finite, is read without.
+    std::uint32_t add_texture_coordinates(const glm::vec2& coordinates);
+
+    std::size_t texture_coordinates_count() const { return mesh_.texture_coordinates.size(); }
+
     /// `opacity`: how much it hides of what lies behind, 0..1.
     std::uint32_t add_material(Material material, float opacity = 1.0F);
 
@@ -97,6 +103,8 @@ private:
     void bake_pictures();
     void finish_backs();
     void finish_normals();
+    void finish_texture_coordinates();
+    glm::vec2 on_picture(const Corner& corner) const;
     void finish_materials();
 
     std::filesystem::path path_;
@@ -113,6 +121,7 @@ private:
     bool is_two_sided_ = false;
     bool is_part_ = false; ///< of a larger mesh
     bool has_normals_ = false;
+    bool has_texture_coordinates_ = false;
     bool has_materials_ = false;
 };
 

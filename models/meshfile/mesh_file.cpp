@@ -1,14 +1,18 @@
 #include "models/meshfile/mesh_file.h"
 
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/written_places.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +20,39 @@ namespace octant::models::meshfile {
 
 namespace {
 
+/// Names pictures as seen from the folder of a file that is about to be written; those that stand
+/// in the mesh's former file are written beside it.
+TriangleMesh with_named_pictures(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    TriangleMesh named = mesh;
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    for (Material& material : named.materials) {
+        if (material.picture_bytes) {
+            material.picture = fmt::format(
+                "{}-{}.{}",
+                path.stem().string(),
+                material.picture,
+                material.picture_bytes->starts_with("\x89PNG") ? "png" : "jpg");
+            write_file(folder / material.picture, *material.picture_bytes);
+        } else if (!material.picture.empty()) {
+            material.picture = std::filesystem::absolute(material.picture)
+                                   .lexically_normal()
+                                   .lexically_proximate(folder.lexically_normal())
+                                   .string();
+        }
+    }
+    return named;
+}
+
+bool has_pictures(const TriangleMesh& mesh) {
+    return std::ranges::any_of(
+        mesh.materials, [](const Material& material) { return !material.picture.empty(); });
+}
+
 void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     std::filesystem::path mtl = path;
     mtl.replace_extension(".mtl");
-    const ObjMeshText text = obj_mesh_text(mesh, mtl.filename().string());
+    const ObjMeshText text = obj_mesh_text(
+        has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh, mtl.filename().string());
     if (!text.mtl.empty()) {
         write_file(mtl, text.mtl);
     }
@@ -29,6 +62,36 @@ void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh)
 template <std::string (*bytes_of)(const TriangleMesh&)>
 void write_one_file(const std::filesystem::path& path, const TriangleMesh& mesh) {
     write_file(path, bytes_of(mesh));
+}
+
+void write_ac3d_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    write_file(path, ac3d_text(has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh));
+}
+
+/// The encoded picture of a material, from its file where it stands in one; null where it has none
+/// that can be read.
+std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
+    std::error_code ignored;
+    constexpr std::size_t largest_bytes = std::size_t{256} << 20U;
+    if (material.picture_bytes || material.picture.empty() ||
+        !std::filesystem::is_regular_file(material.picture, ignored) ||
+        std::filesystem::file_size(material.picture, ignored) > largest_bytes) {
+        return material.picture_bytes;
+    }
+    return std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
+}
+
+template <std::string (*bytes_of)(const TriangleMesh&)>
+void write_gltf_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    if (!has_pictures(mesh)) {
+        write_file(path, bytes_of(mesh));
+        return;
+    }
+    TriangleMesh loaded = mesh;
+    for (Material& material : loaded.materials) {
+        material.picture_bytes = picture_bytes_of(material);
+    }
+    write_file(path, bytes_of(loaded));
 }
 
 /// A reader of files without pictures.
@@ -42,7 +105,11 @@ struct Format {
     TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
     MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
     void (*write)(const std::filesystem::path&, const TriangleMesh&);
+    /// What a written file leaves out, of "normals", "colours of vertices", "materials" and
+    /// "texture coordinates".
+    std::string_view left_out = {};
     bool places_in_float = false; ///< As written.
+    bool has_origin = false;      ///< Written places count from gltf_origin_m.
 };
 
 void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*mesh*/) {
@@ -51,12 +118,23 @@ void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*me
 
 constexpr std::array formats{
     Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
-    Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>},
-    Format{".stl", read_plainly<read_stl_mesh>, nullptr, write_one_file<stl_bytes>, true},
-    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_one_file<gltf_text>, true},
-    Format{".glb", read_gltf_mesh, read_gltf_parts, write_one_file<glb_bytes>, true},
-    Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_one_file<ac3d_text>},
-    Format{".wrl", read_plainly<read_vrml_mesh>, nullptr, write_one_file<vrml_text>},
+    Format{".ply", read_plainly<read_ply_mesh>, nullptr, write_one_file<ply_bytes>, "materials"},
+    Format{
+        ".stl",
+        read_plainly<read_stl_mesh>,
+        nullptr,
+        write_one_file<stl_bytes>,
+        "normals, colours of vertices, materials, texture coordinates",
+        true},
+    Format{".gltf", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<gltf_text>, "", true, true},
+    Format{".glb", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<glb_bytes>, "", true, true},
+    Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_ac3d_mesh, "normals, colours of vertices"},
+    Format{
+        ".wrl",
+        read_plainly<read_vrml_mesh>,
+        nullptr,
+        write_one_file<vrml_text>,
+        "texture coordinates"},
     Format{".xml", read_flightgear_model, nullptr, refuse_to_write}};
 
 const Format* find_format(const std::filesystem::path& path) {
@@ -101,8 +179,60 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     format_of(path).write(path, mesh);
 }
 
-bool writes_places_in_float(const std::filesystem::path& path) {
-    return format_of(path).places_in_float;
+std::vector<std::string>
+notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    const Format& format = format_of(path);
+    std::string left_out;
+    const auto look_at = [&](std::string_view what, bool is_there) {
+        if (is_there && format.left_out.find(what) != format.left_out.npos) {
+            left_out += fmt::format("{}{}", left_out.empty() ? "" : ", ", what);
+        }
+    };
+    look_at("normals", !mesh.corner_normals.empty());
+    look_at("colours of vertices", !mesh.colours.empty());
+    look_at("materials", !mesh.materials.empty());
+    look_at("texture coordinates", !mesh.corner_texture_coordinates.empty());
+    std::vector<std::string> notes;
+    if (!left_out.empty()) {
+        notes.push_back(
+            fmt::format("{}: the format holds no {}; they are left out", path.string(), left_out));
+    }
+    const bool has_textures = !mesh.corner_texture_coordinates.empty();
+    if (has_textures && format.ending == ".ac" && only_picture(mesh).empty()) {
+        notes.push_back(fmt::format(
+            "{}: texture coordinates are written without a picture, as the materials do not have "
+            "one in common",
+            path.string()));
+    }
+    for (const Material& material : format.has_origin ? mesh.materials : std::vector<Material>()) {
+        const auto bytes = picture_bytes_of(material);
+        if (!material.picture.empty() && (!bytes || !is_gltf_picture(*bytes))) {
+            notes.push_back(fmt::format(
+                "{}: expected a PNG or JPEG picture, got '{}'; it is left out",
+                path.string(),
+                printable(material.picture)));
+        }
+    }
+    return notes;
+}
+
+double rounding_m(const std::filesystem::path& path, const Bounds& bounds) {
+    const Format& format = format_of(path);
+    if (!format.places_in_float) {
+        return 0.0;
+    }
+    const glm::dvec3 origin_m = format.has_origin ? gltf_origin_m(bounds) : glm::dvec3(0.0);
+    glm::dvec3 moves_m(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double farthest_m = std::max(
+            std::abs(bounds.least_m[axis] - origin_m[axis]),
+            std::abs(bounds.most_m[axis] - origin_m[axis]));
+        const auto rounded = static_cast<float>(farthest_m);
+        moves_m[axis] =
+            0.5 * static_cast<double>(
+                      std::nextafter(rounded, std::numeric_limits<float>::max()) - rounded);
+    }
+    return glm::length(moves_m);
 }
 
 bool is_mesh_file(const std::filesystem::path& path) {

@@ -4,6 +4,8 @@
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace octant::models::meshfile {
 
@@ -16,7 +18,9 @@ namespace octant::models::meshfile {
 /// Whole-number colours stand for 0..1. Colours are display values (models/display_colour.h); those
 /// of glTF, linear in its files, are converted.
 ///
-/// Left out, where a file has it: textures but for `options`, lines and points, face colours of
+/// Texture coordinates and the names of materials' pictures are read from .obj, glTF, .ply and
+/// (without the pictures' names) .ac files; pictures themselves only as `options` say.
+/// Left out, where a file has it: lines and points, face colours of
 /// PLY, normals of STL, inner nodes of unknown kinds; of two-sided surfaces the back but for
 /// `options`. TriangleMesh::notes says what may be missed. A normal without a length becomes its
 /// triangle's own.
@@ -31,16 +35,27 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 /// Writes a mesh in the format that the ending says, whole or not at all: .obj with .mtl beside it,
 /// .ply and .stl binary, .gltf with its data inside, .glb, .ac, .wrl. read_mesh gives the same mesh
 /// as far as the format holds it:
-///     .obj        all
+///     .obj        all; pictures inside the mesh's former file become files beside it
 ///     .ply        no materials; normals where each vertex has only one
 ///     .stl        places in float; vertices in the order of their first corners, nothing else
-///     .gltf .glb  places in float, colours of vertices to one step of a float; a vertex of
-///                 several normals becomes several
-///     .ac         no colours of vertices, no normals
-///     .wrl        all; letters and digits of materials' names
+///     .gltf .glb  places in float, from the middle of the mesh where it is far from 0 (the
+///                 node's translation); colours of vertices to one step of a float; a vertex of
+///                 several normals or texture coordinates becomes several; PNG and JPEG pictures
+///     .ac         no colours of vertices, no normals; texture coordinates where all materials
+///                 have one picture
+///     .wrl        no texture coordinates; letters and digits of materials' names
 /// With several materials .gltf, .glb and .wrl put triangles in the order of their materials; .obj,
 /// .gltf, .glb and .ac lose materials that no triangle has. Throws Error.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+/// What write_mesh leaves out of a mesh in the format that the ending says, a line each: "FILE: the
+/// format holds no ..., which are left out". Empty where the file holds all.
+std::vector<std::string>
+notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+/// No coordinate within `bounds` moves farther than this when write_mesh rounds it, metres: 0 where
+/// the format keeps double precision.
+double rounding_m(const std::filesystem::path& path, const Bounds& bounds);
 
 /// Whether read_mesh knows the ending.
 bool is_mesh_file(const std::filesystem::path& path);

@@ -35,7 +35,8 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name);
 
 /// A binary PLY file, little endian: coordinates in float where that changes none of them, else in
 /// double; colours in uchar where that changes none, else in float; normals where each vertex has
-/// one only; no materials.
+/// one only; texture coordinates of vertices (s, t) where each has one only, else of faces (list
+/// texcoord); no materials.
 std::string ply_bytes(const TriangleMesh& mesh);
 
 /// A binary STL file: coordinates in float, one normal a triangle, nothing else.
@@ -43,14 +44,27 @@ std::string stl_bytes(const TriangleMesh& mesh);
 
 /// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours
 /// (linear in light, as glTF has them) in float, a primitive a material. A vertex of several
-/// normals is written once for each.
+/// normals or texture coordinates is written once for each. Coordinates count from gltf_origin_m,
+/// the translation of the node. PNG and JPEG pictures are written into the file.
+/// Where coordinates of a glTF file count from: 0 where the bounding box is near it, else a point
+/// in its middle with coordinates in float, so that less of their digits is lost.
+glm::dvec3 gltf_origin_m(const Bounds& bounds);
+
+/// Whether the bytes are of a picture that glTF files may hold: PNG or JPEG.
+bool is_gltf_picture(std::string_view bytes);
+
 std::string gltf_text(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh);
 
-/// AC3D: places and materials, no colours of vertices, no normals.
+/// AC3D: places, materials and texture coordinates, no colours of vertices, no normals; the picture
+/// where there is one only.
 std::string ac3d_text(const TriangleMesh& mesh);
 
-/// VRML 2.0: an IndexedFaceSet a material, triangles therefore in the order of their materials.
+/// The picture that all materials with a picture have; empty where they have several or none.
+std::string only_picture(const TriangleMesh& mesh);
+
+/// VRML 2.0, without texture coordinates: an IndexedFaceSet a material, triangles therefore in the
+/// order of their materials.
 std::string vrml_text(const TriangleMesh& mesh);
 
 } // namespace octant::models::meshfile

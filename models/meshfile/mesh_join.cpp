@@ -1,5 +1,7 @@
 #include "models/meshfile/mesh_join.h"
 
+#include "models/no_index.h"
+
 #include <glm/geometric.hpp>
 
 #include <utility>
@@ -40,11 +42,80 @@ void place(TriangleMesh& mesh, const Placement& placement) {
     }
 }
 
+/// No texture coordinates for the triangles of a mesh that has none.
+void give_texture_coordinates(TriangleMesh& mesh) {
+    if (mesh.corner_texture_coordinates.empty()) {
+        mesh.corner_texture_coordinates.assign(
+            mesh.triangles.size(), {no_index, no_index, no_index});
+    }
+}
+
 Triangle shifted(const Triangle& triangle, std::uint32_t by) {
     return {triangle[0] + by, triangle[1] + by, triangle[2] + by};
 }
 
+/// Keeps the entries of `values` that `corners` points to.
+template <typename Value>
+void keep_used(std::vector<Value>& values, std::vector<Triangle>& corners) {
+    std::vector<std::uint32_t> numbers(values.size(), no_index);
+    for (const Triangle& triangle : corners) {
+        for (const std::uint32_t corner : triangle) {
+            if (corner != no_index) {
+                numbers[corner] = 0;
+            }
+        }
+    }
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (numbers[i] != no_index) {
+            numbers[i] = count;
+            values[count++] = values[i];
+        }
+    }
+    values.resize(count);
+    for (Triangle& triangle : corners) {
+        for (std::uint32_t& corner : triangle) {
+            corner = corner == no_index ? no_index : numbers[corner];
+        }
+    }
+}
+
 } // namespace
+
+TriangleMesh
+part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count) {
+    TriangleMesh part = mesh;
+    const auto from = mesh.materials.begin() + first_material;
+    part.materials.assign(from, from + count);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t material = mesh.triangle_materials[t];
+        if (material < first_material || material - first_material >= count) {
+            continue;
+        }
+        part.triangles[kept] = mesh.triangles[t];
+        part.triangle_materials[kept] = material - first_material;
+        if (!mesh.corner_normals.empty()) {
+            part.corner_normals[kept] = mesh.corner_normals[t];
+        }
+        if (!mesh.corner_texture_coordinates.empty()) {
+            part.corner_texture_coordinates[kept] = mesh.corner_texture_coordinates[t];
+        }
+        ++kept;
+    }
+    part.triangles.resize(kept);
+    part.triangle_materials.resize(kept);
+    part.corner_normals.resize(mesh.corner_normals.empty() ? 0 : kept);
+    part.corner_texture_coordinates.resize(mesh.corner_texture_coordinates.empty() ? 0 : kept);
+    if (!part.colours.empty()) {
+        std::vector<Triangle> corners = part.triangles;
+        keep_used(part.colours, corners);
+    }
+    keep_used(part.vertices_m, part.triangles);
+    keep_used(part.normals, part.corner_normals);
+    keep_used(part.texture_coordinates, part.corner_texture_coordinates);
+    return part;
+}
 
 void join_mesh(TriangleMesh& to, TriangleMesh from, const Placement& placement) {
     if (from.triangles.empty()) {
@@ -58,6 +129,11 @@ void join_mesh(TriangleMesh& to, TriangleMesh from, const Placement& placement) 
     }
     give_materials(to);
     give_materials(from);
+    if (!to.texture_coordinates.empty() || !from.texture_coordinates.empty()) {
+        give_texture_coordinates(to);
+        give_texture_coordinates(from);
+    }
+    const auto first_texture = static_cast<std::uint32_t>(to.texture_coordinates.size());
     const bool normals =
         (to.triangles.empty() || !to.corner_normals.empty()) && !from.corner_normals.empty();
     const auto first = static_cast<std::uint32_t>(to.vertices_m.size());
@@ -68,6 +144,11 @@ void join_mesh(TriangleMesh& to, TriangleMesh from, const Placement& placement) 
     };
     append(to.vertices_m, from.vertices_m);
     append(to.colours, from.colours);
+    append(to.texture_coordinates, from.texture_coordinates);
+    for (const Triangle& corners : from.corner_texture_coordinates) {
+        to.corner_texture_coordinates.push_back(
+            corners[0] == no_index ? corners : shifted(corners, first_texture));
+    }
     append(to.materials, from.materials);
     append(to.notes, from.notes);
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {

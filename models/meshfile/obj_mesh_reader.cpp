@@ -53,8 +53,8 @@ private:
             take_vertex(words);
         } else if (words[0] == "vn") {
             mesh_.add_normal(vector(words, 1));
-        } else if (words[0] == "vt" && mesh_.takes_pictures()) {
-            take_place(words);
+        } else if (words[0] == "vt") {
+            take_texture_coordinates(words);
         } else if (words[0] == "f") {
             take_polygon(words);
         } else if (words[0] == "usemtl") {
@@ -101,13 +101,13 @@ private:
     }
 
     /// vt u v, from the lower left corner of a picture.
-    void take_place(const Words& words) {
+    void take_texture_coordinates(const Words& words) {
         const auto part = [&](std::size_t place) {
             return place < words.size()
                        ? static_cast<float>(finite_number(words[place]).value_or(0.0))
                        : 0.0F;
         };
-        places_.emplace_back(part(1), 1.0F - part(2));
+        mesh_.add_texture_coordinates({part(1), part(2)});
     }
 
     std::uint32_t index(std::string_view word, std::size_t count, std::string_view what) const {
@@ -128,9 +128,10 @@ private:
         if (second != std::string_view::npos && second + 1 < word.size()) {
             found.normal = index(word.substr(second + 1), mesh_.normal_count(), "normal");
         }
-        if (!places_.empty() && slash < word.size() && slash + 1 < std::min(second, word.size())) {
+        const std::size_t places = mesh_.texture_coordinates_count();
+        if (places > 0 && slash < word.size() && slash + 1 < std::min(second, word.size())) {
             const std::string_view place = word.substr(slash + 1, second - slash - 1);
-            found.on_picture = places_[index(place, places_.size(), "place on a picture")];
+            found.texture = index(place, places, "place on a picture");
         }
         return found;
     }
@@ -153,8 +154,9 @@ private:
     /// Of the materials that have one; BakedPictures::none for the others.
     std::uint32_t picture_of(const std::string& material) {
         const auto named = picture_names_.find(material);
-        return named == picture_names_.end() ? BakedPictures::none
-                                             : mesh_.pictures().picture(named->second);
+        return named == picture_names_.end() || !mesh_.takes_pictures()
+                   ? BakedPictures::none
+                   : mesh_.pictures().picture(named->second);
     }
 
     /// Of the polygons from here on; materials come in the order of their first polygon.
@@ -174,6 +176,10 @@ private:
         }
         if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
+        }
+        if (const auto named = picture_names_.find(*material_name_);
+            named != picture_names_.end()) {
+            made.picture = picture_file(path_, named->second);
         }
         const auto opacity = opacities_.find(*material_name_);
         material_ = mesh_.add_material(made, opacity == opacities_.end() ? 1.0F : opacity->second);
@@ -205,10 +211,8 @@ private:
         for (const auto& [material, opacity] : polygons::opacities_of_mtl(file)) {
             opacities_.insert_or_assign(material, opacity);
         }
-        if (mesh_.takes_pictures()) {
-            for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
-                picture_names_.insert_or_assign(material, picture);
-            }
+        for (const auto& [material, picture] : polygons::pictures_of_mtl(file)) {
+            picture_names_.insert_or_assign(material, picture);
         }
         return true;
     }
@@ -232,7 +236,6 @@ private:
     std::map<std::string, float> opacities_;           ///< of materials that are not opaque
     std::map<std::string, std::string> picture_names_; ///< of materials
     std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
-    std::vector<glm::vec2> places_;                    ///< on pictures
     std::map<std::string, int> missing_;               ///< with the line that names them first
     std::vector<Corner> corners_;
     int line_ = 0;

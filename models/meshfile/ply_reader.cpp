@@ -101,11 +101,16 @@ private:
     ByteReader bytes_;
 };
 
-/// What a vertex's property means, in the order of a vertex's nine values.
-constexpr std::array<std::string_view, 9> vertex_names{
-    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
+/// What a vertex's property means, in the order of a vertex's eleven values.
+constexpr std::array<std::string_view, 11> vertex_names{
+    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "s", "t"};
+constexpr std::size_t first_colour = 6;
+constexpr std::size_t first_texture = 9;
 
-constexpr std::array<std::string_view, 3> short_colour_names{"r", "g", "b"};
+/// Other names of the last five values.
+constexpr std::array<std::string_view, 5> short_names{"r", "g", "b", "u", "v"};
+constexpr std::array<std::string_view, 5> long_names{
+    "diffuse_red", "diffuse_green", "diffuse_blue", "texture_u", "texture_v"};
 
 template <typename Source>
 class BodyReading {
@@ -164,12 +169,13 @@ private:
         return static_cast<std::size_t>(count);
     }
 
-    /// Slot of a property among a vertex's nine values.
+    /// Slot of a property among a vertex's values.
     static std::optional<std::size_t> slot_of(const PlyProperty& property) {
         for (std::size_t slot = 0; slot < vertex_names.size(); ++slot) {
             if (!property.is_list &&
                 (property.name == vertex_names[slot] ||
-                 (slot >= 6 && property.name == short_colour_names[slot - 6]))) {
+                 (slot >= first_colour && (property.name == short_names[slot - first_colour] ||
+                                           property.name == long_names[slot - first_colour])))) {
                 return slot;
             }
         }
@@ -179,7 +185,7 @@ private:
     void take_vertices(const PlyElement& element) {
         has_vertices_ = true;
         std::vector<std::optional<std::size_t>> slots;
-        std::array<bool, 9> has{};
+        std::array<bool, vertex_names.size()> has{};
         for (const PlyProperty& property : element.properties) {
             slots.push_back(slot_of(property));
             if (slots.back()) {
@@ -191,6 +197,7 @@ private:
         }
         has_normals_ = has[3] && has[4] && has[5];
         has_colours_ = has[6] && has[7] && has[8];
+        has_textures_ = has[9] && has[10];
         for (std::size_t i = 0; i < element.count; ++i) {
             take_vertex(element, slots);
         }
@@ -198,12 +205,12 @@ private:
 
     void
     take_vertex(const PlyElement& element, const std::vector<std::optional<std::size_t>>& slots) {
-        std::array<double, 9> values{};
+        std::array<double, vertex_names.size()> values{};
         for (std::size_t p = 0; p < slots.size(); ++p) {
             const PlyProperty& property = element.properties[p];
             if (!slots[p]) {
                 skip_one(property);
-            } else if (*slots[p] < 6) {
+            } else if (*slots[p] < first_colour || *slots[p] >= first_texture) {
                 values[*slots[p]] = source_.number(property.type, "a coordinate");
             } else {
                 values[*slots[p]] = colour_part(property);
@@ -215,6 +222,9 @@ private:
         }
         if (has_colours_) {
             mesh_.set_colour(vertex, glm::vec3(glm::dvec3{values[6], values[7], values[8]}));
+        }
+        if (has_textures_) {
+            mesh_.add_texture_coordinates(glm::vec2(glm::dvec2{values[9], values[10]}));
         }
     }
 
@@ -237,8 +247,11 @@ private:
             source_.refuse("the list vertex_indices of a " + element.name, "none");
         }
         for (std::size_t i = 0; i < element.count; ++i) {
+            places_.clear();
             for (const PlyProperty& property : element.properties) {
-                if (!is_corners(property)) {
+                if (property.is_list && property.name == "texcoord" && element.name == "face") {
+                    take_places(property);
+                } else if (!is_corners(property)) {
                     skip_one(property);
                 } else if (element.name == "face") {
                     take_face(property);
@@ -246,7 +259,27 @@ private:
                     take_strips(property);
                 }
             }
+            if (element.name == "face") {
+                add_face();
+            }
         }
+    }
+
+    /// Texture coordinates of a face's corners, u and v of each.
+    void take_places(const PlyProperty& property) {
+        for (std::size_t left = count_of(property); left > 0; --left) {
+            places_.push_back(source_.number(property.type, "a texture coordinate"));
+        }
+    }
+
+    void add_face() {
+        if (places_.size() == 2 * corners_.size()) {
+            for (std::size_t k = 0; k < corners_.size(); ++k) {
+                corners_[k].texture = mesh_.add_texture_coordinates(
+                    glm::vec2(glm::dvec2{places_[2 * k], places_[2 * k + 1]}));
+            }
+        }
+        mesh_.add_polygon(corners_);
     }
 
     static bool is_corners(const PlyProperty& property) {
@@ -265,7 +298,6 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             corners_.push_back(corner(source_.number(property.type, "the number of a vertex")));
         }
-        mesh_.add_polygon(corners_);
     }
 
     Corner corner(double number) const {
@@ -275,7 +307,7 @@ private:
                 fmt::format("a vertex below {}", mesh_.vertex_count()), fmt::format("{}", number));
         }
         const auto vertex = static_cast<std::uint32_t>(number);
-        return {vertex, has_normals_ ? vertex : no_index};
+        return {vertex, has_normals_ ? vertex : no_index, has_textures_ ? vertex : no_index};
     }
 
     /// Strips of triangles, one behind the other, -1 between them. Every second triangle of a strip
@@ -311,7 +343,9 @@ private:
     bool has_vertices_ = false;
     bool has_normals_ = false;
     bool has_colours_ = false;
+    bool has_textures_ = false;
     std::vector<Corner> corners_;
+    std::vector<double> places_; ///< of the face at hand on its picture
 };
 
 } // namespace

@@ -30,29 +30,63 @@ bool colours_fit_bytes(const TriangleMesh& mesh) {
     });
 }
 
-/// The only normal that each vertex has; empty when one has several. Vertices of no triangle get
-/// any.
-std::vector<glm::vec3> vertex_normals(const TriangleMesh& mesh) {
-    if (mesh.corner_normals.empty()) {
+/// The only entry of `values` that the corners of each vertex have; empty when one has several.
+/// Vertices of no triangle get `without`.
+template <typename Value>
+std::vector<Value> of_vertices(
+    const TriangleMesh& mesh,
+    const std::vector<Value>& values,
+    const std::vector<Triangle>& corners,
+    const Value& without) {
+    if (corners.empty()) {
         return {};
     }
     std::vector<std::uint32_t> of_vertex(mesh.vertices_m.size(), no_index);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint32_t& known = of_vertex[mesh.triangles[t][k]];
-            const std::uint32_t normal = mesh.corner_normals[t][k];
-            if (known != no_index && mesh.normals[known] != mesh.normals[normal]) {
+            const std::uint32_t value = corners[t][k];
+            if (known != no_index && (value == no_index || values[known] != values[value])) {
                 return {};
             }
-            known = normal;
+            known = value;
         }
     }
-    std::vector<glm::vec3> normals;
-    normals.reserve(of_vertex.size());
-    for (const std::uint32_t normal : of_vertex) {
-        normals.push_back(normal == no_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh.normals[normal]);
+    std::vector<Value> found;
+    found.reserve(of_vertex.size());
+    for (const std::uint32_t value : of_vertex) {
+        found.push_back(value == no_index ? without : values[value]);
     }
-    return normals;
+    return found;
+}
+
+std::vector<glm::vec3> vertex_normals(const TriangleMesh& mesh) {
+    return of_vertices(mesh, mesh.normals, mesh.corner_normals, glm::vec3(0.0F, 0.0F, 1.0F));
+}
+
+std::vector<glm::vec2> vertex_textures(const TriangleMesh& mesh) {
+    return of_vertices(
+        mesh, mesh.texture_coordinates, mesh.corner_texture_coordinates, glm::vec2(0.0F));
+}
+
+/// A face's list of corners and, where `textures`, of their texture coordinates as MeshLab has
+/// them.
+void append_face(std::string& bytes, const TriangleMesh& mesh, std::size_t t, bool textures) {
+    append_number(bytes, std::uint8_t{3});
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+        append_number(bytes, vertex);
+    }
+    if (!textures) {
+        return;
+    }
+    const Triangle& corners = mesh.corner_texture_coordinates[t];
+    append_number(bytes, std::uint8_t{static_cast<std::uint8_t>(corners[0] == no_index ? 0 : 6)});
+    for (const std::uint32_t corner : corners) {
+        if (corner != no_index) {
+            append_number(bytes, mesh.texture_coordinates[corner].x);
+            append_number(bytes, mesh.texture_coordinates[corner].y);
+        }
+    }
 }
 
 template <typename T>
@@ -69,6 +103,8 @@ std::string ply_bytes(const TriangleMesh& mesh) {
     const bool has_colours = !mesh.colours.empty();
     const bool byte_colours = colours_fit_bytes(mesh);
     const std::vector<glm::vec3> normals = vertex_normals(mesh);
+    const std::vector<glm::vec2> textures = vertex_textures(mesh);
+    const bool face_textures = textures.empty() && !mesh.corner_texture_coordinates.empty();
     std::string bytes = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.vertices_m.size());
     const auto add_properties = [&](std::string_view type, std::string_view names) {
@@ -85,9 +121,13 @@ std::string ply_bytes(const TriangleMesh& mesh) {
             bytes += fmt::format("property {} {}\n", byte_colours ? "uchar" : "float", part);
         }
     }
+    if (!textures.empty()) {
+        add_properties("float", "st");
+    }
     bytes += fmt::format(
-        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-        mesh.triangles.size());
+        "element face {}\nproperty list uchar uint vertex_indices\n{}end_header\n",
+        mesh.triangles.size(),
+        face_textures ? "property list uchar float texcoord\n" : "");
     for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
         if (is_float) {
             append_vector<float>(bytes, mesh.vertices_m[v]);
@@ -104,12 +144,13 @@ std::string ply_bytes(const TriangleMesh& mesh) {
                 append_number(bytes, mesh.colours[v][part]);
             }
         }
-    }
-    for (const Triangle& triangle : mesh.triangles) {
-        append_number(bytes, std::uint8_t{3});
-        for (const std::uint32_t vertex : triangle) {
-            append_number(bytes, vertex);
+        if (!textures.empty()) {
+            append_number(bytes, textures[v].x);
+            append_number(bytes, textures[v].y);
         }
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        append_face(bytes, mesh, t, face_textures);
     }
     return bytes;
 }

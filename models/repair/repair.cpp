@@ -253,6 +253,7 @@ private:
         keep(named_, stays);
         keep(corner_colours_, stays);
         keep(mesh_.corner_normals, stays);
+        keep(mesh_.corner_texture_coordinates, stays);
         keep(mesh_.triangle_materials, stays);
     }
 
@@ -368,6 +369,10 @@ private:
             std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
             if (!corner_colours_.empty()) {
                 std::swap(corner_colours_[t][1], corner_colours_[t][2]);
+            }
+            if (!mesh_.corner_texture_coordinates.empty()) {
+                Triangle& corners = mesh_.corner_texture_coordinates[t];
+                std::swap(corners[1], corners[2]);
             }
             if (!mesh_.corner_normals.empty()) {
                 std::swap(mesh_.corner_normals[t][1], mesh_.corner_normals[t][2]);

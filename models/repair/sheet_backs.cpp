@@ -64,6 +64,10 @@ public:
             mesh_.corner_normals.push_back(
                 {turned(normals[0]), turned(normals[2]), turned(normals[1])});
         }
+        if (!mesh_.corner_texture_coordinates.empty()) {
+            const auto [a, b, c] = mesh_.corner_texture_coordinates[t];
+            mesh_.corner_texture_coordinates.push_back({a, c, b});
+        }
         if (!mesh_.triangle_materials.empty()) {
             mesh_.triangle_materials.push_back(std::uint32_t{mesh_.triangle_materials[t]});
         }

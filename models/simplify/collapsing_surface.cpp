@@ -34,7 +34,7 @@ void CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double 
     Collapse made;
     made.first = vertex_numbers_[kept];
     made.second = vertex_numbers_[gone];
-    made.position_m = units_.to_file(placement.place);
+    made.position_m = surface_.to_file(placement.place, units_);
     made.left = face_numbers_[face_of(h)];
     made.right = twin == none ? none : face_numbers_[face_of(twin)];
     made.error_m = error * units_.diagonal_m;

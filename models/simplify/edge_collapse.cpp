@@ -199,7 +199,7 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
 
 /// Whether an edge may collapse: the link condition first, then the guard against fold-overs.
 bool EdgeCollapse::is_allowed(HalfEdge h, const Placement& placement) {
-    if (!surface_.mesh.may_collapse(h)) {
+    if (!surface_.may_collapse(h)) {
         return false;
     }
     surface_.mesh.ring_of(h, ring_);

@@ -410,7 +410,7 @@ void Optimizer::load_collapse(HalfEdge h) {
 Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     MadeVertex made{glm::dvec3(0.0), glm::dvec3(0.0), std::numeric_limits<double>::infinity()};
-    if (!mesh.may_collapse(h) || surface_.is_border_vertex(mesh.origin(h)) ||
+    if (!surface_.may_collapse(h) || surface_.is_border_vertex(mesh.origin(h)) ||
         surface_.is_border_vertex(mesh.target(h))) {
         return made;
     }

@@ -145,7 +145,11 @@ public:
         , units_(WorkingUnits::of(original_, options.colour_weight))
         , surface_(original_, units_)
         , target_(surface_)
-        , collapsing_(surface_, units_, EdgeWeights{}) {}
+        , collapsing_(surface_, units_, EdgeWeights{}) {
+        if (options.lock_border) {
+            surface_.lock_border(original_, units_);
+        }
+    }
 
     /// Collapses to the goal: by quadrics as long as that is far, then by samples.
     void collapse(const Goal& goal) {
@@ -257,6 +261,9 @@ CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& opt
     assert(!options.goal.error_m);
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     WorkingSurface surface(original, units);
+    if (options.lock_border) {
+        surface.lock_border(original, units);
+    }
     CollapsingSurface collapsing(surface, units, cost_weights);
     collapse_by_quadrics(collapsing, options.goal, options);
     return {std::move(original), std::move(collapsing.collapses())};
@@ -273,6 +280,9 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
     SurfaceSamples samples(
         fine, wanted_samples(original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface(mesh, units);
+    if (options.lock_border) {
+        surface.lock_border(mesh, units);
+    }
     const measure::TriangleBvh tree(surface.places, mesh.triangles);
     std::vector<std::uint32_t> faces(samples.size());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {

@@ -89,15 +89,16 @@ Placement VertexQuadrics::placement(const WorkingSurface& surface, HalfEdge h) c
     const glm::dvec3 middle = 0.5 * (surface.places[u] + surface.places[w]);
     Placement found;
     found.weight = quadric.trace();
+    const std::uint32_t locked = surface.is_locked(u) ? u : surface.is_locked(w) ? w : none;
     if (colours_.empty()) {
-        found.place = least_place(quadric, middle);
+        found.place = locked == none ? least_place(quadric, middle) : surface.places[locked];
         found.cost = std::max(quadric.at(found.place), 0.0);
         return found;
     }
     ColourQuadric colours = colours_[u];
     colours += colours_[w];
     const Quadric left = without_colours(quadric, colours);
-    found.place = least_place(left, middle);
+    found.place = locked == none ? least_place(left, middle) : surface.places[locked];
     found.colour = colours.colour_at(found.place);
     found.cost = std::max(left.at(found.place), 0.0);
     return found;

@@ -62,7 +62,24 @@ bool WorkingSurface::is_border_vertex(std::uint32_t vertex) const {
     return found;
 }
 
+void WorkingSurface::lock_border(const TriangleMesh& from, const WorkingUnits& units) {
+    for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
+        if (mesh.vertex_is_there(vertex) && mesh.is_boundary_vertex(vertex)) {
+            const glm::dvec3 place = units.from_file(from.vertices_m[vertex]);
+            locked_m[{place.x, place.y, place.z}] = from.vertices_m[vertex];
+        }
+    }
+}
+
+glm::dvec3 WorkingSurface::to_file(const glm::dvec3& place, const WorkingUnits& units) const {
+    const auto locked = locked_m.find({place.x, place.y, place.z});
+    return locked == locked_m.end() ? units.to_file(place) : locked->second;
+}
+
 glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3& way) const {
+    if (is_locked(vertex)) {
+        return glm::dvec3(0.0);
+    }
     if (materials.empty() && !mesh.is_boundary_vertex(vertex)) {
         return way;
     }
@@ -118,7 +135,7 @@ WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units)
             continue;
         }
         numbers[v] = static_cast<std::uint32_t>(made.vertices_m.size());
-        made.vertices_m.push_back(units.to_file(places[v]));
+        made.vertices_m.push_back(to_file(places[v], units));
         if (coloured()) {
             made.colours.push_back(units.colour_to_file(colours[v]));
         }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace octant::models::simplify {
@@ -46,6 +47,26 @@ struct WorkingSurface {
     std::vector<glm::dvec3> colours;      ///< One for each vertex slot; empty = no colours.
     std::vector<std::uint32_t> materials; ///< One for each triangle slot; empty = no materials.
 
+    /// From now on vertices of boundaries stay where they are in `from`, of which this was made.
+    void lock_border(const TriangleMesh& from, const WorkingUnits& units);
+
+    bool locks_border() const { return !locked_m.empty(); }
+
+    bool is_locked(std::uint32_t vertex) const {
+        return locks_border() && mesh.is_boundary_vertex(vertex);
+    }
+
+    /// Whether an edge may collapse: CollapsibleMesh::may_collapse, and no edge of a locked border.
+    bool may_collapse(HalfEdge h) const {
+        return !(locks_border() && mesh.twin(h) == none) && mesh.may_collapse(h);
+    }
+
+    /// In file units; of locked vertices as the file has them, to the bit.
+    glm::dvec3 to_file(const glm::dvec3& place, const WorkingUnits& units) const;
+
+    /// By the places of locked vertices, in working units, those in the file.
+    std::map<std::array<double, 3>, glm::dvec3> locked_m;
+
     bool coloured() const { return !colours.empty(); }
 
     std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
@@ -66,7 +87,8 @@ struct WorkingSurface {
     bool is_border_vertex(std::uint32_t vertex) const;
 
     /// The part of a move of a vertex that leaves a border through it where it is: across the
-    /// surface and along the border; all of it where there is none.
+    /// surface and along the border; all of it where there is none. Nothing of it for a locked
+    /// vertex.
     glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
     /// Gives the slots of what is gone back.

@@ -40,7 +40,7 @@ std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
 } // namespace
 
 models::meshfile::LevelChain
-level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& options) {
+level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& options) {
     const TriangleMesh& original = seams.marked();
     constexpr double larger = 1.0 + 1e-9; // errors of a chain rise from level to level
     models::simplify::SimplifyOptions simplify = options.simplify;
@@ -52,7 +52,7 @@ level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& opti
     const models::CollapseSequence& sequence = coarsest.sequence;
     models::meshfile::LevelChain chain;
     chain.name = original.name;
-    chain.levels.push_back({seams.broken(original), 0.0});
+    chain.levels.push_back({seams.with_attributes(original), 0.0});
     for (const std::size_t goal : goals) {
         const std::size_t collapses = models::collapses_to_faces(sequence, goal);
         TriangleMesh level = models::mesh_after(sequence, collapses);
@@ -66,7 +66,8 @@ level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& opti
             const double error_m = certified_m(original, level, simplify.threads);
             const double least_m =
                 std::max(before_m * larger, 1e-12 * models::diagonal_m(original));
-            chain.levels.push_back({seams.broken(std::move(level)), std::max(error_m, least_m)});
+            chain.levels.push_back(
+                {seams.with_attributes(std::move(level)), std::max(error_m, least_m)});
         }
         if (options.show_level) {
             options.show_level(chain.levels.size() - 1, goals.size());

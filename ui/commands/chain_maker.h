@@ -2,7 +2,7 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/polygons/polygon_model.h"
-#include "models/simplify/colour_seams.h"
+#include "models/simplify/attribute_seams.h"
 #include "models/simplify/simplify.h"
 
 #include <cstddef>
@@ -24,6 +24,6 @@ struct ChainOptions {
 /// the faces each time, each optimized and its distance to the mesh certified. Where no polygons are
 /// given and the last level has at most 300 triangles, these are the polygons.
 models::meshfile::LevelChain
-level_chain(const models::simplify::ColourSeams& seams, const ChainOptions& options);
+level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& options);
 
 } // namespace octant::ui::commands

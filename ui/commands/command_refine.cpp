@@ -123,7 +123,10 @@ visuals::refine::ColourBy colour_by(const RefineOptions& options) {
                                           : visuals::refine::ColourBy::Nothing;
 }
 
-void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions& options) {
+void write_results(
+    const refine::SelectiveRefiner& refiner,
+    const RefineOptions& options,
+    bool has_made_up_colours) {
     if (!options.partition.empty()) {
         const bool by_level = options.colour_by == "level";
         models::meshfile::write_mesh(
@@ -136,7 +139,10 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
     if (options.out.empty() && options.nodes.empty()) {
         return;
     }
-    const refine::ActiveMesh active = refine::active_mesh(refiner);
+    refine::ActiveMesh active = refine::active_mesh(refiner);
+    if (has_made_up_colours) {
+        active.mesh.colours.clear();
+    }
     if (!options.out.empty()) {
         models::meshfile::write_mesh(
             options.out, visuals::refine::coloured_active(active, colour_by(options)));
@@ -209,7 +215,8 @@ void refine_mesh(RefineOptions options) {
         }
     }
     const base::Stopwatch watch;
-    const auto mesh = world::read_refine_input(options.input);
+    const world::RefineMesh input = world::read_refine_input(options.input);
+    const auto& mesh = input.mesh;
     Figures figures;
     figures["model"] = mesh->parts().name;
     figures["original_vertices"] = mesh->leaf_count();
@@ -226,7 +233,7 @@ void refine_mesh(RefineOptions options) {
     refine::SelectiveRefiner refiner(
         mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
     refine_all(refiner, options, view, figures);
-    write_results(refiner, options);
+    write_results(refiner, options, input.has_made_up_colours);
     base::print_figures(figures, options.json);
 }
 

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,31 +23,91 @@ namespace meshfile = models::meshfile;
 
 namespace {
 
-void refuse_faults(const SimplifyCommand& command) {
-    const std::filesystem::path out = command.out;
-    for (const std::string& input : {command.in, command.polygons}) {
-        if (is_same_file(input, out)) {
+void refuse_wrong_output(const SimplifyCommand& command, const std::string& name) {
+    const std::filesystem::path out = name;
+    for (const std::string& input : command.files) {
+        if (&input != &command.files.back() && is_same_file(input, out)) {
             throw Error(fmt::format(
-                "OUT: expected another file than the input, got '{}'", printable(command.out)));
+                "OUT: expected another file than the input, got '{}'", printable(name)));
         }
     }
-    if (!command.error.empty()) {
-        error_m_from(command.error, 1.0);
+    if (is_same_file(command.polygons, out)) {
+        throw Error(
+            fmt::format("OUT: expected another file than the input, got '{}'", printable(name)));
     }
     if (command.chain != meshfile::is_chain_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .chain with --chain, and another one without, got "
             "'{}'",
-            printable(command.out)));
+            printable(name)));
     }
     if (!command.chain && !meshfile::is_mesh_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
             "'{}'",
-            printable(command.out)));
+            printable(name)));
+    }
+    check_can_write(out);
+}
+
+/// Sets what the files are, by the options that say what is made of them.
+void assign_files(SimplifyCommand& command) {
+    const std::size_t count = command.files.size();
+    command.in = command.files.front();
+    if (command.shared_border) {
+        if (count < 2 || command.out_dir.empty()) {
+            throw Error(fmt::format(
+                "--shared-border: expected two meshes or more and --out-dir, got {} and {}",
+                count,
+                command.out_dir.empty() ? "none" : "one"));
+        }
+        return;
+    }
+    if (!command.out_dir.empty()) {
+        throw Error("--out-dir: expected --shared-border with it, got none");
+    }
+    if (count == 1 && !command.chart.empty()) {
+        return;
+    }
+    if (count != 2) {
+        throw Error(fmt::format("expected IN and OUT, got {} files", count));
+    }
+    command.out = command.files.back();
+    refuse_wrong_output(command, command.out);
+}
+
+/// The outputs of --shared-border: the inputs' names in another folder.
+void refuse_wrong_folder(const SimplifyCommand& command) {
+    std::set<std::filesystem::path> names;
+    for (const std::string& file : command.files) {
+        const std::filesystem::path name = std::filesystem::path(file).filename();
+        if (is_same_file(file, std::filesystem::path(command.out_dir) / name)) {
+            throw Error(fmt::format(
+                "--out-dir: expected another folder than that of '{}'", printable(file)));
+        }
+        if (!meshfile::is_mesh_file(name) || name.extension() == ".xml") {
+            throw Error(fmt::format(
+                "--shared-border: expected meshes that can be written again, such as .obj or .ply, "
+                "got '{}'",
+                printable(file)));
+        }
+        if (!names.insert(name).second) {
+            throw Error(fmt::format(
+                "--shared-border: expected files of different names, got '{}' twice",
+                printable(name.string())));
+        }
+    }
+}
+
+void refuse_wrong_goals(const SimplifyCommand& command) {
+    if (!command.error.empty()) {
+        error_m_from(command.error, 1.0);
     }
     const int goals = static_cast<int>(command.vertices > 0) + static_cast<int>(command.faces > 0) +
                       static_cast<int>(!command.error.empty());
+    if (command.out.empty() && !command.shared_border) {
+        return; // A chart alone has none.
+    }
     if (command.chain ? goals > 0 && command.faces == 0 : goals != 1) {
         throw Error(fmt::format(
             "expected {}, got {} goals",
@@ -60,20 +121,53 @@ void refuse_faults(const SimplifyCommand& command) {
             command.method,
             command.chain ? "--chain" : "--error"));
     }
+}
+
+void refuse_faults(SimplifyCommand& command) {
+    assign_files(command);
+    if (command.shared_border) {
+        refuse_wrong_folder(command);
+    }
+    refuse_wrong_goals(command);
+    const bool as_printed = paper_measure(command.method).has_value();
+    const bool has_more = command.uv_error > 0.0 || command.lock_border || command.shared_border ||
+                          !command.chart.empty();
+    if (as_printed && has_more) {
+        throw Error(fmt::format(
+            "--method {}: expected none of --uv-error, --lock-border, --shared-border and --chart "
+            "with it",
+            command.method));
+    }
+    if (command.chain && (command.uv_error > 0.0 || command.shared_border)) {
+        throw Error("--chain: expected neither --uv-error nor --shared-border with it");
+    }
     if (!command.polygons.empty() && !command.chain) {
         throw Error("--polygons: expected --chain with it, got none");
     }
-    check_can_write(out);
+    if (!command.chart.empty()) {
+        check_can_write(command.chart);
+    }
 }
 
-void run(const SimplifyCommand& command) {
+void run(SimplifyCommand command) {
     refuse_faults(command);
     base::give_memory_back();
     base::Figures figures;
     bool is_reached = true;
-    figures["in"] = command.in;
-    figures["out"] = command.out;
-    if (command.chain) {
+    if (!command.shared_border) {
+        figures["in"] = command.in;
+    }
+    if (!command.out.empty()) {
+        figures["out"] = command.out;
+    }
+    if (!command.chart.empty()) {
+        write_simplify_chart(command, figures);
+    }
+    if (command.shared_border) {
+        is_reached = simplify_together(command, figures);
+    } else if (command.out.empty()) {
+        // The chart was all.
+    } else if (command.chain) {
         simplify_into_chain(command, figures);
     } else if (const auto measure = paper_measure(command.method)) {
         simplify_as_printed(command, *measure, figures);
@@ -88,13 +182,15 @@ void run(const SimplifyCommand& command) {
 
 std::vector<Option> goal_options(SimplifyCommand& command) {
     return {
-        required(text_option(
-            "in",
-            "IN",
+        required(list_option(
+            "files",
+            "IN OUT",
             "mesh to simplify: " + world::built_in_meshes() +
-                " or a file: .obj, .ply, .stl, .gltf, .glb, .ac, .wrl",
-            command.in)),
-        required(text_option("out", "OUT", "file to write, its ending says how", command.out)),
+                " or a file: .obj, .ply, .stl, .gltf, .glb, .ac, .wrl; and the file to write, "
+                "whose ending says how. With --shared-border meshes alone, with --chart perhaps "
+                "without OUT",
+            Takes::SomeWords,
+            command.files)),
         read_option(
             {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices),
         read_option(
@@ -154,6 +250,32 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
              "--keep-shells",
              "let none vanish, also where a goal is out of reach then",
              command.keep_shells),
+         flag(
+             "--lock-border",
+             "vertices of open borders stay where they are, all of them",
+             command.lock_border),
+         flag(
+             "--shared-border",
+             "simplify several meshes as one, so that borders in common stay so; goals count for "
+             "all together",
+             command.shared_border),
+         text_option(
+             "--out-dir",
+             "DIR",
+             "with --shared-border: where the results go, called as the inputs are",
+             command.out_dir),
+         read_option(
+             {"uv-error",
+              "U",
+              "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
+              1e-9,
+              1e9},
+             command.uv_error),
+         text_option(
+             "--chart",
+             "FILE.html",
+             "write a page that plots errors of levels of the mesh against their faces",
+             command.chart),
          text_option(
              "--polygons",
              "FILE.obj",
@@ -164,13 +286,20 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
 }
 
 constexpr const char* simplify_footer =
-    "error: certified two-sided distance (Hausdorff), rms: root mean square, in file units and as\n"
-    "fractions of the diagonal.\n"
+    "error: certified two-sided distance (Hausdorff) of the written file, rms: root mean square, "
+    "in\n"
+    "file units and as fractions of the diagonal.\n"
     "Exit code 1: the mesh is written, but the goal was out of reach.\n"
+    "Texture coordinates, normals, colours and materials stay, also along seams; what OUT's "
+    "format\n"
+    "does not hold is said.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
     "  vertices, method, steps (that the optimization tried), shells_gone, error,\n"
     "  error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB 0..1, where there are\n"
-    "  colours), time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
+    "  colours), uv_error, uv_rms (of texture coordinates, at samples, where there are some),\n"
+    "  time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
+    "  with --shared-border files (in, out, faces, vertices, error and so on each);\n"
+    "  with --chart also chart, levels;\n"
     "  with --chain instead levels (faces, error, error_of_diagonal each), polygons,\n"
     "  polygons_error;\n"
     "  as printed also reading, contractions, counted_vertices, feet, feet_outside,\n"
@@ -179,6 +308,8 @@ constexpr const char* simplify_footer =
     "Examples:\n"
     "  octant simplify bunny.ply small.obj --faces 1000\n"
     "  octant simplify scan.stl part.glb --error 0.1%\n"
+    "  octant simplify west.obj east.obj --shared-border --out-dir small --error 0.5\n"
+    "  octant simplify bunny.ply --chart bunny.html\n"
     "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain";
 
 } // namespace

@@ -3,25 +3,30 @@
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/written_places.h"
+#include "models/meshfile/mesh_join.h"
 #include "models/polygons/obj_reader.h"
 #include "models/repair/repair.h"
-#include "models/simplify/colour_seams.h"
+#include "models/simplify/attribute_seams.h"
 #include "models/simplify/paper_simplify.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/chain_maker.h"
 #include "ui/commands/simplify_as_printed.h"
+#include "ui/commands/simplify_chart.h"
 #include "ui/world/mesh_input.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -37,8 +42,7 @@ using base::Figures;
 
 simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diagonal_m) {
     simplify::SimplifyOptions options;
-    options.effort =
-        command.method == "fast" ? simplify::fast_effort : simplify::surface_effort;
+    options.effort = command.method == "fast" ? simplify::fast_effort : simplify::surface_effort;
     if (command.effort >= 0) {
         options.effort = command.effort;
     }
@@ -58,14 +62,18 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
     options.colour_weight = command.colour_weight;
-    options.keep_shells = command.keep_shells;
+    options.keep_shells = command.keep_shells || command.lock_border;
+    options.lock_border = command.lock_border;
     options.threads = command.threads;
     return options;
 }
 
-/// The mesh as an oriented manifold, and where its colours break.
-simplify::ColourSeams read_repaired(const SimplifyCommand& command, Figures& figures) {
-    models::TriangleMesh mesh = world::read_mesh_input(command.in);
+/// A mesh as an oriented manifold, and where its attributes break. `name` stands in errors.
+simplify::AttributeSeams repaired_mesh(
+    const SimplifyCommand& command,
+    const std::string& name,
+    models::TriangleMesh mesh,
+    Figures& figures) {
     figures["faces_in_file"] = mesh.triangles.size();
     repair::RepairedMesh repaired = repair::repaired(
         std::move(mesh), command.keep_seams_apart ? repair::Seams::Apart : repair::Seams::Welded);
@@ -80,9 +88,13 @@ simplify::ColourSeams read_repaired(const SimplifyCommand& command, Figures& fig
         figures["repairs"] = repairs; // else they are said
     }
     if (repaired.mesh.triangles.empty()) {
-        error_in(command.in, "expected at least one triangle with an area, got none");
+        error_in(name, "expected at least one triangle with an area, got none");
     }
     return {std::move(repaired.mesh), std::move(repaired.corner_colours)};
+}
+
+simplify::AttributeSeams read_repaired(const SimplifyCommand& command, Figures& figures) {
+    return repaired_mesh(command, command.in, world::read_mesh_input(command.in), figures);
 }
 
 /// Bounds of distances below this share of the diagonal need not be tight. On large meshes the
@@ -92,25 +104,13 @@ double negligible_share(const models::TriangleMesh& original) {
     return original.triangles.size() > large ? 1e-6 : 1e-9;
 }
 
-/// Rounds the places of a mesh as its file does.
-void round_as_written(models::TriangleMesh& mesh, const std::string& file) {
-    if (!meshfile::writes_places_in_float(file)) {
-        return;
-    }
-    for (glm::dvec3& place_m : mesh.vertices_m) {
-        place_m = glm::dvec3(glm::vec3(place_m));
-    }
-}
-
-/// Adds the distance of the mesh as it was written to `file`.
+/// Adds the distance of a mesh from its original.
 void add_distance(
     Figures& figures,
     const models::TriangleMesh& original,
-    models::TriangleMesh& mesh,
-    const std::string& file,
+    const models::TriangleMesh& mesh,
     int threads) {
     constexpr std::size_t samples = 100'000; // The root mean square is right to some 0.2 %.
-    round_as_written(mesh, file);
     const double diagonal_m = models::diagonal_m(original);
     const models::measure::MeshDistance distance = models::measure::distance(
         original,
@@ -123,8 +123,170 @@ void add_distance(
     figures["error_of_diagonal"] = distance.most_hausdorff_m() / diagonal_m;
     figures["rms"] = distance.rms_m();
     figures["rms_of_diagonal"] = distance.rms_m() / diagonal_m;
-    if (!original.colours.empty()) {
+    if (!original.colours.empty() && !mesh.colours.empty()) {
         figures["colour_rms"] = distance.colour_rms();
+    }
+}
+
+/// Writes a mesh, says what the format leaves out, and adds the distance of the mesh that the file
+/// holds, read back, from the original.
+void write_and_measure(
+    const SimplifyCommand& command,
+    const std::string& out,
+    const models::TriangleMesh& mesh,
+    const models::TriangleMesh& original,
+    Figures& figures) {
+    for (const std::string& note : meshfile::notes_on_writing(out, mesh)) {
+        base::say(command.quiet, "note: " + note);
+    }
+    meshfile::write_mesh(out, mesh);
+    if (!mesh.triangles.empty()) {
+        add_distance(figures, original, meshfile::read_mesh(out), command.threads);
+    }
+}
+
+/// Leaves what the coordinates of a file lose by rounding out of the wanted error. Throws Error
+/// where nothing is left; a note where it is more than a tenth.
+void leave_out_rounding(
+    const SimplifyCommand& command,
+    const std::string& out,
+    const models::Bounds& bounds,
+    std::optional<double>& error_m) {
+    const double rounding_m = meshfile::rounding_m(out, bounds);
+    if (!error_m || rounding_m == 0.0) {
+        return;
+    }
+    if (rounding_m >= *error_m) {
+        error_in(
+            out,
+            fmt::format(
+                "expected a format that keeps --error {:.4g}, got one whose coordinates in single "
+                "precision may be off by {:.4g} (.obj and .ply keep double precision)",
+                *error_m,
+                rounding_m));
+    }
+    if (rounding_m > 0.1 * *error_m) {
+        base::say(
+            command.quiet,
+            fmt::format(
+                "note: {}: coordinates in single precision may be off by {:.4g}, which is left out "
+                "of --error {:.4g}",
+                out,
+                rounding_m,
+                *error_m));
+    }
+    *error_m -= rounding_m;
+}
+
+/// Whether the figures of a written mesh keep the wanted error and the bound of texture
+/// coordinates, and its faces and vertices are few enough; else says why not.
+bool keeps_goals(
+    const SimplifyCommand& command,
+    const simplify::Goal& goal,
+    double wanted_error_m,
+    const Figures& figures) {
+    const auto figure = [&](std::string_view name) {
+        for (const auto& [key, value] : std::get<Figures::Named>(figures.value())) {
+            if (key == name) {
+                const auto* number = std::get_if<double>(&value.value());
+                const auto* count = std::get_if<std::uint64_t>(&value.value());
+                return number != nullptr  ? *number
+                       : count != nullptr ? static_cast<double>(*count)
+                                          : 0.0;
+            }
+        }
+        return 0.0;
+    };
+    bool is_kept = true;
+    const auto refuse = [&](const std::string& why) {
+        base::say(command.quiet, "note: " + why);
+        is_kept = false;
+    };
+    if (goal.error_m && figure("error") > wanted_error_m) {
+        refuse(fmt::format(
+            "the error of the file as read back, {:.4g}, is above --error {:.4g}",
+            figure("error"),
+            wanted_error_m));
+    }
+    if (command.uv_error > 0.0 && figure("uv_error") > command.uv_error) {
+        refuse(fmt::format(
+            "texture coordinates are off by {:.4g}, more than --uv-error {:.4g}",
+            figure("uv_error"),
+            command.uv_error));
+    }
+    if ((goal.faces && figure("faces") > static_cast<double>(*goal.faces)) ||
+        (goal.vertices && figure("vertices") > static_cast<double>(*goal.vertices))) {
+        refuse(
+            command.uv_error > 0.0
+                ? "--uv-error takes more triangles than the goal allows"
+                : "no edge can collapse any more without changing the kind of surface");
+    }
+    return is_kept;
+}
+
+/// A simplified mesh whose texture coordinates keep their bound: triangles are divided until they
+/// do, and fewer are left for that before, where their number is the goal.
+simplify::Simplified simplified_with_textures(
+    const SimplifyCommand& command,
+    const simplify::AttributeSeams& seams,
+    simplify::SimplifyOptions options) {
+    constexpr int max_tries = 5;
+    constexpr double enough = 0.98; // of the goal
+    const std::size_t most = seams.marked().triangles.size();
+    const std::size_t goal = simplify::wanted_faces(options.goal);
+    std::optional<simplify::Simplified> best;
+    double collapse_cpu_s = 0.0;
+    double optimize_cpu_s = 0.0;
+    for (int tries = 0; tries < max_tries; ++tries) {
+        simplify::Simplified result = simplify::simplified(seams.marked(), options);
+        if (command.uv_error == 0.0 || !seams.has_texture_coordinates()) {
+            return result;
+        }
+        collapse_cpu_s += result.collapse_cpu_s;
+        optimize_cpu_s += result.optimize_cpu_s;
+        if (options.max_seconds && !options.goal.error_m) {
+            // Further tries take as many steps, so that their number repeats all of them.
+            options.steps = result.steps;
+            options.max_seconds.reset();
+        }
+        const auto before = static_cast<double>(result.mesh.triangles.size());
+        result.mesh = seams.divided(std::move(result.mesh), command.uv_error, most);
+        const auto after = static_cast<double>(result.mesh.triangles.size());
+        const bool fits = goal == 0 || result.mesh.triangles.size() <= goal;
+        if (!best || (fits && result.mesh.triangles.size() > best->mesh.triangles.size()) ||
+            (best->mesh.triangles.size() > goal &&
+             result.mesh.triangles.size() < best->mesh.triangles.size())) {
+            best = std::move(result);
+        }
+        const double share = static_cast<double>(goal) / after;
+        if (goal == 0 || (fits && enough * static_cast<double>(goal) <= after) || before < 8.0) {
+            break;
+        }
+        options.goal.vertices.reset();
+        options.goal.faces = static_cast<std::size_t>(std::max(4.0, before * std::min(share, 2.0)));
+    }
+    best->collapse_cpu_s = collapse_cpu_s;
+    best->optimize_cpu_s = optimize_cpu_s;
+    best->steps = command.max_seconds > 0.0 ? options.steps.value_or(best->steps) : best->steps;
+    return std::move(*best);
+}
+
+/// Says how a result of --max-seconds is repeated.
+void tell_steps(const SimplifyCommand& command, const simplify::Simplified& result) {
+    if (command.max_seconds > 0.0) {
+        base::say(
+            command.quiet,
+            fmt::format("note: --steps {} instead of --max-seconds repeats this", result.steps));
+    }
+}
+
+/// Adds how far texture coordinates are off.
+void add_texture_error(
+    Figures& figures, const simplify::AttributeSeams& seams, const models::TriangleMesh& made) {
+    if (seams.has_texture_coordinates()) {
+        const simplify::TextureError error = seams.texture_error(made);
+        figures["uv_error"] = error.max;
+        figures["uv_rms"] = error.rms;
     }
 }
 
@@ -193,40 +355,48 @@ void simplify_as_printed(
     simplify::PaperResult result = simplify::paper_simplified(original, options);
     const double time_s = watch.s();
     progress.finish();
-    meshfile::write_mesh(command.out, result.mesh);
+    if (!original.corner_texture_coordinates.empty()) {
+        base::say(
+            command.quiet,
+            fmt::format(
+                "note: --method {} leaves texture coordinates out, as printed", command.method));
+    }
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
     add_paper_figures(figures, options, result);
-    if (!result.mesh.triangles.empty()) {
-        add_distance(figures, original, result.mesh, command.out, command.threads);
-    }
+    write_and_measure(command, command.out, result.mesh, original, figures);
     figures["time_s"] = time_s;
 }
 
 bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
-    const simplify::ColourSeams seams = read_repaired(command, figures);
+    const simplify::AttributeSeams seams = read_repaired(command, figures);
     const models::TriangleMesh& original = seams.marked();
     simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
+    const double wanted_error_m = options.goal.error_m.value_or(0.0);
+    leave_out_rounding(command, command.out, models::bounds_of(original), options.goal.error_m);
     figures["faces_before"] = original.triangles.size();
     figures["vertices_before"] = original.vertices_m.size();
     base::Progress progress("simplifying", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     const base::Stopwatch watch;
-    simplify::Simplified result = simplify::simplified(original, options);
+    simplify::Simplified result = simplified_with_textures(command, seams, options);
     const double time_s = watch.s();
     progress.finish();
-    meshfile::write_mesh(command.out, seams.broken(result.mesh));
     result.sequence = {}; // It is as large as the mesh, and so is what measuring needs.
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
     figures["steps"] = result.steps;
     figures["shells_gone"] = result.shells_gone;
+    add_texture_error(figures, seams, result.mesh);
     const double measured_from_s = base::process_cpu_s();
-    if (!result.mesh.triangles.empty()) {
-        add_distance(figures, original, result.mesh, command.out, command.threads);
-    }
+    write_and_measure(
+        command,
+        command.out,
+        seams.with_attributes(std::move(result.mesh)),
+        original.colours.empty() ? original : seams.with_attributes(original),
+        figures);
     figures["time_s"] = time_s;
     if (command.json) {
         figures["cpu_s"] = {
@@ -234,26 +404,176 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
             {"optimizer", result.optimize_cpu_s},
             {"certificate", base::process_cpu_s() - measured_from_s}};
     }
-    if (command.max_seconds > 0.0) {
-        base::say(
-            command.quiet,
-            fmt::format("note: --steps {} instead of --max-seconds repeats this", result.steps));
+    tell_steps(command, result);
+    return keeps_goals(command, options.goal, wanted_error_m, figures);
+}
+
+namespace {
+
+/// Vertices that triangles of several files share, by pairs of files.
+using SharedVertices = std::map<std::pair<std::size_t, std::size_t>, std::vector<std::uint32_t>>;
+
+/// `materials`: the material of each triangle; those of file i begin at first_materials[i].
+SharedVertices shared_vertices(
+    const models::TriangleMesh& mesh,
+    const std::vector<std::uint32_t>& materials,
+    const std::vector<std::uint32_t>& first_materials) {
+    std::vector<std::set<std::size_t>> files(mesh.vertices_m.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto next = std::ranges::upper_bound(first_materials, materials[t]);
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            files[vertex].insert(static_cast<std::size_t>(next - first_materials.begin()) - 1);
+        }
     }
-    const bool short_of_faces =
-        options.goal.faces && result.mesh.triangles.size() > *options.goal.faces;
-    const bool short_of_vertices =
-        options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices;
-    if (short_of_faces || short_of_vertices) {
-        base::say(
-            command.quiet,
-            "note: no edge can collapse any more without changing the kind of surface");
-        return false;
+    SharedVertices shared;
+    for (std::uint32_t vertex = 0; vertex < files.size(); ++vertex) {
+        for (const std::size_t one : files[vertex]) {
+            for (const std::size_t other : files[vertex]) {
+                if (one < other) {
+                    shared[{one, other}].push_back(vertex);
+                }
+            }
+        }
     }
-    return true;
+    return shared;
+}
+
+/// Where all common vertices of two files have one coordinate in common, such as tiles of a map,
+/// those of the simplified mesh get it, too, but for other vertices of the original that are
+/// locked.
+void straighten_borders(
+    models::TriangleMesh& made,
+    const SharedVertices& made_shared,
+    const models::TriangleMesh& original,
+    const SharedVertices& original_shared) {
+    std::set<std::array<double, 3>> others;
+    for (const glm::dvec3& at_m : original.vertices_m) {
+        others.insert({at_m.x, at_m.y, at_m.z});
+    }
+    const auto is_free = [&](std::uint32_t vertex) {
+        const glm::dvec3& at_m = made.vertices_m[vertex];
+        return !others.contains({at_m.x, at_m.y, at_m.z});
+    };
+    for (const auto& [files, vertices] : made_shared) {
+        const auto before = original_shared.find(files);
+        for (int axis = 0; axis < 3 && before != original_shared.end(); ++axis) {
+            const double at = original.vertices_m[before->second.front()][axis];
+            const bool is_straight = std::ranges::all_of(before->second, [&](std::uint32_t vertex) {
+                return original.vertices_m[vertex][axis] == at;
+            });
+            for (const std::uint32_t vertex :
+                 is_straight ? vertices : std::vector<std::uint32_t>()) {
+                double& coordinate = made.vertices_m[vertex][axis];
+                coordinate = is_free(vertex) ? at : coordinate;
+            }
+        }
+    }
+}
+
+/// One file of several that are simplified together.
+struct TogetherFile {
+    std::uint32_t first_material = 0;
+    std::uint32_t materials = 0;
+    bool has_materials = false;
+    bool has_colours = false;
+
+    models::TriangleMesh part_of(const models::TriangleMesh& mesh) const {
+        models::TriangleMesh part = meshfile::part_of_materials(mesh, first_material, materials);
+        if (!has_materials) {
+            part.materials.clear();
+            part.triangle_materials.clear();
+        }
+        if (!has_colours) {
+            part.colours.clear();
+        }
+        return part;
+    }
+};
+
+/// Reads all files of a command into one mesh.
+models::TriangleMesh
+read_joined(const std::vector<std::string>& names, std::vector<TogetherFile>& files) {
+    models::TriangleMesh joined;
+    for (const std::string& name : names) {
+        models::TriangleMesh mesh = world::read_mesh_input(name);
+        files.push_back(
+            {.first_material = static_cast<std::uint32_t>(joined.materials.size()),
+             .has_materials = !mesh.materials.empty(),
+             .has_colours = !mesh.colours.empty()});
+        meshfile::join_mesh(joined, std::move(mesh), {});
+        files.back().materials =
+            static_cast<std::uint32_t>(joined.materials.size()) - files.back().first_material;
+    }
+    return joined;
+}
+
+} // namespace
+
+bool simplify_together(const SimplifyCommand& command, Figures& figures) {
+    std::vector<TogetherFile> files;
+    models::TriangleMesh joined = read_joined(command.files, files);
+    const simplify::AttributeSeams seams =
+        repaired_mesh(command, command.files.front(), std::move(joined), figures);
+    const models::TriangleMesh& marked = seams.marked();
+    simplify::SimplifyOptions options = options_of(command, models::diagonal_m(marked));
+    const double wanted_error_m = options.goal.error_m.value_or(0.0);
+    const std::filesystem::path folder = command.out_dir;
+    const auto out_of = [&](const std::string& file) {
+        return (folder / std::filesystem::path(file).filename()).string();
+    };
+    leave_out_rounding(
+        command, out_of(command.files.front()), models::bounds_of(marked), options.goal.error_m);
+    const models::TriangleMesh original = seams.with_attributes(marked);
+    const base::Stopwatch watch;
+    simplify::Simplified result = simplified_with_textures(command, seams, options);
+    const double time_s = watch.s();
+    figures["faces_before"] = marked.triangles.size();
+    figures["faces"] = result.mesh.triangles.size();
+    figures["vertices"] = result.mesh.vertices_m.size();
+    figures["steps"] = result.steps;
+    tell_steps(command, result);
+    add_texture_error(figures, seams, result.mesh);
+    bool is_reached =
+        keeps_goals(command, {options.goal.vertices, options.goal.faces, {}}, 0.0, figures);
+    std::vector<std::uint32_t> first_materials;
+    std::ranges::transform(
+        files, std::back_inserter(first_materials), &TogetherFile::first_material);
+    const SharedVertices shared =
+        shared_vertices(marked, original.triangle_materials, first_materials);
+    if (shared.empty()) {
+        base::say(command.quiet, "note: --shared-border: no two files have a vertex in common");
+    }
+    straighten_borders(
+        result.mesh,
+        shared_vertices(
+            result.mesh, seams.with_attributes(result.mesh).triangle_materials, first_materials),
+        marked,
+        shared);
+    const models::TriangleMesh made = seams.with_attributes(std::move(result.mesh));
+    std::filesystem::create_directories(folder);
+    for (std::size_t i = 0; i < command.files.size(); ++i) {
+        const models::TriangleMesh part = files[i].part_of(made);
+        Figures of_file = {
+            {"in", command.files[i]},
+            {"out", out_of(command.files[i])},
+            {"faces", part.triangles.size()},
+            {"vertices", part.vertices_m.size()}};
+        write_and_measure(
+            command, out_of(command.files[i]), part, files[i].part_of(original), of_file);
+        is_reached =
+            keeps_goals(command, {{}, {}, options.goal.error_m}, wanted_error_m, of_file) &&
+            is_reached;
+        figures["files"].push_back(std::move(of_file));
+    }
+    figures["time_s"] = time_s;
+    return is_reached;
 }
 
 void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
-    const simplify::ColourSeams seams = read_repaired(command, figures);
+    const simplify::AttributeSeams seams = read_repaired(command, figures);
+    if (seams.has_texture_coordinates()) {
+        base::say(command.quiet, "note: texture coordinates are left out of the levels of a chain");
+    }
     ChainOptions options;
     options.simplify = options_of(command, models::diagonal_m(seams.marked()));
     if (command.faces > 0) {
@@ -280,6 +600,26 @@ void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
         figures["polygons_error"] = chain.polygons_error_m;
     }
     figures["time_s"] = time_s;
+}
+
+void write_simplify_chart(const SimplifyCommand& command, Figures& figures) {
+    const simplify::AttributeSeams seams = read_repaired(command, figures);
+    constexpr std::size_t coarsest_faces = 32;
+    ChainOptions options;
+    options.simplify = options_of(command, models::diagonal_m(seams.marked()));
+    options.coarsest_faces = coarsest_faces;
+    base::Progress progress("making levels", 100, command.quiet, "percent");
+    options.show_level = [&](std::size_t done, std::size_t of) {
+        progress.show(static_cast<int>(100 * done / std::max<std::size_t>(of, 1)));
+    };
+    const meshfile::LevelChain chain = level_chain(seams, options);
+    progress.finish();
+    write_file(command.chart, chart_page(command.in, chain));
+    const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
+    figures["chart"] = command.chart;
+    for (const meshfile::ChainLevel& level : chain.levels) {
+        figures["levels"].push_back(level_figures(level, diagonal_m, command.json));
+    }
 }
 
 } // namespace octant::ui::commands

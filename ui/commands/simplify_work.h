@@ -6,15 +6,17 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace octant::ui::commands {
 
 /// What `octant simplify` is asked for.
 struct SimplifyCommand {
-    std::string in;
-    std::string out;
-    int vertices = 0; ///< 0: no goal
-    int faces = 0;    ///< 0: no goal
+    std::vector<std::string> files; ///< as they stand in the command line
+    std::string in;                 ///< the first one; with shared_border unused
+    std::string out;                ///< the last one of two; empty without
+    int vertices = 0;               ///< 0: no goal
+    int faces = 0;                  ///< 0: no goal
     std::string error;
     std::string method = "surface";
     int effort = -1;          ///< That of the method
@@ -25,6 +27,11 @@ struct SimplifyCommand {
     bool chain = false;
     bool keep_seams_apart = false;
     bool keep_shells = false;
+    bool lock_border = false;
+    bool shared_border = false;
+    std::string out_dir;
+    double uv_error = 0.0; ///< 0: no bound
+    std::string chart;
     std::string polygons;
     bool json = false;
     bool quiet = false;
@@ -41,6 +48,13 @@ std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& m
 /// figures. The first returns whether the goal was reached. Throws Error.
 bool simplify_mesh(const SimplifyCommand& command, base::Figures& figures);
 void simplify_into_chain(const SimplifyCommand& command, base::Figures& figures);
+
+/// Simplifies several meshes as one, so that their common borders stay common, and writes each to
+/// the folder. Returns whether all goals were reached. Throws Error.
+bool simplify_together(const SimplifyCommand& command, base::Figures& figures);
+
+/// Writes a page that plots errors of levels of a mesh against their faces. Throws Error.
+void write_simplify_chart(const SimplifyCommand& command, base::Figures& figures);
 
 /// As printed: of the mesh as it is, nothing repaired.
 void simplify_as_printed(

@@ -1,4 +1,5 @@
 #include "sim/base/error.h"
+#include "sim/base/text_file.h"
 #include "ui/reader/library_readers.h"
 
 #include <algorithm>
@@ -46,7 +47,13 @@ std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuild
         std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
 }
 
-std::vector<Surface> surfaces_of(const aiScene& scene, MeshBuilder& mesh) {
+/// Whether a file of this kind says which of its surfaces are two-sided. Of OFF files Assimp says
+/// so of all.
+bool tells_two_sided(const std::filesystem::path& file) {
+    return ending_of(file) != ".off";
+}
+
+std::vector<Surface> surfaces_of(const aiScene& scene, bool with_backs, MeshBuilder& mesh) {
     std::vector<Surface> surfaces;
     for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
         const aiMaterial& from = *scene.mMaterials[i];
@@ -66,7 +73,8 @@ std::vector<Surface> surfaces_of(const aiScene& scene, MeshBuilder& mesh) {
             material.colour = glm::vec3(1.0F);
         }
         int two_sided = 0;
-        surface.two_sided = from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
+        surface.two_sided =
+            with_backs && from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
         surface.material = mesh.add_material(std::move(material));
         surfaces.push_back(surface);
     }
@@ -105,7 +113,7 @@ void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
             corner.normal = from.HasNormals() ? first_normal + v : no_index;
             if (from.HasTextureCoords(0)) {
                 const aiVector3D& place = from.mTextureCoords[0][v];
-                corner.on_picture = {place.x, 1.0F - place.y};
+                corner.texture = mesh.add_texture_coordinates({place.x, place.y});
             }
             corners.push_back(corner);
         }
@@ -132,7 +140,7 @@ void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
             fmt::format(
                 "expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
     }
-    const std::vector<Surface> surfaces = surfaces_of(*scene, mesh);
+    const std::vector<Surface> surfaces = surfaces_of(*scene, tells_two_sided(file), mesh);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const aiMesh& from = *scene->mMeshes[i];
         add_mesh(

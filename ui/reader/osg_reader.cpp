@@ -98,7 +98,7 @@ private:
                 corners.at(k).vertex = first + triangle.at(k);
                 if (pictured) {
                     const osg::Vec2& place = (*on_picture)[triangle.at(k)];
-                    corners.at(k).on_picture = {place.x(), 1.0F - place.y()};
+                    corners.at(k).texture = mesh_.add_texture_coordinates({place.x(), place.y()});
                 }
             }
             mesh_.add_polygon(

@@ -287,24 +287,13 @@ std::string page_title(Recordings recordings) {
     return fmt::format("{} flights compared", recordings.size());
 }
 
-std::string head(Recordings recordings) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>{} - Octant</title>\n<style>{}</style>\n</head>\n<body>\n"
-        "<main class=\"{}\">\n",
-        escaped(page_title(recordings)),
-        page_style(),
-        recordings.size() > 1 ? "several" : "one");
-}
-
 } // namespace
 
 std::string html_report(
     Recordings recordings,
     std::span<const HtmlTable> further,
     const std::filesystem::path& page_folder) {
-    std::string html = head(recordings);
+    std::string html = page_head(page_title(recordings), recordings.size() > 1 ? "several" : "one");
     html += "<header><p class=\"lead\">Octant flight report</p><h1>" +
             escaped(page_title(recordings)) + "</h1></header>\n";
     for (const HtmlTable& table : further) {

@@ -66,7 +66,11 @@ std::string series_clause(std::size_t index, const PlotSeries& series) {
         break;
     }
     return fmt::format(
-        "$series{} using 1:2 with lines lw 1.2 lc rgb {} {}", index, quoted(series.colour), title);
+        "$series{} using 1:2 with {} lw 1.2 lc rgb {} {}",
+        index,
+        series.points ? "linespoints pt 7 ps 0.6" : "lines",
+        quoted(series.colour),
+        title);
 }
 
 bool has_points(const PlotSeries& series) {
@@ -92,6 +96,9 @@ void append_axes(Out out, const Plot& plot) {
         quoted(plot.y_label),
         bound(plot.y_min),
         bound(plot.y_max));
+    if (plot.x_logarithmic) {
+        fmt::format_to(out, "set logscale x\n");
+    }
     if (plot.y_logarithmic) {
         fmt::format_to(out, "set logscale y\n");
     }

@@ -20,7 +20,8 @@ struct PlotSeries {
     Style style = Style::Line;
     std::vector<double> x;
     std::vector<double> y; ///< as many as `x`; what is not finite is a gap
-    std::vector<double> y_low;
+    std::vector<double> y_low = {};
+    bool points = false; ///< Of a line: each point is marked; by gnuplot only.
 };
 
 /// A level line across a plot.
@@ -50,6 +51,7 @@ struct Plot {
     std::vector<PlotMark> marks = {}; ///< in pages only, as the ends of the x axis
     std::optional<double> x_min = {};
     std::optional<double> x_max = {};
+    bool x_logarithmic = false; ///< by gnuplot only
 };
 
 /// What gnuplot is told, data included. Same plot, same text.

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "ui/base/progress.h"
 #include "ui/world/mesh_input.h"
+#include "visuals/refine/packed_attributes.h"
 #include "visuals/refine/progressive_file.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,18 @@ void colour_by_materials(models::TriangleMesh& mesh) {
         mesh.colours.push_back(
             counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
     }
+}
+
+/// Whether a hierarchy has the colour of a mesh without materials everywhere, as one has that was
+/// saved of a mesh without colours.
+bool is_all_grey(const refine::ProgressiveMesh& mesh) {
+    const refine::PackedColour grey = refine::packed_parts(models::Material().colour);
+    for (std::uint32_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+        if (refine::unpacked(mesh.packed_colour(leaf)) != refine::unpacked(grey)) {
+            return false;
+        }
+    }
+    return mesh.has_colours();
 }
 
 void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
@@ -70,6 +83,7 @@ RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh)
         error_in(input.file, "expected a mesh with triangles, got none");
     }
     refuse_too_many(input.file, repaired.mesh);
+    result.has_made_up_colours = repaired.mesh.colours.empty();
     colour_by_materials(repaired.mesh);
     constexpr int steps = 1000;
     base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
@@ -95,6 +109,7 @@ RefineMesh read_refine_mesh(const RefineInput& input) {
             error_in(input.file, "expected a mesh with triangles, got none");
         }
         result.notes = result.mesh->parts().notes;
+        result.has_made_up_colours = is_all_grey(*result.mesh);
     } else {
         result =
             made_refine_mesh(input, read_mesh_input(input.file, {.pictures = true, .backs = true}));
@@ -102,12 +117,12 @@ RefineMesh read_refine_mesh(const RefineInput& input) {
     return result;
 }
 
-std::shared_ptr<const refine::ProgressiveMesh> read_refine_input(const RefineInput& input) {
+RefineMesh read_refine_input(const RefineInput& input) {
     RefineMesh result = read_refine_mesh(input);
     for (const std::string& note : result.notes) {
         base::say(input.quiet, "note: " + note);
     }
-    return result.mesh;
+    return result;
 }
 
 } // namespace octant::ui::world

@@ -27,6 +27,8 @@ struct RefineMesh {
     std::vector<std::string> notes;
     /// What repair has changed, in words; in the notes, too, behind the name of the file.
     std::vector<std::string> repairs;
+    /// The mesh has no colours; those of the hierarchy are its materials', grey where it has none.
+    bool has_made_up_colours = false;
 };
 
 /// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
@@ -40,6 +42,6 @@ RefineMesh made_refine_mesh(const RefineInput& input, models::TriangleMesh mesh)
 
 /// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws
 /// Error.
-std::shared_ptr<const visuals::refine::ProgressiveMesh> read_refine_input(const RefineInput& input);
+RefineMesh read_refine_input(const RefineInput& input);
 
 } // namespace octant::ui::world

@@ -1,4 +1,5 @@
 #include "models/meshfile/mesh_file.h"
+#include "models/no_index.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -228,4 +229,27 @@ TEST_CASE("a mesh written as PLY comes back the same, but for materials") {
     const TriangleMesh after = read_mesh(path);
     CHECK(after.normals == smooth.normals);
     CHECK(after.corner_normals == smooth.corner_normals);
+}
+
+TEST_CASE("texture coordinates of a PLY file's vertices and of its faces are read") {
+    const TriangleMesh of_vertices = read_mesh(file_with(
+        "st.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float texture_u\nproperty float texture_v\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0.125 0.25\n1 0 0 0.5 0.25\n0 1 0 0.125 1\n3 2 0 1\n"));
+    REQUIRE(of_vertices.corner_texture_coordinates.size() == 1);
+    CHECK(of_vertices.corner_texture_coordinates[0] == of_vertices.triangles[0]);
+    CHECK(of_vertices.texture_coordinates[2] == glm::vec2(0.125F, 1.0F));
+    const TriangleMesh of_faces = read_mesh(file_with(
+        "texcoord.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 6 0 0 0.5 0 0.5 1\n3 0 2 3 0\n"));
+    REQUIRE(of_faces.corner_texture_coordinates.size() == 2);
+    const Triangle& corners = of_faces.corner_texture_coordinates[0];
+    CHECK(of_faces.texture_coordinates[corners[1]] == glm::vec2(0.5F, 0.0F));
+    CHECK(of_faces.texture_coordinates[corners[2]] == glm::vec2(0.5F, 1.0F));
+    CHECK(of_faces.corner_texture_coordinates[1][0] == no_index);
 }

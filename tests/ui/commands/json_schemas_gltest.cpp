@@ -136,6 +136,19 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
          "--method",
          "triangle",
          "--quiet"});
+    check(
+        "simplify",
+        {"simplify",
+         file("s.ply"),
+         file("t.ply"),
+         "--shared-border",
+         "--out-dir",
+         file("together"),
+         "--faces",
+         "300",
+         "--method",
+         "fast",
+         "--quiet"});
     check("mesh-error", {"mesh-error", file("s.ply"), file("t.ply"), "--quiet"});
     check("refine", {"refine", "torus", "--region", "sphere", "0", "0", "0", "1"});
     check("terrain-make", {"terrain", "make", "--size", "65", "--out", file("m.tif"), "--quiet"});

@@ -1,3 +1,4 @@
+#include "models/meshfile/mesh_file.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
@@ -143,6 +144,7 @@ TEST_CASE("a saved progressive mesh refined everywhere is the original, face for
     CHECK(full["requested_splits"] == 850);
     CHECK(full["forced_by_rule"] == 0);
     CHECK(faces_of_obj(refine_file("full.obj")) == sorted(originals));
+    CHECK(models::meshfile::read_mesh(refine_file("full.obj")).colours.empty()); // as the original
     const auto coarse = refine({refine_file("sheet.pm"), "--vertices", "300"});
     CHECK(coarse["original_vertices"] == 300);
 }

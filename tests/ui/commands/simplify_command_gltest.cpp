@@ -1,4 +1,6 @@
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/mesh_join.h"
+#include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -11,8 +13,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
+#include <iostream>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace octant;
@@ -192,6 +199,134 @@ TEST_CASE("an error that is asked for is certified not to be exceeded") {
     CHECK(share["error_of_diagonal"] <= 0.001);
 }
 
+TEST_CASE("the error of a mesh far from the origin is kept in the written file, or refused") {
+    models::TriangleMesh far = models::meshfile::read_mesh(waves(24));
+    for (glm::dvec3& vertex_m : far.vertices_m) {
+        vertex_m += glm::dvec3(523'000.0, 5'200'000.0, 0.0);
+    }
+    const std::string in = file_named("far.obj");
+    models::meshfile::write_mesh(in, far);
+    for (const std::string ending : {".glb", ".gltf", ".ply", ".obj"}) {
+        INFO(ending);
+        const std::string out = file_named("far-small" + ending);
+        const auto found = simplify_figures({in, out, "--error", "0.05", "--method", "fast"});
+        CHECK(found["error"] <= 0.05);
+        CHECK(found["faces"] < 1152);
+        const auto measured = tests::figures_of("mesh-error", {in, out});
+        CHECK(measured["both"]["hausdorff_least_units"] <= 0.05);
+    }
+    check_simplify_refused(
+        {in, file_named("far-small.stl"), "--error", "0.05"},
+        "expected a format that keeps --error 0.05");
+}
+
+TEST_CASE("files simplified together keep their common border to the byte") {
+    const models::TriangleMesh both = models::meshfile::read_mesh(waves(24));
+    std::vector<std::string> tiles;
+    for (const bool is_east : {false, true}) {
+        models::TriangleMesh tile = both;
+        std::erase_if(tile.triangles, [&](const models::Triangle& triangle) {
+            double sum_x = 0.0;
+            for (const std::uint32_t vertex : triangle) {
+                sum_x += both.vertices_m[vertex].x;
+            }
+            return (sum_x > 3.0 * 12.0) != is_east;
+        });
+        tiles.push_back(file_named(is_east ? "east.obj" : "west.obj"));
+        models::meshfile::write_mesh(tiles.back(), tile);
+    }
+    const std::string folder = file_named("tiles");
+    const auto found = simplify_figures(
+        {tiles[0],
+         tiles[1],
+         "--shared-border",
+         "--out-dir",
+         folder,
+         "--faces",
+         "400",
+         "--method",
+         "fast"});
+    CHECK(found["faces"] <= 400);
+    REQUIRE(found["files"].size() == 2);
+    std::vector<std::set<std::string>> borders(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string file = folder + (i == 0 ? "/west.obj" : "/east.obj");
+        const models::TriangleMesh tile = models::meshfile::read_mesh(file);
+        CHECK(found["files"][i]["faces"] == tile.triangles.size());
+        const std::string text = read_file(file);
+        for (const std::string_view line : split_lines(text)) {
+            const auto words = split_words(line);
+            if (words.size() == 4 && words[0] == "v" && words[1] == "12") {
+                borders[i].insert(std::string(line));
+            }
+        }
+    }
+    CHECK(borders[0].size() >= 2);
+    CHECK(borders[0] == borders[1]);
+    // Put together again the tiles have no edge inside that lies in one triangle only.
+    models::TriangleMesh joined = models::meshfile::read_mesh(folder + "/west.obj");
+    models::meshfile::join_mesh(joined, models::meshfile::read_mesh(folder + "/east.obj"), {});
+    CHECK(models::repair::repaired(joined).counts.boundary_loops == 1);
+}
+
+TEST_CASE("texture coordinates keep the bound that is asked for") {
+    models::TriangleMesh mesh = models::meshfile::read_mesh(waves(24));
+    for (const glm::dvec3& at_m : mesh.vertices_m) {
+        mesh.texture_coordinates.emplace_back(at_m.x * at_m.x / 576.0, at_m.y / 24.0);
+    }
+    mesh.corner_texture_coordinates = mesh.triangles;
+    const std::string in = file_named("textured.obj");
+    models::meshfile::write_mesh(in, mesh);
+    const std::string out = file_named("textured-small.glb");
+    const auto loose = simplify_figures({in, out, "--error", "0.6", "--method", "fast"});
+    CHECK(loose["uv_error"] > 0.01);
+    const auto tight =
+        simplify_figures({in, out, "--error", "0.6", "--method", "fast", "--uv-error", "0.005"});
+    CHECK(tight["uv_error"] <= 0.005);
+    CHECK(tight["error"] <= 0.6);
+    CHECK(tight["faces"] > loose["faces"]);
+    const models::TriangleMesh written = models::meshfile::read_mesh(out);
+    REQUIRE(written.corner_texture_coordinates.size() == written.triangles.size());
+    for (std::size_t t = 0; t < written.triangles.size(); ++t) {
+        glm::dvec3 middle_m(0.0);
+        glm::dvec2 place(0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle_m += written.vertices_m[written.triangles[t][k]] / 3.0;
+            place +=
+                glm::dvec2(written.texture_coordinates[written.corner_texture_coordinates[t][k]]) /
+                3.0;
+        }
+        // The surface is off by up to 0.6 of 24.
+        CHECK(std::abs(place.x - middle_m.x * middle_m.x / 576.0) < 0.005 + 0.05);
+        CHECK(std::abs(place.y - middle_m.y / 24.0) < 0.03);
+    }
+    const auto few =
+        simplify_figures({in, out, "--faces", "300", "--method", "fast", "--uv-error", "0.005"});
+    CHECK(few["faces"] <= 300);
+    CHECK(few["uv_error"] <= 0.005);
+    const tests::ProgramRun run =
+        run_octant({"simplify", in, file_named("t.stl"), "--faces", "300", "--method", "fast"});
+    CHECK_THAT(run.err, Catch::Contains("the format holds no texture coordinates"));
+}
+
+TEST_CASE("a chart of faces against error is one page without a script, with a name") {
+    if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+        std::cout << "SKIPPED: gnuplot is not installed\n";
+        return;
+    }
+    const std::string page = file_named("chart.html");
+    const auto found = simplify_figures({waves(16), "--chart", page, "--method", "fast"});
+    REQUIRE(found["levels"].size() >= 4);
+    const std::string html = read_file(page);
+    CHECK(html.find("<script") == html.npos);
+    CHECK(html.find("src=") == html.npos);
+    CHECK(html.find("<svg role=\"img\" aria-labelledby=\"chart-name\"") != html.npos);
+    CHECK(html.find("<title id=\"chart-name\">Faces against error of ") != html.npos);
+    CHECK(
+        html.find(fmt::format("--faces {}</td>", found["levels"][1]["faces"].number())) !=
+        html.npos);
+}
+
 TEST_CASE("the same input gives the same file for any number of threads") {
     const std::string in = waves(8);
     const std::string one = file_named("one.obj");
@@ -242,6 +377,13 @@ TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
     check_simplify_refused({in, in, "--faces", "10"}, "another file than the input");
     check_simplify_refused(
         {in, file_named("x.xyz"), "--faces", "10"}, "expected a name that ends in");
+    check_simplify_refused({in, "--faces", "10"}, "expected IN and OUT, got 1 files");
+    check_simplify_refused({in, "--shared-border", "--faces", "10"}, "two meshes or more");
+    check_simplify_refused(
+        {in, file_named("x.obj"), "--out-dir", "d", "--faces", "10"}, "--shared-border with it");
+    check_simplify_refused(
+        {in, file_named("x.obj"), "--uv-error", "0.1", "--method", "plane", "--faces", "10"},
+        "--method plane: expected none of");
     check_simplify_refused(
         {in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
     check_simplify_refused(

@@ -56,7 +56,7 @@ std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
         input.file = file;
         input.base = static_cast<std::size_t>(options.base);
         input.quiet = options.quiet;
-        models.push_back(world::read_refine_input(input));
+        models.push_back(world::read_refine_input(input).mesh);
     }
     if (models.empty()) {
         models.push_back(made_ground(options.base));

@@ -1,0 +1,652 @@
+// Files have a vertex twice where colours or texture coordinates break. Welded it is one vertex of
+// the surface with several corners, the wedges of H. Hoppe, "Efficient Implementation of
+// Progressive Meshes", 1998. Here a wedge is a vertex and the chart it is seen from; its attributes
+// are those of the original's nearest point in that chart, so that nothing runs over a seam,
+// however the seam was simplified.
+//
+// A seam may have one and the same chart on both sides, such as the seam of a cylinder's mantle.
+// The nearest point would then be found on either side of it, so such a chart is cut in two or
+// more, none of which meets itself at a seam.
+#include "models/simplify/attribute_seams.h"
+
+#include "models/no_index.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace octant::models::simplify {
+
+namespace {
+
+/// Colours break where a part of them differs by more: a few steps of eight bits do not show.
+constexpr float colours_alike = 0.02F;
+/// Texture coordinates break where one of them differs by more: the hundredth part of a pixel of a
+/// picture 1,000 pixels wide.
+constexpr float textures_alike = 1e-5F;
+
+template <typename Vector>
+bool is_alike(const Vector& a, const Vector& b, float within) {
+    for (int part = 0; part < Vector::length(); ++part) {
+        if (!(std::abs(a[part] - b[part]) <= within)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What the corners of a mesh have; either may be empty.
+struct Attributes {
+    std::span<const CornerColours> colours;
+    std::span<const glm::vec2> textures;
+    std::span<const Triangle> corner_textures;
+
+    /// Whether they agree at a corner of one triangle and a corner of another.
+    bool agree(std::uint32_t t, std::size_t k, std::uint32_t other, std::size_t j) const {
+        if (!colours.empty() && !is_alike(colours[t][k], colours[other][j], colours_alike)) {
+            return false;
+        }
+        if (corner_textures.empty()) {
+            return true;
+        }
+        const std::uint32_t a = corner_textures[t][k];
+        const std::uint32_t b = corner_textures[other][j];
+        return a == b || (a != no_index && b != no_index &&
+                          is_alike(textures[a], textures[b], textures_alike));
+    }
+};
+
+/// A triangle's side, from its smaller vertex to its larger one.
+struct Side {
+    std::array<std::uint32_t, 2> ends{};
+    std::array<std::size_t, 2> corners{};
+    std::uint32_t triangle = 0;
+};
+
+/// Two triangles with a common edge.
+struct Neighbours {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    bool agree = false; ///< Attributes do not break at the edge.
+};
+
+std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes& attributes) {
+    std::vector<Side> sides;
+    sides.reserve(3 * mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::size_t from = k;
+            std::size_t to = (k + 1) % 3;
+            if (mesh.triangles[t][from] > mesh.triangles[t][to]) {
+                std::swap(from, to);
+            }
+            sides.push_back({{mesh.triangles[t][from], mesh.triangles[t][to]}, {from, to}, t});
+        }
+    }
+    std::ranges::stable_sort(sides, {}, &Side::ends);
+    std::vector<Neighbours> neighbours;
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        const Side& one = sides[i - 1];
+        const Side& other = sides[i];
+        if (one.ends == other.ends) {
+            const bool agree =
+                attributes.agree(one.triangle, one.corners[0], other.triangle, other.corners[0]) &&
+                attributes.agree(one.triangle, one.corners[1], other.triangle, other.corners[1]);
+            neighbours.push_back({one.triangle, other.triangle, agree});
+        }
+    }
+    return neighbours;
+}
+
+/// Sets of numbers that are joined; each is known by its smallest number.
+class JoinedSets {
+public:
+    explicit JoinedSets(std::size_t count)
+        : first_(count) {
+        std::iota(first_.begin(), first_.end(), 0U);
+    }
+
+    std::uint32_t first_of(std::uint32_t number) {
+        while (first_[number] != number) {
+            first_[number] = first_[first_[number]];
+            number = first_[number];
+        }
+        return number;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        const auto [first, later] = std::minmax({first_of(a), first_of(b)});
+        first_[later] = first;
+    }
+
+private:
+    std::vector<std::uint32_t> first_;
+};
+
+/// Cuts charts that meet themselves at a seam.
+class ChartCuts {
+public:
+    ChartCuts(std::span<const Neighbours> neighbours, std::size_t triangles)
+        : neighbours_(neighbours)
+        , sets_(triangles)
+        , cells_(triangles, no_index) {
+        for (const Neighbours& pair : neighbours) {
+            if (pair.agree) {
+                sets_.join(pair.first, pair.second);
+            }
+        }
+    }
+
+    /// For each triangle a number that all triangles of its chart have, and no others.
+    std::vector<std::uint32_t> charts() {
+        std::vector<std::uint32_t> whole(cells_.size());
+        for (std::uint32_t t = 0; t < whole.size(); ++t) {
+            whole[t] = sets_.first_of(t);
+        }
+        if (!find_self_meetings(whole)) {
+            return whole;
+        }
+        grow_cells();
+        join_cells();
+        for (std::uint32_t t = 0; t < whole.size(); ++t) {
+            whole[t] = cells_[t] == no_index ? whole[t] : sets_.first_of(cells_[t]);
+        }
+        return whole;
+    }
+
+private:
+    /// Every triangle at a seam between a chart and itself begins a cell, called by its number.
+    bool find_self_meetings(const std::vector<std::uint32_t>& whole) {
+        for (const Neighbours& pair : neighbours_) {
+            if (!pair.agree && whole[pair.first] == whole[pair.second]) {
+                cells_[pair.first] = pair.first;
+                cells_[pair.second] = pair.second;
+                meetings_[pair.first].insert(pair.second);
+                meetings_[pair.second].insert(pair.first);
+            }
+        }
+        return !meetings_.empty();
+    }
+
+    /// Each triangle of these charts joins the cell that begins the fewest steps away.
+    void grow_cells() {
+        std::vector<std::vector<std::uint32_t>> next_to(cells_.size());
+        for (const Neighbours& pair : neighbours_) {
+            if (pair.agree) {
+                next_to[pair.first].push_back(pair.second);
+                next_to[pair.second].push_back(pair.first);
+            }
+        }
+        std::deque<std::uint32_t> waiting;
+        for (const auto& [triangle, others] : meetings_) {
+            waiting.push_back(triangle);
+        }
+        while (!waiting.empty()) {
+            const std::uint32_t triangle = waiting.front();
+            waiting.pop_front();
+            for (const std::uint32_t other : next_to[triangle]) {
+                if (cells_[other] == no_index) {
+                    cells_[other] = cells_[triangle];
+                    waiting.push_back(other);
+                }
+            }
+        }
+    }
+
+    /// Cells become one, those with the longest common borders first, unless they meet at a seam.
+    void join_cells() {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> borders;
+        for (const Neighbours& pair : neighbours_) {
+            if (pair.agree && cells_[pair.first] != cells_[pair.second]) {
+                ++borders[std::minmax(cells_[pair.first], cells_[pair.second])];
+            }
+        }
+        using Border = std::pair<std::pair<std::uint32_t, std::uint32_t>, std::size_t>;
+        std::vector<Border> sorted(borders.begin(), borders.end());
+        std::ranges::stable_sort(sorted, std::ranges::greater(), &Border::second);
+        sets_ = JoinedSets(cells_.size());
+        for (const Border& border : sorted) {
+            join(sets_.first_of(border.first.first), sets_.first_of(border.first.second));
+        }
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        if (a == b || meetings_[a].contains(b)) {
+            return;
+        }
+        const auto [first, later] = std::minmax(a, b);
+        sets_.join(first, later);
+        for (const std::uint32_t other : meetings_[later]) {
+            meetings_[other].erase(later);
+            meetings_[other].insert(first);
+            meetings_[first].insert(other);
+        }
+        meetings_.erase(later);
+    }
+
+    std::span<const Neighbours> neighbours_;
+    JoinedSets sets_;
+    std::vector<std::uint32_t> cells_; ///< of triangles in charts that meet themselves
+    /// For each cell, by the first number of its set, those that it meets at seams.
+    std::map<std::uint32_t, std::set<std::uint32_t>> meetings_;
+};
+
+/// Vertices where charts meet, and those next to them: their colours were fitted to a mean.
+std::vector<bool> near_seams(const TriangleMesh& made) {
+    std::vector<std::uint32_t> mark_at(made.vertices_m.size(), no_index);
+    std::vector<bool> on_seam(made.vertices_m.size(), false);
+    for (std::size_t t = 0; t < made.triangles.size(); ++t) {
+        for (const std::uint32_t vertex : made.triangles[t]) {
+            on_seam[vertex] = on_seam[vertex] || (mark_at[vertex] != no_index &&
+                                                  mark_at[vertex] != made.triangle_materials[t]);
+            mark_at[vertex] = made.triangle_materials[t];
+        }
+    }
+    std::vector<bool> near = on_seam;
+    for (const auto& [a, b, c] : made.triangles) {
+        if (on_seam[a] || on_seam[b] || on_seam[c]) {
+            near[a] = near[b] = near[c] = true;
+        }
+    }
+    return near;
+}
+
+/// Where texture coordinates are looked at in a triangle, besides its corners, where they are
+/// right.
+std::vector<glm::dvec3> sample_weights() {
+    constexpr int fields = 4;
+    std::vector<glm::dvec3> weights;
+    for (int i = 0; i <= fields; ++i) {
+        for (int j = 0; i + j <= fields; ++j) {
+            const glm::dvec3 weight(i, j, fields - i - j);
+            if (std::max({weight.x, weight.y, weight.z}) < fields) {
+                weights.push_back(weight / static_cast<double>(fields));
+            }
+        }
+    }
+    return weights;
+}
+
+glm::dvec3 place_m(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& weights) {
+    return weights.x * mesh.vertices_m[triangle[0]] + weights.y * mesh.vertices_m[triangle[1]] +
+           weights.z * mesh.vertices_m[triangle[2]];
+}
+
+/// The longest side of a triangle: its corner and the next one.
+std::size_t longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
+    std::size_t longest = 0;
+    double longest2 = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 side =
+            mesh.vertices_m[triangle[(k + 1) % 3]] - mesh.vertices_m[triangle[k]];
+        if (glm::dot(side, side) > longest2) {
+            longest2 = glm::dot(side, side);
+            longest = k;
+        }
+    }
+    return longest;
+}
+
+/// Divides edges of a mesh at their midpoints, each triangle at most once.
+class EdgeDivision {
+public:
+    explicit EdgeDivision(TriangleMesh& mesh)
+        : mesh_(mesh)
+        , is_divided_(mesh.triangles.size(), false) {
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                sides_[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = {t, k};
+            }
+        }
+    }
+
+    void divide(std::uint32_t triangle, std::size_t side) {
+        const std::uint32_t from = mesh_.triangles[triangle][side];
+        const std::uint32_t to = mesh_.triangles[triangle][(side + 1) % 3];
+        const auto other = sides_.find({to, from});
+        if (is_divided_[triangle] || (other != sides_.end() && is_divided_[other->second.first])) {
+            return;
+        }
+        const auto middle = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+        mesh_.vertices_m.push_back(0.5 * (mesh_.vertices_m[from] + mesh_.vertices_m[to]));
+        if (!mesh_.colours.empty()) {
+            mesh_.colours.push_back(0.5F * (mesh_.colours[from] + mesh_.colours[to]));
+        }
+        cut(triangle, side, middle);
+        if (other != sides_.end()) {
+            cut(other->second.first, other->second.second, middle);
+        }
+    }
+
+    /// Triangles that were divided, and the new ones.
+    std::vector<std::uint32_t> changed() const {
+        std::vector<std::uint32_t> triangles;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            if (t >= is_divided_.size() || is_divided_[t]) {
+                triangles.push_back(t);
+            }
+        }
+        return triangles;
+    }
+
+private:
+    /// The triangle keeps the first half of the side, a new one gets the other.
+    void cut(std::uint32_t t, std::size_t side, std::uint32_t middle) {
+        const std::size_t next = (side + 1) % 3;
+        is_divided_[t] = true;
+        Triangle half = mesh_.triangles[t];
+        half[side] = middle;
+        mesh_.triangles[t][next] = middle;
+        mesh_.triangles.push_back(half);
+        if (!mesh_.triangle_materials.empty()) {
+            mesh_.triangle_materials.push_back(std::uint32_t{mesh_.triangle_materials[t]});
+        }
+        if (!mesh_.corner_normals.empty()) {
+            Triangle normals = mesh_.corner_normals[t];
+            const glm::vec3 sum = mesh_.normals[normals[side]] + mesh_.normals[normals[next]];
+            const float length = glm::length(sum);
+            if (length > 0.0F) {
+                mesh_.normals.push_back(sum / length);
+                normals[side] = static_cast<std::uint32_t>(mesh_.normals.size() - 1);
+            }
+            mesh_.corner_normals[t][next] = normals[side];
+            mesh_.corner_normals.push_back(normals);
+        }
+    }
+
+    TriangleMesh& mesh_;
+    std::vector<bool> is_divided_; ///< of the triangles at the beginning
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::size_t>> sides_;
+};
+
+} // namespace
+
+AttributeSeams::AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> corner_colours)
+    : marked_(std::move(mesh))
+    , corner_colours_(std::move(corner_colours))
+    , textures_(std::exchange(marked_.texture_coordinates, {}))
+    , corner_textures_(std::exchange(marked_.corner_texture_coordinates, {})) {
+    if (corner_colours_.empty() && corner_textures_.empty()) {
+        return;
+    }
+    const std::vector<Neighbours> neighbours =
+        neighbours_of(marked_, {corner_colours_, textures_, corner_textures_});
+    const std::vector<std::uint32_t> charts =
+        ChartCuts(neighbours, marked_.triangles.size()).charts();
+    mark(charts);
+    if (has_texture_coordinates()) {
+        next_to_.assign(marked_.triangles.size(), {no_index, no_index, no_index});
+        const auto join = [&](std::uint32_t triangle, std::uint32_t other) {
+            *std::ranges::find(next_to_[triangle], no_index) = other;
+        };
+        for (const Neighbours& pair : neighbours) {
+            if (charts[pair.first] == charts[pair.second]) {
+                join(pair.first, pair.second);
+                join(pair.second, pair.first);
+            }
+        }
+    }
+}
+
+/// Gives each chart and each material in it a material of its own.
+void AttributeSeams::mark(const std::vector<std::uint32_t>& charts) {
+    materials_ = std::exchange(marked_.materials, {});
+    std::vector<std::uint32_t> materials = std::exchange(marked_.triangle_materials, {});
+    materials.resize(charts.size(), no_index);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> marks;
+    std::vector<std::vector<std::uint32_t>> triangles;
+    for (std::uint32_t t = 0; t < charts.size(); ++t) {
+        const auto next = static_cast<std::uint32_t>(marked_.materials.size());
+        const auto [at, is_new] = marks.try_emplace({charts[t], materials[t]}, next);
+        if (is_new) {
+            materials_of_marks_.push_back(materials[t]);
+            marked_.materials.emplace_back();
+            triangles.emplace_back();
+        }
+        marked_.triangle_materials.push_back(at->second);
+        triangles[at->second].push_back(t);
+    }
+    for (std::vector<std::uint32_t>& of_chart : triangles) {
+        charts_.push_back(chart_of(std::move(of_chart)));
+    }
+}
+
+AttributeSeams::Chart AttributeSeams::chart_of(std::vector<std::uint32_t> triangles) const {
+    std::vector<Triangle> corners;
+    for (const std::uint32_t t : triangles) {
+        corners.push_back(marked_.triangles[t]);
+    }
+    measure::TriangleBvh bvh(marked_.vertices_m, corners);
+    return {std::move(triangles), std::move(bvh)};
+}
+
+/// Where a triangle has moved off its chart a little, its corners may be nearest to another end of
+/// the chart. Texture coordinates then change more within the triangle than between its corners.
+std::optional<AttributeSeams::Chart>
+AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) const {
+    constexpr double jump2 = 0.0625; // of the squared difference between corners
+    const Chart& chart = charts_[made.triangle_materials[triangle]];
+    const Triangle& corners = made.triangles[triangle];
+    std::array<glm::dvec2, 3> places;
+    for (std::size_t k = 0; k < 3; ++k) {
+        places.at(k) = texture_at(chart, made.vertices_m[corners[k]]);
+    }
+    double largest2 = 0.0;
+    double off2 = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        const glm::dvec2 side = places.at(next) - places.at(k);
+        const glm::dvec3 middle_m =
+            0.5 * (made.vertices_m[corners[k]] + made.vertices_m[corners[next]]);
+        const glm::dvec2 off =
+            0.5 * (places.at(next) + places.at(k)) - glm::dvec2(texture_at(chart, middle_m));
+        largest2 = std::max(largest2, glm::dot(side, side));
+        off2 = std::max(off2, glm::dot(off, off));
+    }
+    if (off2 <= jump2 * largest2) {
+        return std::nullopt;
+    }
+    const glm::dvec3 centre_m = place_m(made, corners, glm::dvec3(1.0 / 3.0));
+    double reach_m = 0.0;
+    for (const std::uint32_t corner : corners) {
+        reach_m = std::max(reach_m, 1.5 * glm::distance(made.vertices_m[corner], centre_m));
+    }
+    const measure::NearestOnMesh nearest = chart.bvh.nearest(centre_m);
+    reach_m += std::sqrt(nearest.distance2);
+    std::vector<std::uint32_t> part{chart.triangles[nearest.triangle]};
+    std::set<std::uint32_t> is_met{part.front()};
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        for (const std::uint32_t other : next_to_[part[i]]) {
+            const bool is_near =
+                other != no_index &&
+                std::ranges::any_of(marked_.triangles[other], [&](std::uint32_t vertex) {
+                    return glm::distance(marked_.vertices_m[vertex], centre_m) <= reach_m;
+                });
+            if (is_near && is_met.insert(other).second) {
+                part.push_back(other);
+            }
+        }
+    }
+    return chart_of(std::move(part));
+}
+
+bool AttributeSeams::is_textured(std::uint32_t chart) const {
+    return !corner_textures_.empty() &&
+           corner_textures_[charts_[chart].triangles.front()][0] != no_index;
+}
+
+glm::vec3 AttributeSeams::colour_at(const Chart& chart, const glm::dvec3& at_m) const {
+    const measure::NearestOnMesh nearest = chart.bvh.nearest(at_m);
+    const CornerColours& colours = corner_colours_[chart.triangles[nearest.triangle]];
+    const glm::vec3 weights(nearest.weights);
+    return weights.x * colours[0] + weights.y * colours[1] + weights.z * colours[2];
+}
+
+glm::vec2 AttributeSeams::texture_at(const Chart& chart, const glm::dvec3& at_m) const {
+    const measure::NearestOnMesh nearest = chart.bvh.nearest(at_m);
+    const auto [a, b, c] = corner_textures_[chart.triangles[nearest.triangle]];
+    return glm::vec2(
+        nearest.weights.x * glm::dvec2(textures_[a]) +
+        nearest.weights.y * glm::dvec2(textures_[b]) +
+        nearest.weights.z * glm::dvec2(textures_[c]));
+}
+
+TriangleMesh AttributeSeams::with_attributes(TriangleMesh made) const {
+    if (charts_.empty()) {
+        return made;
+    }
+    take_texture_coordinates(made);
+    if (!corner_colours_.empty()) {
+        take_colours(made);
+    }
+    take_materials(made);
+    return made;
+}
+
+/// Gives wedges near seams the colour of their chart: the vertex itself for the first chart, a copy
+/// of it for each other one.
+void AttributeSeams::take_colours(TriangleMesh& made) const {
+    const std::vector<bool> near = near_seams(made);
+    std::vector<bool> is_taken(made.vertices_m.size(), false);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedges;
+    for (std::size_t t = 0; t < made.triangles.size(); ++t) {
+        const std::uint32_t chart = made.triangle_materials[t];
+        for (std::uint32_t& vertex : made.triangles[t]) {
+            if (!near[vertex]) {
+                continue;
+            }
+            const auto [at, is_new] = wedges.try_emplace({chart, vertex}, vertex);
+            if (is_new && is_taken[vertex]) {
+                at->second = static_cast<std::uint32_t>(made.vertices_m.size());
+                made.vertices_m.push_back(glm::dvec3(made.vertices_m[vertex]));
+                made.colours.emplace_back();
+            }
+            if (is_new) {
+                is_taken[vertex] = true;
+                made.colours[at->second] = colour_at(charts_[chart], made.vertices_m[vertex]);
+            }
+            vertex = at->second;
+        }
+    }
+}
+
+void AttributeSeams::take_texture_coordinates(TriangleMesh& made) const {
+    if (!has_texture_coordinates()) {
+        return;
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedges;
+    for (std::size_t t = 0; t < made.triangles.size(); ++t) {
+        const std::uint32_t chart = made.triangle_materials[t];
+        Triangle corners{no_index, no_index, no_index};
+        const std::optional<Chart> part = is_textured(chart) ? jumping_part(made, t) : std::nullopt;
+        for (std::size_t k = 0; k < 3 && is_textured(chart); ++k) {
+            const std::uint32_t vertex = made.triangles[t][k];
+            const auto next = static_cast<std::uint32_t>(made.texture_coordinates.size());
+            const auto [at, is_new] =
+                part ? std::pair(wedges.end(), true) : wedges.try_emplace({chart, vertex}, next);
+            if (is_new) {
+                made.texture_coordinates.push_back(
+                    texture_at(part ? *part : charts_[chart], made.vertices_m[vertex]));
+            }
+            corners[k] = part ? next : at->second;
+        }
+        made.corner_texture_coordinates.push_back(corners);
+    }
+}
+
+void AttributeSeams::take_materials(TriangleMesh& made) const {
+    made.materials = materials_;
+    for (std::uint32_t& mark : made.triangle_materials) {
+        mark = materials_of_marks_[mark];
+    }
+    if (materials_.empty()) {
+        made.triangle_materials.clear();
+    }
+}
+
+AttributeSeams::Squares
+AttributeSeams::texture_squares(const TriangleMesh& made, std::size_t triangle) const {
+    static const std::vector<glm::dvec3> samples = sample_weights();
+    const std::uint32_t chart = made.triangle_materials[triangle];
+    Squares squares;
+    if (!is_textured(chart)) {
+        return squares;
+    }
+    const std::optional<Chart> part = jumping_part(made, triangle);
+    const Chart& own = part ? *part : charts_[chart];
+    const Triangle& corners = made.triangles[triangle];
+    std::array<glm::dvec2, 3> places;
+    for (std::size_t k = 0; k < 3; ++k) {
+        places.at(k) = texture_at(own, made.vertices_m[corners[k]]);
+    }
+    for (const glm::dvec3& weights : samples) {
+        const glm::dvec2 right(texture_at(own, place_m(made, corners, weights)));
+        const glm::dvec2 off =
+            weights.x * places[0] + weights.y * places[1] + weights.z * places[2] - right;
+        squares.max = std::max(squares.max, glm::dot(off, off));
+        squares.mean += glm::dot(off, off) / static_cast<double>(samples.size());
+    }
+    return squares;
+}
+
+TextureError AttributeSeams::texture_error(const TriangleMesh& made) const {
+    constexpr std::size_t enough = 8'000;
+    const std::size_t stride = std::max<std::size_t>(1, made.triangles.size() / enough);
+    TextureError error;
+    double area = 0.0;
+    for (std::size_t t = 0; t < made.triangles.size() && has_texture_coordinates(); t += stride) {
+        if (!is_textured(made.triangle_materials[t])) {
+            continue;
+        }
+        const Squares squares = texture_squares(made, t);
+        const double own = glm::length(area_vector(made, made.triangles[t]));
+        error.max = std::max(error.max, std::sqrt(squares.max));
+        error.rms += own * squares.mean;
+        area += own;
+    }
+    error.rms = area > 0.0 ? std::sqrt(error.rms / area) : 0.0;
+    return error;
+}
+
+TriangleMesh
+AttributeSeams::divided(TriangleMesh made, double max_error, std::size_t max_faces) const {
+    if (!has_texture_coordinates()) {
+        return made;
+    }
+    std::vector<std::uint32_t> waiting(made.triangles.size()); // Triangles that may be off.
+    std::iota(waiting.begin(), waiting.end(), 0U);
+    while (made.triangles.size() < max_faces) {
+        std::vector<std::uint32_t> off;
+        for (const std::uint32_t t : waiting) {
+            if (texture_squares(made, t).max > max_error * max_error) {
+                off.push_back(t);
+            }
+        }
+        if (off.empty()) {
+            break;
+        }
+        EdgeDivision division(made);
+        for (const std::uint32_t t : off) {
+            if (made.triangles.size() < max_faces) {
+                division.divide(t, longest_side(made, made.triangles[t]));
+            }
+        }
+        waiting = division.changed();
+        waiting.insert(waiting.end(), off.begin(), off.end());
+        std::ranges::sort(waiting);
+        const auto [first, last] = std::ranges::unique(waiting);
+        waiting.erase(first, last);
+    }
+    return made;
+}
+
+} // namespace octant::models::simplify
