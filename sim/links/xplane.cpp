@@ -16,6 +16,8 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <string_view>
 
 namespace octant::sim::links {
@@ -96,11 +98,17 @@ glm::dvec3 values_at(const WireReader& row, std::size_t first) {
     return {value_at(row, first), value_at(row, first + 1), value_at(row, first + 2)};
 }
 
+/// One component of a vector whose components arrive one by one; those that did not arrive are NaN.
 double& part_of(std::optional<glm::dvec3>& whole, std::size_t part) {
     if (!whole) {
-        whole.emplace(0.0);
+        whole.emplace(std::numeric_limits<double>::quiet_NaN());
     }
     return (*whole)[static_cast<int>(part)];
+}
+
+/// Whether no component is missing.
+bool is_complete(const std::optional<glm::dvec3>& whole) {
+    return whole && !std::isnan(whole->x) && !std::isnan(whole->y) && !std::isnan(whole->z);
 }
 
 /// Moves a place, degrees and metres, by a small way east, up and south.
@@ -190,9 +198,15 @@ Verdict XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
     }
     Verdict verdict{
         Fault::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
-    if (!told_.place) {
-        verdict.fault = Fault::Unused;
+    if (!told_.place || (!is_data && !is_complete(told_.place))) {
+        verdict.fault = Fault::Unused; // Answers to RREF may bring the rest of a place later.
         return verdict;
+    }
+    for (std::optional<glm::dvec3>* each_vector :
+         {&told_.local_m, &told_.local_mps, &told_.body_rates_degps}) {
+        if (!is_complete(*each_vector)) {
+            each_vector->reset();
+        }
     }
     Fix complete_fix = complete();
     verdict.fault = fault_of(complete_fix);

@@ -178,6 +178,21 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
     CHECK(pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix).fault == Fault::Unused);
 }
 
+TEST_CASE("answers that bring a place in parts give no place before all parts are there") {
+    XPlanePose pose;
+    std::optional<Fix> fix;
+    CHECK(pose.take(packet("RREF,", {{7001, {47.25F}}}), fix).fault == Fault::Unused);
+    CHECK(
+        pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == Fault::Unused);
+    CHECK_FALSE(fix);
+    CHECK(pose.take(packet("RREF,", {{7003, {1500.0F}}}), fix).fault == Fault::None);
+    REQUIRE(fix);
+    CHECK(fix->latitude_deg == Approx(47.25));
+    CHECK(fix->longitude_deg == Approx(8.5));
+    CHECK(fix->altitude_m == Approx(1500.0));
+    CHECK_FALSE(fix->velocity_ned_mps); // one component of three
+}
+
 TEST_CASE("local metres smooth places of single precision") {
     // 60 m/s north at 50 Hz: 1.2 m a packet, while latitudes come in steps of 0.42 m.
     constexpr double m_per_degree = 111177.0;
