@@ -205,7 +205,7 @@ double HeightSource::Content::own_height_m(const Spike& spike) const {
 }
 
 void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
-    constexpr std::size_t most_told = 3;
+    constexpr std::size_t max_told = 3;
     std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
     std::ranges::stable_sort(found, [](const Spike& a, const Spike& b) {
         return std::abs(a.above_m) > std::abs(b.above_m);
@@ -213,7 +213,7 @@ void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Spike& spike = found[i];
         const glm::dvec2 at_m = metres_of({spike.column, spike.row});
-        if (i >= most_told) {
+        if (i >= max_told) {
             notes.back().places_m.push_back(at_m);
             continue;
         }
@@ -221,7 +221,7 @@ void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
         notes.push_back(
             {fmt::format(
                  "{}: a height of {:.6g} m stands alone, {:.0f} m {} all around it, at {}: --void "
-                 "{:.6g} leaves it out",
+                 "{:.9g} leaves it out",
                  name(),
                  own_m,
                  std::abs(spike.above_m),
@@ -230,11 +230,11 @@ void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
                  own_m),
              {at_m}});
     }
-    if (found.size() > most_told) {
+    if (found.size() > max_told) {
         notes.back().text = fmt::format(
             "{}; {} more heights stand alone",
             notes.back().text,
-            spikes->count() - static_cast<std::int64_t>(most_told));
+            spikes->count() - static_cast<std::int64_t>(max_told));
     }
 }
 

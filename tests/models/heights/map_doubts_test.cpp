@@ -76,6 +76,16 @@ TEST_CASE("a needle and a pit are told with their place and the option that leav
     CHECK(has(field.notes[1].text, "below all around it"));
 }
 
+TEST_CASE("the option that leaves a needle out has all digits of its height") {
+    RasterFile raster = metric_hills();
+    raster.type = GDT_Float32;
+    value_at(raster, 20, 10) = 4321.1234;
+    const HeightField field = read_written(raster);
+    REQUIRE(field.notes.size() == 1);
+    INFO(field.notes.front().text);
+    CHECK(has(field.notes.front().text, "--void 4321.12354 ")); // the nearest float
+}
+
 TEST_CASE("a needle in degrees is told with the height that the file has") {
     RasterFile raster = degree_hills(60, 50, 10.0, 46.0);
     value_at(raster, 20, 10) = 7777.0;
