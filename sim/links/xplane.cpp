@@ -250,7 +250,10 @@ Fix XPlanePose::complete() {
             glm::dvec3(rad_from_deg(rates.x), rad_from_deg(rates.y), rad_from_deg(rates.z));
     }
     // A clock that stands still is none: senders that are no X-Plane often leave group 1 as it is.
-    if (told_.time_s && last_time_s_ && *told_.time_s > *last_time_s_) {
+    // Later it counts in steps of 1 ms and more, as its single precision has it: too coarse.
+    constexpr double fine_until_s = 8192.0;
+    if (told_.time_s && last_time_s_ && *told_.time_s > *last_time_s_ &&
+        *told_.time_s < fine_until_s) {
         fix.sent_s = told_.time_s;
     }
     last_time_s_ = told_.time_s;

@@ -116,6 +116,11 @@ TEST_CASE("the clock of group 1 counts while it runs") {
     CHECK(at(5.5F) == 5.5);
     CHECK_FALSE(at(5.5F));
     CHECK_FALSE(at(1.0F));
+    // In single precision 8192 and the number after it are 0.98 ms apart.
+    CHECK_FALSE(at(20000.0F));
+    CHECK_FALSE(at(8191.0F));
+    CHECK(at(8191.5F) == 8191.5);
+    CHECK_FALSE(at(8192.0F));
 }
 
 TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
