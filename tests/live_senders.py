@@ -3,8 +3,8 @@
 
 Each sender flies 100 m/s (or as its row says) for half a minute; its truth is known here. What the recording's
 frames.csv says was shown is judged against it, never by the program's own report: the speed of pictures over the
-true one, pictures that move against the one before, packets called lost that were sent (or not), and the root mean
-square of the distance from the truth, after the mean delay is taken out. Prints a Markdown table.
+true one, pictures that move against the one before, packets called lost ("-": losses are unknown) and truly lost, and
+the root mean square of the distance from the truth, after the mean delay is taken out. Prints a Markdown table.
 """
 import csv, heapq, math, os, random, select, socket, struct, subprocess, sys, time
 
@@ -120,6 +120,60 @@ def line(f, t, form, noise=0.0):
     return (form(t) + f'{math.degrees(lat):.9f},{math.degrees(lon):.9f},{ALT},{math.degrees(f.heading(t)):.3f}\n').encode()
 
 
+def xplane_values(f, t):
+    """What X-Plane says of the flight, by the names of its data references; all in single precision on the wire."""
+    (lat, lon), (x, y), (vx, vy) = f.geo(t), f.at(t), f.velocity(t)
+    position = 'sim/flightmodel/position/'
+    values = dict(latitude=math.degrees(lat), longitude=math.degrees(lon), elevation=ALT, y_agl=ALT, true_theta=1.0, true_phi=5.0,
+                  true_psi=math.degrees(f.heading(t)), local_x=x - 20000, local_y=ALT, local_z=-y + 5000, local_vx=vx, local_vy=0.0,
+                  local_vz=-vy, P=0.0, Q=0.0, R=math.degrees(f.w))
+    return {position + name: value for name, value in values.items()}
+
+
+def xplane_data(f, t, groups=(3, 17, 18, 20, 21), running=None):
+    v = {name.rsplit('/', 1)[1]: value for name, value in xplane_values(f, t).items()}
+    kt, none = f.v / 0.514444, -999.0
+    rows = {1: (t, t, (running or 0) + t, t), 3: (kt, kt, kt, kt), 17: (1.0, 5.0, v['true_psi'], v['true_psi']),
+            18: (1.0, 0.0, v['true_psi'], 0.0), 20: (v['latitude'], v['longitude'], ALT / 0.3048, ALT / 0.3048, 0, ALT / 0.3048),
+            21: (v['local_x'], v['local_y'], v['local_z'], v['local_vx'], v['local_vy'], v['local_vz'])}
+    b = b'DATA*'
+    for g in groups:
+        b += struct.pack('<i8f', g, *(rows[g] + (none,) * 8)[:8])
+    return b
+
+
+class XPlane:
+    """Answers the RREF requests that come to a port, in one packet or in pieces, at its own times."""
+
+    def __init__(self):
+        self.asked, self.to = {}, None
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(('127.0.0.1', 0))
+        self.socket.setblocking(False)
+        self.port = self.socket.getsockname()[1]
+
+    def listen(self):
+        try:
+            while True:
+                request, self.to = self.socket.recvfrom(2000)
+                rate, number = struct.unpack_from('<ii', request, 5)
+                self.asked[number] = request[13:].split(b'\0')[0].decode()
+                if rate == 0:
+                    del self.asked[number]
+        except BlockingIOError:
+            pass
+
+    def answer(self, f, t, running):
+        values = xplane_values(f, t)
+        values['sim/time/total_running_time_sec'] = running + t
+        return b'RREF,' + b''.join(struct.pack('<if', n, values[name]) for n, name in self.asked.items())
+
+    def send(self, packet):
+        self.listen()
+        if self.to and len(packet) > 5:
+            self.socket.sendto(packet, self.to)
+
+
 def every(rate, var=0.0, sleep_jitter=0.0):
     """Times between packets: even, or spread as waiting times are, or as a script that sleeps has them."""
     def next_(t, n):
@@ -218,6 +272,20 @@ def senders(data):
         every(5, sleep_jitter=0.01), names='')
     for rate in (5, 10, 20, 30, 60):
         add(f'FDM {rate}/s, 60 % uneven, no velocities', 'fdm', turn, lambda t, n: fdm(turn, t, False), every(rate, 0.6))
+    for rate in (5, 10, 20, 30, 60):
+        add(f'X-Plane DATA {rate}/s, 60 % uneven, 3 % lost', 'xplane', turn, lambda t, n: xplane_data(turn, t), every(rate, 0.6),
+            loss=0.03)
+    add('X-Plane DATA 20/s, groups 17 and 20 alone, 3 % lost', 'xplane', turn, lambda t, n: xplane_data(turn, t, (17, 20)),
+        every(20, sleep_jitter=0.003), loss=0.03)
+    add('X-Plane DATA 20/s with group 1, 3 % lost', 'xplane', turn, lambda t, n: xplane_data(turn, t, (1, 3, 17, 18, 20, 21), 9000),
+        every(20, 0.6), loss=0.03)
+    for rate in (5, 10, 20, 30, 60):
+        add(f'X-Plane RREF {rate}/s, 60 % uneven, 3 % lost', 'rref', turn, lambda t, n, x: x.answer(turn, t, 100), every(rate, 0.6),
+            loss=0.03)
+    add('X-Plane RREF 60/s, 3 % lost, running for 6 hours', 'rref', turn, lambda t, n, x: x.answer(turn, t, 21600),
+        every(60, sleep_jitter=0.002), loss=0.03)
+    add('X-Plane RREF 60/s, 3 % lost, running for 48 hours', 'rref', turn, lambda t, n, x: x.answer(turn, t, 172800),
+        every(60, sleep_jitter=0.002), loss=0.03)
     add('FDM 30/s, jitter 40 ms, 5 % lost, stall of 0.8 s', 'fdm', turn, lambda t, n: fdm(turn, t), every(30), jitter=0.04,
         loss=0.05, stall=12.0)
     add('FDM 30/s, the same without velocities', 'fdm', turn, lambda t, n: fdm(turn, t, False), every(30), jitter=0.04,
@@ -234,12 +302,15 @@ def free_port(kind):
 def fly(octant, folder, row):
     kind, f = row['kind'], row['f']
     port = free_port(kind not in ('stdin', 'tcp'))
-    ports = {k: '-1' for k in ('fdm', 'mavlink', 'dis', 'cigi')}
-    if kind in ports:
-        ports[kind] = str(port)
+    ports = {k: '-1' for k in ('fdm', 'mavlink', 'dis', 'cigi', 'xplane')}
+    asked = XPlane() if kind == 'rref' else None
+    ports['xplane' if asked else kind] = str(port)
     words = [octant, 'listen', '--headless', '--terrain', 'none', '--size', '64x36', '--samples', '1', '--pictures', '0', '--record',
              folder, '--seconds', str(row.get('seconds', 30) + 4), '--quiet']
+    words += ['--xplane', f'127.0.0.1:{asked.port}'] if asked else []
     for k, p in ports.items():
+        if k in ('stdin', 'tcp'):
+            continue
         words += [f'--{k}-port', p]
     words += ['--from', '-'] if kind == 'stdin' else ['--lines-port', str(port)] if kind == 'tcp' else []
     run = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -247,6 +318,9 @@ def fly(octant, folder, row):
     if kind == 'tcp':
         s = socket.create_connection(('127.0.0.1', port))
         send = s.sendall
+    elif asked:
+        asked.listen()
+        send = asked.send
     elif kind == 'stdin':
         send = lambda b: (run.stdin.write(b), run.stdin.flush())
     else:
@@ -265,12 +339,13 @@ def fly(octant, folder, row):
                 stall, next_ = None, time.monotonic() - t0
                 continue
             if t >= next_:
+                packet = row['packet'](t if not isinstance(f, Replay) else next_, n, *([asked] if asked else []))
                 if random.random() < row.get('loss', 0.0):
                     lost += 1
                 else:
                     due = t + random.random() * row.get('jitter', 0.0)
                     due = math.ceil(due / row['burst']) * row['burst'] if 'burst' in row else due
-                    heapq.heappush(queue, (due, n, row['packet'](t if not isinstance(f, Replay) else next_, n)))
+                    heapq.heappush(queue, (due, n, packet))
                 n += 1
                 next_ += row['times'](t, n)
             while queue and queue[0][0] <= time.monotonic() - t0:
@@ -293,7 +368,8 @@ def percentile(values, share):
 
 def judge(folder, f, seconds):
     rows = list(csv.DictReader(open(folder + '/frames.csv')))
-    lost = sum(int(r['packets_lost']) for r in rows)
+    known = [int(r['packets_lost']) for r in rows if r['packets_lost']]
+    lost = sum(known) if known else '-'
     t = [float(r['sim_time_s']) for r in rows]
     p = [(float(r['aircraft_x_m']), float(r['aircraft_y_m'])) for r in rows]
     first = next(i for i in range(len(rows)) if sum(int(r['packets']) for r in rows[:i + 1]) > 0)

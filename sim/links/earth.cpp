@@ -3,8 +3,6 @@
 
 #include "sim/links/earth.h"
 
-#include "sim/base/geo_place.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -50,6 +48,20 @@ Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m) {
     const double height_m = across_m * std::cos(latitude) + ecef_m.z * sine -
                             semi_major_m * std::sqrt(1.0 - e2 * sine * sine);
     return {latitude, std::atan2(ecef_m.y, ecef_m.x), height_m};
+}
+
+Geodetic moved_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid) {
+    constexpr double min_cosine = 1e-3; // the poles have no east
+    const double sine = std::sin(place.latitude_rad);
+    const double share = 1.0 - ellipsoid.e2() * sine * sine;
+    const double normal_m = ellipsoid.semi_major_m / std::sqrt(share);
+    const double across_m = normal_m + place.height_m;
+    const double along_m = normal_m * (1.0 - ellipsoid.e2()) / share + place.height_m;
+    const double cosine = std::max(std::cos(place.latitude_rad), min_cosine);
+    return {
+        place.latitude_rad + ned_m.x / along_m,
+        place.longitude_rad + ned_m.y / (across_m * cosine),
+        place.height_m - ned_m.z};
 }
 
 glm::dmat3 ned_from_ecef(const Geodetic& place) {

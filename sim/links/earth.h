@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/base/axes.h"
+#include "sim/base/geo_place.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -18,6 +19,9 @@ struct Geodetic {
 /// neighbourhood (1,000 km of it are left out: there latitude has no sense) and any height.
 glm::dvec3 ecef_from_geodetic(const Geodetic& place);
 Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m);
+
+/// The place that lies a small way north, east and down of one on an ellipsoid.
+Geodetic moved_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid);
 
 /// Rotation that takes earth-fixed vectors to north, east, down at a place.
 glm::dmat3 ned_from_ecef(const Geodetic& place);

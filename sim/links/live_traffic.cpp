@@ -16,14 +16,18 @@ namespace {
 /// What was wrong is said as long as this.
 constexpr double wrong_said_s = 5.0;
 
-std::string motion_text(const LiveVehicle& vehicle, const std::string& name, bool is_shown) {
+std::string motion_text(
+    const LiveVehicle& vehicle,
+    const std::string& name,
+    const std::optional<long>& lost,
+    bool is_shown) {
     const double period_s = vehicle.clock().period_s();
     return fmt::format(
-        "{} {}: {:.1f}/s, {} lost, {} late, jitter {:.0f} ms{}{}",
+        "{} {}: {:.1f}/s, {}, {} late, jitter {:.0f} ms{}{}",
         text_of(vehicle.key().source),
         name,
         period_s > 0.0 ? 1.0 / period_s : 0.0,
-        vehicle.clock().lost(),
+        lost ? fmt::format("{} lost", *lost) : "losses unknown",
         vehicle.late(),
         1000.0 * vehicle.clock().jitter_s(),
         is_shown && vehicle.is_stale() ? ", stale" : "",
@@ -162,11 +166,9 @@ LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& m
         ++counts_.unused;
         return Taken::Right;
     }
-    const long lost = vehicle->clock().lost();
     const WorldPlace place = world_from_fix_(key, fix);
     const bool taken =
         vehicle->add(in_axes_turned(fix, place.north_turn_rad), place.at_m, datagram.arrival_s);
-    counts_.lost += vehicle->clock().lost() - lost;
     if (!taken) {
         ++counts_.late;
         return Taken::Right;
@@ -187,17 +189,72 @@ LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& d
                : fine_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
     }
     counts_.wrong += wrong ? 1 : 0;
-    constexpr std::size_t most_kinds = 50;
-    const std::tuple kind(
-        datagram.protocol, datagram.source, verdict.fault, verdict.got, verdict.size);
-    if (const auto known = heard_.find(kind); known != heard_.end()) {
-        ++known->second;
-    } else if (heard_.size() < most_kinds) {
-        heard_.emplace(kind, 1);
-        news_.push_back(fmt::format(
-            "{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
-    }
+    hear(datagram, verdict);
     return wrong ? Taken::Wrong : Taken::Right;
+}
+
+/// Counts a packet by its kind. A new kind is told where there is room for it.
+void LiveTraffic::hear(const Datagram& datagram, const Verdict& verdict) {
+    constexpr std::size_t max_first = 200; // kinds of a fault that are the first of their sender
+    constexpr std::size_t max_in_all = 100;
+    constexpr std::ptrdiff_t max_of_sender = 16;
+    const bool got_is_size = verdict.fault == Fault::WrongSize || verdict.fault == Fault::NotOurs;
+    const PacketForm form{
+        verdict.fault, datagram.source, datagram.protocol, got_is_size ? 0U : verdict.got};
+    const auto known = heard_.find(form);
+    if (known != heard_.end()) {
+        ++known->second.packets;
+        known->second.are_alike = known->second.are_alike && known->second.first == verdict;
+        return;
+    }
+    constexpr Protocol first_protocol{};
+    const auto begin = heard_.lower_bound({verdict.fault, datagram.source, first_protocol, 0});
+    const auto end = std::find_if(begin, heard_.end(), [&](const auto& heard) {
+        return heard.first.fault != verdict.fault || heard.first.source != datagram.source;
+    });
+    const auto of_sender = std::distance(begin, end);
+    std::size_t& forms = forms_[verdict.fault];
+    if (forms >= (of_sender == 0 ? max_first : max_in_all) || of_sender >= max_of_sender) {
+        ++counts_.untold;
+        return;
+    }
+    ++forms;
+    heard_.emplace(form, Heard{verdict, 1});
+    news_.push_back(
+        fmt::format("{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
+}
+
+/// Takes the number that a packet bears in a stream of its sender.
+void LiveTraffic::number(
+    const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits) {
+    auto* const known = stream_of(
+        sequences_, {datagram.protocol, datagram.source, stream}, datagram.arrival_s, gone_after_s);
+    if (known == nullptr) {
+        return;
+    }
+    SequenceCount& sequence = known->value;
+    const long before = sequence.lost();
+    sequence.add(number, bits, datagram.arrival_s);
+    if (sequence.is_numbered()) {
+        counts_.lost = counts_.lost.value_or(0);
+    }
+    if (counts_.lost) {
+        *counts_.lost += sequence.lost() - before;
+    }
+}
+
+/// What a vehicle's sender lost of the streams that it numbers; nothing where it numbers none.
+std::optional<long> LiveTraffic::lost_of(const VehicleKey& key) const {
+    std::optional<long> lost;
+    for (const auto& [stream, sequence] : sequences_) {
+        const auto& [protocol, source, number] = stream;
+        const bool is_its_own = key.protocol != Protocol::MavLink || number >> 8U == key.vehicle;
+        if (protocol == key.protocol && source == key.source && is_its_own &&
+            sequence.value.is_numbered()) {
+            lost = lost.value_or(0) + sequence.value.lost();
+        }
+    }
+    return lost;
 }
 
 LiveTraffic::Taken LiveTraffic::take_fdm(const Datagram& datagram) {
@@ -232,6 +289,10 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
         if (identified(datagram, said).fault == Fault::OtherKind) {
             break;
         }
+        if (said.fault == Fault::None || said.fault == Fault::Unused) {
+            const unsigned component = unsigned{parse.system} << 8U | parse.component;
+            number(datagram, static_cast<std::uint16_t>(component), parse.sequence, 8);
+        }
         auto* const stream = parse.frame ? stream_of(
                                                poses_,
                                                {datagram.source, parse.frame->system},
@@ -239,7 +300,7 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
                                                gone_after_s)
                                          : nullptr;
         if (stream != nullptr) {
-            if (const std::optional<Fix> fix = stream->value.take(*parse.frame)) {
+            if (const auto fix = stream->value.take(*parse.frame, ellipsoid_)) {
                 taken = std::max(taken, move(datagram, *fix));
             }
         }
@@ -249,6 +310,12 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
 }
 
 LiveTraffic::Taken LiveTraffic::take_dis(const Datagram& datagram) {
+    if (!ellipsoid_.is_earth() && !std::exchange(told_of_dis_, true)) {
+        news_.push_back(fmt::format(
+            "DIS: places count from the centre of the earth (WGS 84), as its standard has it; on "
+            "{} their latitudes, longitudes and heights count",
+            name_of_body(ellipsoid_)));
+    }
     DisEntity entity;
     const Verdict verdict = decode_dis(datagram.bytes, entity);
     const Taken counted = count(datagram, verdict);
@@ -279,6 +346,7 @@ LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
     if (verdict.fault != Fault::None) {
         return counted;
     }
+    number(datagram, 0, cigi_.host_frame(), 32);
     for (const Fix& fix : moved) {
         move(datagram, fix);
     }
@@ -368,6 +436,7 @@ std::vector<std::string> LiveTraffic::lines() const {
         lines.push_back(motion_text(
             vehicles_[i],
             marking.empty() ? name_of(key) : fmt::format("{} {}", name_of(key), marking),
+            lost_of(key),
             i < shown_ || shown_ == 0));
     }
     if (vehicles_.size() > most_lines) {
@@ -406,13 +475,13 @@ std::vector<VehicleReport> LiveTraffic::vehicle_reports() const {
 
 std::vector<PacketReport> LiveTraffic::packet_reports() const {
     std::vector<PacketReport> all;
-    for (const auto& [kind, packets] : heard_) {
-        const auto& [protocol, source, fault, got, size] = kind;
+    for (const auto& [form, heard] : heard_) {
         all.push_back(
-            {source,
-             verdict_text(protocol, {fault, got, size}),
-             packets,
-             fault != Fault::None && fault != Fault::Unused});
+            {form.source,
+             verdict_text(form.protocol, heard.first) +
+                 (heard.are_alike ? "" : " (the first of them)"),
+             heard.packets,
+             form.fault != Fault::None && form.fault != Fault::Unused});
     }
     return all;
 }

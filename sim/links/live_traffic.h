@@ -1,17 +1,20 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "sim/base/geo_place.h"
 #include "sim/links/cigi_image_generator.h"
 #include "sim/links/datagram.h"
 #include "sim/links/live_vehicle.h"
 #include "sim/links/mavlink.h"
 #include "sim/links/named_columns.h"
+#include "sim/links/sender_clock.h"
 #include "sim/links/xplane.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -33,9 +36,12 @@ struct TrafficCounts {
     long accepted = 0; ///< packets that moved something
     long wrong = 0;    ///< packets that no decoder took
     long unused = 0;   ///< right ones of which nothing is shown, of vehicles beyond the cap too
-    long lost = 0;     ///< as the senders' clocks say
-    long late = 0;     ///< dropped
-    long snaps = 0;    ///< corrections too large to be blended in
+    /// As the numbers say that MAVLink and hosts of CIGI give their messages, whatever these hold;
+    /// nothing where no stream is numbered. The other protocols number nothing.
+    std::optional<long> lost;
+    long late = 0;   ///< dropped
+    long snaps = 0;  ///< corrections too large to be blended in
+    long untold = 0; ///< packets of so many kinds that packet_reports() leaves them out
 };
 
 /// What came of one vehicle, followed or not.
@@ -77,8 +83,13 @@ public:
     static constexpr double restarted_after_s = 2.0;
 
     /// Hosts of CIGI are answered over `ground`, which must outlive this; null: all is outside.
-    explicit LiveTraffic(WorldFromFix world_from_fix, const CigiGround* ground = nullptr)
+    /// `ellipsoid` is that of the ground.
+    explicit LiveTraffic(
+        WorldFromFix world_from_fix,
+        const CigiGround* ground = nullptr,
+        const Ellipsoid& ellipsoid = wgs84)
         : world_from_fix_(std::move(world_from_fix))
+        , ellipsoid_(ellipsoid)
         , cigi_(ground) {}
 
     CigiImageGenerator& cigi() { return cigi_; }
@@ -113,7 +124,8 @@ public:
     double newest_s() const { return newest_s_; }
 
     /// What was told for the first time since the last call: each sender with each kind of packet
-    /// once, a line each; after many of them no more.
+    /// once, a line each; of each fault at most 16 kinds from one sender and 100 kinds in all, but
+    /// always the first kind of each of 100 senders more.
     std::vector<std::string> take_news();
 
     /// What a person should be told, a line each: senders and what is wrong with them.
@@ -144,8 +156,29 @@ private:
     void report(const VehicleKey& key, const Fix& fix, const std::string& marking);
     LiveVehicle* vehicle_of(const VehicleKey& key, double arrival_s);
     Taken count(const Datagram& datagram, const Verdict& verdict);
+    void hear(const Datagram& datagram, const Verdict& verdict);
+    void number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits);
+    std::optional<long> lost_of(const VehicleKey& key) const;
+
+    /// Packets of one kind from one sender.
+    struct Heard {
+        Verdict first;
+        long packets = 0;
+        bool are_alike = true; ///< of one size
+    };
+
+    /// A kind of packet. Sizes are no part of it: damaged packets have any.
+    struct PacketForm {
+        Fault fault = Fault::None;
+        Source source;
+        Protocol protocol = Protocol::Fdm;
+        std::uint32_t got = 0;
+
+        auto operator<=>(const PacketForm&) const = default;
+    };
 
     WorldFromFix world_from_fix_;
+    Ellipsoid ellipsoid_;
     std::vector<LiveVehicle> vehicles_;
     std::map<VehicleKey, std::size_t> numbers_; ///< of vehicles_, by their keys
 
@@ -159,10 +192,14 @@ private:
     std::map<Source, Stream<NamedColumns>> columns_;
     std::map<std::pair<Source, std::uint8_t>, Stream<MavLinkPose>> poses_;
     std::map<Source, Stream<XPlanePose>> xplanes_;
+    /// By sender and, for MAVLink, system and component in one number.
+    std::map<std::tuple<Protocol, Source, std::uint16_t>, Stream<SequenceCount>> sequences_;
     CigiImageGenerator cigi_;
     TrafficCounts counts_;
     /// Packets by what they were, as far as that is told.
-    std::map<std::tuple<Protocol, Source, Fault, std::uint32_t, std::uint32_t>, long> heard_;
+    std::map<PacketForm, Heard> heard_;
+    std::map<Fault, std::size_t> forms_; ///< how many of heard_ have a fault
+    bool told_of_dis_ = false;           ///< that it knows the earth alone
     /// Without names, which follow from the keys.
     std::map<VehicleKey, VehicleReport> reports_;
     std::vector<std::string> news_;

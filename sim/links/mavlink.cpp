@@ -5,6 +5,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
+#include "sim/links/earth.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -110,30 +111,37 @@ MavLinkParse parse_mavlink(Bytes bytes) {
         is_2 ? reader.at<std::uint16_t>(7) | static_cast<std::uint32_t>(reader.at<std::uint8_t>(9))
                                                  << 16U
              : reader.at<std::uint8_t>(5);
+    MavLinkParse parse{
+        .verdict = {Fault::Unused, number, size},
+        .length = length,
+        .frame = {},
+        .system = reader.at<std::uint8_t>(is_2 ? 5 : 3),
+        .component = reader.at<std::uint8_t>(is_2 ? 6 : 4),
+        .sequence = reader.at<std::uint8_t>(is_2 ? 4 : 2)};
     const Message* const message = message_of(number);
     if (message == nullptr) {
-        return {{Fault::Unused, number, size}, length, {}};
+        return parse;
     }
     const Bytes summed_bytes = bytes.subspan(1, header - 1 + payload);
     const auto sum = reader.at<std::uint16_t>(header + payload);
     if (payload > message->length || sum != sum_of(summed_bytes, message->extra)) {
         return {{Fault::WrongVersion, number, size}, length, {}};
     }
-    MavLinkFrame frame{message->kind, reader.at<std::uint8_t>(is_2 ? 5 : 3), {}};
+    parse.verdict.fault = Fault::None;
     const Bytes held = bytes.subspan(header, payload);
-    frame.payload.assign(held.begin(), held.end());
-    frame.payload.resize(message->length);
-    return {{Fault::None, number, size}, length, std::move(frame)};
+    parse.frame = MavLinkFrame{message->kind, parse.system, {held.begin(), held.end()}};
+    parse.frame->payload.resize(message->length);
+    return parse;
 }
 
-std::optional<Fix> MavLinkPose::take(const MavLinkFrame& frame) {
+std::optional<Fix> MavLinkPose::take(const MavLinkFrame& frame, const Ellipsoid& ellipsoid) {
     switch (frame.kind) {
     case MavLinkKind::HilStateQuaternion:
         return take_hil(frame);
     case MavLinkKind::GlobalPositionInt:
         return take_position(frame);
     case MavLinkKind::Attitude:
-        return hil_ ? std::nullopt : take_attitude(frame);
+        return hil_ ? std::nullopt : take_attitude(frame, ellipsoid);
     default:
         return std::nullopt;
     }
@@ -189,7 +197,8 @@ std::optional<Fix> MavLinkPose::take_position(const MavLinkFrame& frame) {
     return hil_ || carried ? std::nullopt : position_;
 }
 
-std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame) {
+std::optional<Fix>
+MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid) {
     const WireReader reader(frame.payload, ByteOrder::Little);
     const double sent_s = boot_s(reader);
     attitude_s_ = sent_s;
@@ -203,11 +212,13 @@ std::optional<Fix> MavLinkPose::take_attitude(const MavLinkFrame& frame) {
     }
     Fix fix = *position_;
     const glm::dvec3 moved_m = carried_s * *fix.velocity_ned_mps;
-    constexpr double m_per_degree = 111195.0; // over seconds of flight a sphere will do
-    const double cosine = std::max(std::cos(rad_from_deg(fix.latitude_deg)), 1e-3);
-    fix.latitude_deg = std::clamp(fix.latitude_deg + moved_m.x / m_per_degree, -90.0, 90.0);
-    fix.longitude_deg += moved_m.y / (m_per_degree * cosine);
-    fix.altitude_m -= moved_m.z;
+    const Geodetic moved = moved_by(
+        {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m},
+        moved_m,
+        ellipsoid);
+    fix.latitude_deg = std::clamp(deg_from_rad(moved.latitude_rad), -90.0, 90.0);
+    fix.longitude_deg = deg_from_rad(moved.longitude_rad);
+    fix.altitude_m = moved.height_m;
     *fix.above_home_m -= moved_m.z;
     fix.sent_s = sent_s;
     const glm::dvec3 angles = reader.floats(4);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/geo_place.h"
 #include "sim/links/fix.h"
 #include "sim/links/wire_bytes.h"
 
@@ -36,6 +37,10 @@ struct MavLinkParse {
     Verdict verdict;
     std::size_t length = 0;
     std::optional<MavLinkFrame> frame;
+    /// Of frames whose verdict is None or Unused.
+    std::uint8_t system = 0;
+    std::uint8_t component = 0;
+    std::uint8_t sequence = 0; ///< counts the frames of a component on one link
 };
 
 MavLinkParse parse_mavlink(Bytes bytes);
@@ -45,13 +50,14 @@ MavLinkParse parse_mavlink(Bytes bytes);
 /// both.
 class MavLinkPose {
 public:
-    /// A fix where the message completes one.
-    std::optional<Fix> take(const MavLinkFrame& frame);
+    /// A fix where the message completes one. Attitudes between positions carry these on over the
+    /// ellipsoid.
+    std::optional<Fix> take(const MavLinkFrame& frame, const Ellipsoid& ellipsoid = wgs84);
 
 private:
     std::optional<Fix> take_hil(const MavLinkFrame& frame);
     std::optional<Fix> take_position(const MavLinkFrame& frame);
-    std::optional<Fix> take_attitude(const MavLinkFrame& frame);
+    std::optional<Fix> take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid);
 
     bool hil_ = false;
     std::optional<Fix> position_;

@@ -23,117 +23,42 @@ constexpr double unit_after_s = 1.0;
 constexpr double max_pace_error = 0.3;
 constexpr double min_speed_mps = 0.3; ///< below, the way is no measure of time
 
-/// By how much a ratio is off a whole number.
-double off_whole(double ratio) {
-    return std::abs(ratio - std::round(ratio));
-}
-
-constexpr double max_off_whole = 0.15;
-
 } // namespace
 
-void PacketSpacing::push(std::size_t place, double distance_s) {
-    if (count_ == capacity) {
-        if (place == 0) {
-            return;
-        }
-        std::copy(distances_s_.begin() + 1, distances_s_.end(), distances_s_.begin());
-        --count_;
-        --place;
-    }
-    const auto at = distances_s_.begin() + static_cast<std::ptrdiff_t>(place);
-    const auto end = distances_s_.begin() + static_cast<std::ptrdiff_t>(count_);
-    std::copy_backward(at, end, end + 1);
-    *at = distance_s;
+void PacketSpacing::add(double distance_s) {
+    distances_s_.at(count_ % distances_s_.size()) = distance_s;
     ++count_;
+    const double sum_s = std::accumulate(distances_s_.begin(), distances_s_.end(), 0.0);
+    period_s_ = sum_s / static_cast<double>(std::min(count_, distances_s_.size()));
 }
 
-/// Whether what is longer comes again and again after as many distances: the sender leaves it out.
-bool PacketSpacing::has_pattern(double longer_s) const {
-    constexpr int min_gaps = 4;
-    std::size_t last = capacity;
-    std::size_t min_apart = capacity;
-    std::size_t max_apart = 0;
-    int gaps = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-        if (distances_s_[i] < longer_s) {
-            continue;
-        }
-        if (gaps++ > 0) {
-            min_apart = std::min(min_apart, i - last);
-            max_apart = std::max(max_apart, i - last);
-        }
-        last = i;
-    }
-    return gaps >= min_gaps && max_apart <= min_apart + 1;
-}
-
-/// The period is sought about the distance that a quarter of all do not reach: lost packets leave
-/// it as it is, where they are fewer than half.
-void PacketSpacing::learn() {
-    constexpr std::size_t min_count = 32;
-    constexpr double min_whole = 0.9;
-    constexpr double min_single = 0.55;
-    const auto begin = distances_s_.begin();
-    const auto end = begin + static_cast<std::ptrdiff_t>(count_);
-    const auto count = static_cast<double>(count_);
-    period_s_ = std::accumulate(begin, end, 0.0) / count;
-    regular_ = false;
-    if (count_ < min_count) {
+void SequenceCount::add(std::uint32_t number, int bits, double arrival_s) {
+    constexpr std::int32_t max_step = 33;
+    constexpr std::int32_t remembered = 64;
+    constexpr double max_silence_s = 2.0;
+    const int unused_bits = 32 - bits;
+    const std::int32_t step =
+        static_cast<std::int32_t>((number - newest_) << unused_bits) >> unused_bits;
+    const bool goes_on = begun_ && arrival_s - last_s_ <= max_silence_s;
+    last_s_ = arrival_s;
+    if (!goes_on || step > max_step || step <= -remembered) {
+        begun_ = true;
+        newest_ = number;
+        came_ = ~std::uint64_t{0};
         return;
     }
-    std::array<double, capacity> sorted = distances_s_;
-    const auto quarter = sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 4);
-    std::nth_element(sorted.begin(), quarter, sorted.begin() + static_cast<std::ptrdiff_t>(count_));
-    double sum_s = 0.0;
-    int whole = 0;
-    int single = 0;
-    std::for_each(begin, end, [&, about_s = *quarter](double distance_s) {
-        const double ratio = distance_s / about_s;
-        if (ratio >= 0.5 && off_whole(ratio) <= max_off_whole) {
-            sum_s += distance_s / std::round(ratio);
-            single += ratio < 1.5 ? 1 : 0;
-            ++whole;
-        }
-    });
-    regular_ =
-        whole >= min_whole * count && single >= min_single * count && !has_pattern(1.5 * *quarter);
-    period_s_ = regular_ ? sum_s / whole : period_s_;
-}
-
-long PacketSpacing::add(double distance_s) {
-    constexpr double max_ratio = 11.5;
-    const double ratio = distance_s / std::max(period_s_, min_step_s);
-    const bool counts =
-        regular_ && ratio > 1.5 && ratio < max_ratio && off_whole(ratio) <= max_off_whole;
-    constexpr double min_next_ratio = 0.7; // else the sender catches up
-    const long missed = ratio >= min_next_ratio ? missing_ : 0;
-    missing_ = counts ? std::lround(ratio) - 1 : 0;
-    push(count_, distance_s);
-    learn();
-    return missed;
-}
-
-bool PacketSpacing::fill(double before_s) {
-    constexpr double same = 0.3; // of a period
-    double newer_s = 0.0;
-    for (std::size_t i = count_; regular_ && i-- > 0;) {
-        const double older_s = newer_s + distances_s_[i];
-        if (before_s < older_s) {
-            const double after_older_s = older_s - before_s;
-            const double before_newer_s = before_s - newer_s;
-            if (std::min(after_older_s, before_newer_s) < same * period_s_) {
-                return false;
-            }
-            const bool is_newest = i + 1 == count_;
-            missing_ = is_newest ? std::max(missing_ - 1, 0L) : missing_;
-            distances_s_[i] = before_newer_s;
-            push(i, after_older_s);
-            return !is_newest;
-        }
-        newer_s = older_s;
+    if (step > 0) {
+        lost_ += step - 1;
+        newest_ = number;
+        came_ = came_ << step | 1U;
+        ++taken_;
+        return;
     }
-    return false;
+    const std::uint64_t place = std::uint64_t{1} << -step;
+    const bool is_late = (came_ & place) == 0;
+    lost_ -= is_late ? 1 : 0;
+    taken_ += is_late ? 1 : 0;
+    came_ |= place;
 }
 
 void WayFit::add(double arrival_s, double way_m) {
@@ -221,12 +146,10 @@ void PaceCheck::add(double arrived_s, double passed_s) {
 
 void SenderClock::begin(double arrival_s, const TimeClue& clue) {
     const double before_s = begun_ ? sender_s_ : 0.0;
-    const long lost = lost_;
     const int restarts = begun_ ? restarts_in_a_row_ + 1 : 0;
     const bool useless = sent_is_useless_ || restarts >= restarts_before_distrust;
     *this = {};
     begun_ = true;
-    lost_ = lost;
     restarts_in_a_row_ = restarts;
     sent_is_useless_ = useless;
     // Goes on so that what is shown never meets older times again.
@@ -388,16 +311,12 @@ void SenderClock::check_pace(double arrival_s, const TimeClue& clue) {
     }
 }
 
-/// Whether the packet is one that comes too late; counts it as found where it had counted as lost.
-/// A clock that stands is not asked any more.
+/// Whether the packet is one that comes too late. A clock that stands is not asked any more.
 bool SenderClock::is_late(const Step& step) {
     if (step.passed_s > 0.0 || step.passed_s <= -restart_s) {
         return false;
     }
     const bool too_many = ++late_in_a_row_ >= late_before_restart;
-    if (step.passed_s < 0.0 && !too_many) {
-        lost_ -= spacing_.fill(-step.passed_s) && lost_ > 0 ? 1 : 0;
-    }
     const bool stands = step.passed_s == 0.0 && too_many;
     sent_is_useless_ = sent_is_useless_ || (stands && step.source == Source::SentTime);
     seconds_a_tick_ = stands && step.source == Source::Ticks ? 0.0 : seconds_a_tick_;
@@ -422,8 +341,7 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
     }
     late_in_a_row_ = 0;
     restarts_in_a_row_ = 0;
-    const long missing = spacing_.add(step.distance_s);
-    lost_ += step.source == Source::Arrivals ? 0 : missing;
+    spacing_.add(step.distance_s);
     sender_s_ += step.passed_s;
     check_pace(arrival_s, clue);
     follow(arrival_s);

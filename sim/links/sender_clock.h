@@ -22,39 +22,48 @@ struct TimeClue {
     std::optional<double> way_m;
 };
 
-/// The distances of the newest packets in the sender's time, and how many are missing between them.
-/// Packets count as missing only where nine tenths of the distances are whole multiples of one
-/// period and most are one period: at a sender of uneven rate a long distance is no loss. More than
-/// ten in a row are a silence, of which nobody knows whether the sender sent.
+/// The mean distance of the newest packets in the sender's time.
 class PacketSpacing {
 public:
-    /// Takes the distance of a packet from the newest one before, in seconds, above 0. Returns how
-    /// many packets were missing before that one: a sender that was only late catches up with the
-    /// next packet.
-    long add(double distance_s);
+    /// Takes the distance of a packet from the one before, in seconds.
+    void add(double distance_s);
 
-    /// Takes a packet that was sent so long before the newest one. Returns whether it is one that
-    /// counted as missing, not one that is known.
-    bool fill(double before_s);
-
-    /// The period of a regular sender, else the mean distance; seconds, 0 until known.
+    /// Seconds, 0 until known.
     double period_s() const { return period_s_; }
 
     /// Whether there are enough distances for their mean to say something.
     bool is_settled() const { return count_ >= 8; }
 
 private:
-    static constexpr std::size_t capacity = 64;
-
-    void push(std::size_t place, double distance_s);
-    bool has_pattern(double longer_s) const;
-    void learn();
-
-    std::array<double, capacity> distances_s_{}; ///< the newest one is the last
-    std::size_t count_ = 0;
+    std::array<double, 64> distances_s_{}; ///< a ring
+    std::size_t count_ = 0;                ///< of all distances
     double period_s_ = 0.0;
-    bool regular_ = false;
-    long missing_ = 0; ///< in the newest distance
+};
+
+/// Counts what a stream lacks whose sender numbers its packets one by one, with numbers that wrap
+/// around. Numbers count as missing up to 32 in a row; after more, and after two seconds of
+/// silence, the sender may have begun anew, and nothing counts.
+class SequenceCount {
+public:
+    /// Takes the number of a packet, of so many bits, and its arrival. One that comes late is not
+    /// missing any more; one that comes twice counts once.
+    void add(std::uint32_t number, int bits, double arrival_s);
+
+    /// Whether the sender numbers this stream by itself: eight numbers came, and three quarters of
+    /// all. A counter that stands still tells nothing, nor does one that other streams share.
+    bool is_numbered() const { return taken_ >= 8 && taken_ >= 3 * lost_; }
+
+    /// Packets that are missing; 0 where the stream is not numbered.
+    long lost() const { return is_numbered() ? lost_ : 0; }
+
+private:
+    std::uint32_t newest_ = 0;
+    std::uint64_t came_ =
+        0; ///< bit i: the number newest_ - i came, or is from before the beginning
+    double last_s_ = 0.0;
+    bool begun_ = false;
+    long taken_ = 0;
+    long lost_ = 0;
 };
 
 /// When a vehicle was at a place of its way, from the way that it covered by each arrival: a
@@ -136,9 +145,6 @@ public:
     /// How much later than the quickest packets come: the mean over some of them, seconds.
     double jitter_s() const { return jitter_s_; }
 
-    /// Packets that were sent and never came, as far as the sender's time tells.
-    long lost() const { return lost_; }
-
 private:
     static constexpr std::size_t buckets = 12;
 
@@ -187,7 +193,6 @@ private:
     PacketSpacing spacing_;
     int late_in_a_row_ = 0;
     int restarts_in_a_row_ = 0;
-    long lost_ = 0;
     // By how much sender and receiver differ, from the least delays of late.
     std::array<double, buckets> least_s_{};
     std::size_t bucket_ = 0;

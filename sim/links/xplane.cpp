@@ -5,7 +5,6 @@
 #include "sim/links/xplane.h"
 
 #include "sim/atmosphere.h"
-#include "sim/base/geo_place.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -64,6 +63,9 @@ enum Answer : std::size_t {
     Clock,
 };
 
+/// Verdict::got of answers that we asked for, where others hold the place.
+constexpr std::uint32_t part_of_answers = 2;
+
 constexpr std::array<std::string_view, 17> answer_names{
     "sim/flightmodel/position/latitude",
     "sim/flightmodel/position/longitude",
@@ -111,16 +113,14 @@ bool is_complete(const std::optional<glm::dvec3>& whole) {
     return whole && !std::isnan(whole->x) && !std::isnan(whole->y) && !std::isnan(whole->z);
 }
 
-/// Moves a place, degrees and metres, by a small way east, up and south.
+/// Moves a place, degrees and metres, by a small way east, up and south: X-Plane flies over the
+/// earth, whatever is below its place here.
 void move_by(glm::dvec3& place, const glm::dvec3& local_m) {
-    const double sine = std::sin(rad_from_deg(place.x));
-    const double share = 1.0 - wgs84.e2() * sine * sine;
-    const double across_m = wgs84.semi_major_m / std::sqrt(share) + place.z;
-    const double along_m =
-        wgs84.semi_major_m * (1.0 - wgs84.e2()) / (share * std::sqrt(share)) + place.z;
-    place.y += deg_from_rad(local_m.x / (across_m * std::cos(rad_from_deg(place.x))));
-    place.x -= deg_from_rad(local_m.z / along_m);
-    place.z += local_m.y;
+    const Geodetic moved = moved_by(
+        {rad_from_deg(place.x), rad_from_deg(place.y), place.z},
+        {-local_m.z, local_m.x, -local_m.y},
+        wgs84);
+    place = {deg_from_rad(moved.latitude_rad), deg_from_rad(moved.longitude_rad), moved.height_m};
 }
 
 } // namespace
@@ -154,10 +154,11 @@ void XPlanePose::take_group(std::int32_t group, const WireReader& row) {
     }
 }
 
-void XPlanePose::take_answer(std::int32_t number, float value) {
+/// Returns whether the number is one of xplane_requests().
+bool XPlanePose::take_answer(std::int32_t number, float value) {
     if (number < first_answer ||
         number >= first_answer + static_cast<std::int32_t>(answer_names.size())) {
-        return;
+        return false;
     }
     const auto which = static_cast<std::size_t>(number - first_answer);
     const auto answer = static_cast<double>(value);
@@ -176,6 +177,7 @@ void XPlanePose::take_answer(std::int32_t number, float value) {
     } else {
         told_.time_s = answer;
     }
+    return true;
 }
 
 Verdict XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
@@ -188,18 +190,20 @@ Verdict XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
     if (size <= head_bytes || (size - head_bytes) % each != 0) {
         return {Fault::WrongSize, is_data ? 0U : 1U, size};
     }
+    bool is_asked_for = false;
     for (std::size_t at = head_bytes; at < size; at += each) {
         const WireReader row(datagram.subspan(at, each), ByteOrder::Little);
         if (is_data) {
             take_group(row.at<std::int32_t>(0), row);
         } else {
-            take_answer(row.at<std::int32_t>(0), row.at<float>(4));
+            is_asked_for = take_answer(row.at<std::int32_t>(0), row.at<float>(4)) || is_asked_for;
         }
     }
     Verdict verdict{
         Fault::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
     if (!told_.place || (!is_data && !is_complete(told_.place))) {
         verdict.fault = Fault::Unused; // Answers to RREF may bring the rest of a place later.
+        verdict.got = is_asked_for ? part_of_answers : verdict.got;
         return verdict;
     }
     for (std::optional<glm::dvec3>* each_vector :
@@ -246,7 +250,10 @@ Fix XPlanePose::complete() {
             glm::dvec3(rad_from_deg(rates.x), rad_from_deg(rates.y), rad_from_deg(rates.z));
     }
     // A clock that stands still is none: senders that are no X-Plane often leave group 1 as it is.
-    if (told_.time_s && last_time_s_ && *told_.time_s > *last_time_s_) {
+    // Later it counts in steps of 1 ms and more, as its single precision has it: too coarse.
+    constexpr double fine_until_s = 8192.0;
+    if (told_.time_s && last_time_s_ && *told_.time_s > *last_time_s_ &&
+        *told_.time_s < fine_until_s) {
         fix.sent_s = told_.time_s;
     }
     last_time_s_ = told_.time_s;
@@ -362,7 +369,11 @@ std::string xplane_text(const Verdict& verdict) {
                    ? "X-Plane DATA without group 20 (latitude and longitude): waits for that one; "
                      "groups "
                      "3, 17, 18, 20 and 21 are read"
-                   : "X-Plane RREF without the places that --xplane asks for: nothing moves by it";
+               : verdict.got == part_of_answers
+                   ? "X-Plane RREF: a part of the answers; waits for latitude, longitude and "
+                     "elevation"
+                   : "X-Plane RREF lacks latitude, longitude and elevation under our request "
+                     "numbers; start listen with --xplane HOST";
     case Fault::WrongSize:
         return fmt::format(
             "X-Plane {}: expected 5 bytes and {} for each {}, got {}",

@@ -30,7 +30,7 @@ public:
 
 private:
     void take_group(std::int32_t group, const WireReader& row);
-    void take_answer(std::int32_t number, float value);
+    bool take_answer(std::int32_t number, float value);
     Fix complete();
     void smooth(Fix& fix);
 

@@ -45,7 +45,10 @@ base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
              {"packets", form.packets},
              {"refused", form.is_wrong}});
     }
-    return {{"vehicles", std::move(vehicles)}, {"packets", std::move(packets)}};
+    return {
+        {"vehicles", std::move(vehicles)},
+        {"packets", std::move(packets)},
+        {"packets_untold", traffic.counts().untold}};
 }
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
@@ -167,6 +170,11 @@ void listen_without_window(const ListenOptions& options) {
                     sim::links::text_of(form.source),
                     form.text));
         }
+    }
+    if (const long untold = run.traffic().counts().untold; untold > 0) {
+        base::say(
+            options.quiet,
+            fmt::format("note: {} packets more, of too many kinds to tell each", untold));
     }
     print_summary(end, std::nullopt, options.json, figures_of(run.traffic()));
     if (!end.fault.empty()) {

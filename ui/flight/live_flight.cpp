@@ -43,7 +43,8 @@ LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
           [this](const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
               return place_.world_from(key, fix);
           },
-          &cigi_ground_) {}
+          &cigi_ground_,
+          ellipsoid_below(world.ground_place)) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
     of_vehicles_.resize(states.size());
@@ -162,7 +163,9 @@ void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
         return static_cast<int>(now.*count - counted_.*count);
     };
     record.packets = since(&sim::links::TrafficCounts::accepted);
-    record.packets_lost = since(&sim::links::TrafficCounts::lost);
+    if (now.lost) {
+        record.packets_lost = static_cast<double>(*now.lost - counted_.lost.value_or(0));
+    }
     record.packets_late = since(&sim::links::TrafficCounts::late);
     record.packets_wrong = since(&sim::links::TrafficCounts::wrong);
     counted_ = now;

@@ -29,7 +29,9 @@ Rows ClockTally::rows() const {
 void LinkTally::add(const FrameRecord& record) {
     ++frames_;
     packets_ += record.packets;
-    lost_ += record.packets_lost;
+    if (std::isfinite(record.packets_lost)) {
+        lost_ = lost_.value_or(0) + std::lround(record.packets_lost);
+    }
     late_ += record.packets_late;
     wrong_ += record.packets_wrong;
     stale_ += record.stale;
@@ -64,7 +66,12 @@ Rows LinkTally::rows() const {
     }
     const Rows of_packets{
         {"packets taken, lost, late, wrong",
-         fmt::format("{}, {}, {}, {}", packets_, lost_, late_, wrong_)},
+         fmt::format(
+             "{}, {}, {}, {}",
+             packets_,
+             lost_ ? fmt::format("{}", *lost_) : "unknown",
+             late_,
+             wrong_)},
         {"frames with an aircraft that stood for want of packets",
          fmt::format("{} of {}", stale_, frames_)},
         {"jitter of packets, mean",

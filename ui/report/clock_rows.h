@@ -4,6 +4,8 @@
 #include "ui/report/frame_times.h"
 #include "ui/report/run_file.h"
 
+#include <optional>
+
 namespace octant::ui::report {
 
 /// How a flight kept up with the clock, without its warm-up frames: latency and missed deadlines.
@@ -30,7 +32,7 @@ public:
 private:
     long frames_ = 0;
     long packets_ = 0;
-    long lost_ = 0;
+    std::optional<long> lost_; ///< nothing where no sender numbers its packets
     long late_ = 0;
     long wrong_ = 0;
     long stale_ = 0;

@@ -116,7 +116,7 @@ constexpr std::array frame_columns{
     column<&R::mesh_wait_ms>("mesh_wait_ms", Kind::Number, milliseconds),
     column<&R::draw_wait_ms>("draw_wait_ms", Kind::Number, milliseconds),
     column<&R::packets>("packets"),
-    column<&R::packets_lost>("packets_lost"),
+    column<&R::packets_lost>("packets_lost", Kind::MayBeEmpty),
     column<&R::packets_late>("packets_late"),
     column<&R::packets_wrong>("packets_wrong"),
     column<&R::stale>("stale"),

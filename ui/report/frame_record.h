@@ -65,15 +65,16 @@ struct FrameRecord {
     double refine_ms = 0.0;   ///< of plan_ms: placing the aircraft and refining their meshes
     int aircraft_level = 0;   ///< level of detail of the first aircraft, 0 = the finest
     // Of motion from outside, since the frame before:
-    int packets = 0;        ///< that moved something
-    int packets_lost = 0;   ///< as the senders' clocks say
+    int packets = 0; ///< that moved something
+    /// As the senders' numbers of packets say; not finite where packets bear none.
+    double packets_lost = std::numeric_limits<double>::quiet_NaN();
     int packets_late = 0;   ///< dropped
     int packets_wrong = 0;  ///< that were none of the protocol's
     int stale = 0;          ///< 1 when an aircraft stands for want of packets
     double jitter_ms = 0.0; ///< how much later than the quickest packets come, mean
     int host_frame = -1;    ///< of the CIGI host whose frame the picture shows; -1 = none
-    /// To image generators: how many host frames the one that is the furthest behind is behind; -1 =
-    /// none.
+    /// To image generators: how many host frames the one that is the furthest behind is behind; -1
+    /// = none.
     int skew_frames = -1;
     int missed = 0; ///< by the clock: 1 when the picture came later than the next one was due
     /// Over the states of all aircraft at every step up to this picture.

@@ -42,18 +42,24 @@ settings::RunSettings with_sun_followed(
     return with_sun_of_time(std::move(settings), place);
 }
 
-std::optional<std::string>
-note_of_night(const settings::RunSettings& settings, const Place& place) {
+std::vector<std::string> notes_of_sun(const settings::RunSettings& settings, const Place& place) {
+    std::vector<std::string> notes;
     const auto sun = sun_of(settings.air, place);
-    if (!sun || sun->elevation_deg >= 0.0) {
-        return std::nullopt;
+    if (const Ellipsoid below = ellipsoid_below(place); sun && !below.is_earth()) {
+        notes.push_back(fmt::format(
+            "--time {}: the sun stands as over the earth at this latitude and date, not as over {}",
+            *settings.air.time,
+            name_of_body(below)));
     }
-    return fmt::format(
-        "--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is shown on "
-        "the horizon",
-        *settings.air.time,
-        -sun->elevation_deg,
-        latitude_of(place));
+    if (sun && sun->elevation_deg < 0.0) {
+        notes.push_back(fmt::format(
+            "--time {}: the sun is {:.0f} degrees below the horizon at latitude {:.1f}; it is "
+            "shown on the horizon",
+            *settings.air.time,
+            -sun->elevation_deg,
+            latitude_of(place)));
+    }
+    return notes;
 }
 
 } // namespace octant::ui::world

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace octant::ui::world {
 
@@ -25,8 +26,9 @@ settings::RunSettings with_sun_followed(
     const settings::RunSettings& before,
     const std::optional<GeoPlace>& place);
 
-/// What a person should be told where the sun of the settings' time is below the horizon.
-std::optional<std::string>
-note_of_night(const settings::RunSettings& settings, const std::optional<GeoPlace>& place);
+/// What a person should be told of the sun of the settings' time: that it is the earth's, over
+/// another planet, and that it is below the horizon.
+std::vector<std::string>
+notes_of_sun(const settings::RunSettings& settings, const std::optional<GeoPlace>& place);
 
 } // namespace octant::ui::world

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <future>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -307,9 +308,7 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
     world.ground_frame = ground.frame;
-    if (auto night = note_of_night(settings, ground.place)) {
-        world.notes.push_back(std::move(*night));
-    }
+    std::ranges::move(notes_of_sun(settings, ground.place), std::back_inserter(world.notes));
     world.points = fixed_points(settings, world);
     if (settings.view.kind == scene::View::Free) {
         const glm::dvec3& eye_m = world.points.free_eye_m;

@@ -121,7 +121,62 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
     }
     CHECK(traffic.vehicles().empty());
     CHECK(traffic.counts().accepted == 0);
-    CHECK(traffic.take_news().size() <= 50);
+    CHECK(traffic.take_news().size() <= 1600); // 200 for each fault
+    CHECK(traffic.packet_reports().size() <= 1600);
+}
+
+TEST_CASE("garbage of many kinds does not hide what another sender is, and all of it is counted") {
+    LiveTraffic traffic(flat);
+    const auto take = [&](Protocol protocol, Source source, std::vector<std::byte> bytes) {
+        traffic.take({protocol, source, 0.0, std::move(bytes)});
+    };
+    const auto garbage = [&](Source source) {
+        for (std::uint8_t i = 0; i < 200; ++i) {
+            take(Protocol::Fdm, source, std::vector<std::byte>(i + 1U, std::byte{0xee}));
+            std::vector<std::byte> message(12);
+            message[0] = std::byte{0xfd}; // MAVLink of another kind each time
+            message[8] = std::byte{i};
+            message[9] = std::byte{1};
+            take(Protocol::MavLink, source, message);
+            std::vector<std::byte> pdu(12);
+            pdu[0] = std::byte{static_cast<std::uint8_t>(i + 8)}; // a version of DIS
+            take(Protocol::Dis, source, pdu);
+        }
+    };
+    std::vector<std::byte> cigi_4(24);
+    cigi_4[1] = std::byte{24};
+    cigi_4[4] = std::byte{4};
+    const auto told_of_cigi_4 = [&](Source source) {
+        traffic.take_news();
+        take(Protocol::Cigi, source, cigi_4);
+        const auto news = traffic.take_news();
+        return news.size() == 1 && news[0].find("CIGI 4 host, which") != std::string::npos;
+    };
+    garbage({1, 1});
+    CHECK(traffic.packet_reports().size() < 40);
+    CHECK(told_of_cigi_4({2, 1}));
+    for (std::uint16_t port = 2; port < 150; ++port) {
+        garbage({1, port});
+    }
+    CHECK(told_of_cigi_4({3, 1}));
+    long counted = traffic.counts().untold;
+    for (const PacketReport& report : traffic.packet_reports()) {
+        counted += report.packets;
+    }
+    CHECK(counted == 149 * 600 + 2);
+}
+
+TEST_CASE("DIS over another planet is told once to count from the centre of the earth") {
+    LiveTraffic traffic(flat, nullptr, Ellipsoid{1737400.0, 0.0});
+    for (int i = 0; i < 2; ++i) {
+        const auto bytes = encode_dis({}, 0.1 * i);
+        traffic.take({Protocol::Dis, {1, 3000}, 0.1 * i, {bytes.begin(), bytes.end()}});
+    }
+    const auto news = traffic.take_news();
+    REQUIRE(news.size() == 2);
+    CHECK(news[0].find("WGS 84") != std::string::npos);
+    CHECK(news[0].find("on the Moon") != std::string::npos);
+    CHECK(news[1].find("entity state of 144 bytes: fine") != std::string::npos);
 }
 
 TEST_CASE(

@@ -69,6 +69,8 @@ TEST_CASE("the heartbeat that ArduPilot's pages show is read") {
     CHECK(parse.length == bytes.size());
     CHECK(parse.frame->kind == MavLinkKind::Heartbeat);
     CHECK(parse.frame->system == 1);
+    CHECK(parse.sequence == 0x4E);
+    CHECK(parse.component == 1);
     CHECK_FALSE(MavLinkPose().take(*parse.frame).has_value());
 }
 
@@ -105,6 +107,16 @@ TEST_CASE("attitudes carry on the position of the last GLOBAL_POSITION_INT") {
     CHECK(fix->altitude_m == Approx(500.5));
     CHECK((fix->latitude_deg - 47.0) * 111195.0 == Approx(10.0).epsilon(0.01)); // 20 m/s, 0.5 s
     CHECK(*fix->sent_s == Approx(1.5));
+}
+
+TEST_CASE("attitudes carry a position on over the ellipsoid of the ground") {
+    // 20 m/s north for half a second over the Moon, a sphere of 1,737.4 km: 30,323.3 m a degree.
+    MavLinkPose pose;
+    pose.take(position(1000, 47.0, 8.0, 0.0));
+    const auto fix = pose.take(
+        attitude(1500, 0.0F, 0.0F, 0.0F), Ellipsoid{.semi_major_m = 1737400.0, .flattening = 0.0});
+    REQUIRE(fix.has_value());
+    CHECK((fix->latitude_deg - 47.0) * 30323.3 == Approx(10.0).epsilon(1e-4));
 }
 
 TEST_CASE("an autopilot that does not know yet where it is is nowhere") {

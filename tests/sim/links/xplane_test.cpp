@@ -116,6 +116,11 @@ TEST_CASE("the clock of group 1 counts while it runs") {
     CHECK(at(5.5F) == 5.5);
     CHECK_FALSE(at(5.5F));
     CHECK_FALSE(at(1.0F));
+    // In single precision 8192 and the number after it are 0.98 ms apart.
+    CHECK_FALSE(at(20000.0F));
+    CHECK_FALSE(at(8191.0F));
+    CHECK(at(8191.5F) == 8191.5);
+    CHECK_FALSE(at(8192.0F));
 }
 
 TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
@@ -175,13 +180,22 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
     }
     XPlanePose pose;
     std::optional<Fix> fix;
-    CHECK(pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix).fault == Fault::Unused);
+    const Verdict verdict = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
+    CHECK(verdict.fault == Fault::Unused);
+    CHECK(
+        xplane_text(verdict) ==
+        "X-Plane RREF lacks latitude, longitude and elevation under our request numbers; start "
+        "listen with --xplane HOST");
 }
 
 TEST_CASE("answers that bring a place in parts give no place before all parts are there") {
     XPlanePose pose;
     std::optional<Fix> fix;
-    CHECK(pose.take(packet("RREF,", {{7001, {47.25F}}}), fix).fault == Fault::Unused);
+    const Verdict part = pose.take(packet("RREF,", {{7001, {47.25F}}}), fix);
+    CHECK(part.fault == Fault::Unused);
+    CHECK(
+        xplane_text(part) ==
+        "X-Plane RREF: a part of the answers; waits for latitude, longitude and elevation");
     CHECK(
         pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == Fault::Unused);
     CHECK_FALSE(fix);

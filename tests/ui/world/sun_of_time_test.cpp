@@ -11,12 +11,16 @@ TEST_CASE("a time sets the sun by the map's latitude, a night on the horizon wit
     const RunSettings north = ui::world::with_sun_of_time(settings, GeoPlace{60.0, 10.0});
     CHECK(north.air.sun_elevation_deg == Approx(90.0 - 60.0 + 23.45).margin(0.1));
     CHECK(north.air.sun_azimuth_deg == Approx(180.0));
-    CHECK_FALSE(ui::world::note_of_night(settings, GeoPlace{60.0, 10.0}));
+    CHECK(ui::world::notes_of_sun(settings, GeoPlace{60.0, 10.0}).empty());
+    CHECK(
+        ui::world::notes_of_sun(settings, GeoPlace{60.0, 10.0, {3396190.0, 1.0 / 169.9}}) ==
+        std::vector<std::string>{"--time 2024-06-21T12:00: the sun stands as over the earth at "
+                                 "this latitude and date, not as over Mars"});
     const RunSettings nowhere = ui::world::with_sun_of_time(settings, {});
     CHECK(nowhere.air.sun_elevation_deg == Approx(45.0 + 23.45).margin(0.1));
     settings.air.time = "2024-12-21T00:00";
     CHECK(ui::world::with_sun_of_time(settings, {}).air.sun_elevation_deg == 0.0);
-    CHECK(ui::world::note_of_night(settings, {}));
+    CHECK(ui::world::notes_of_sun(settings, {}).size() == 1);
 }
 
 TEST_CASE("without a time the sun stays where it was put") {
