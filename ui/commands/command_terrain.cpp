@@ -151,8 +151,8 @@ Command info_command() {
     Command command{
         .name = "info",
         .summary =
-            "Shows size, heights, slopes, voids and place of a terrain, how far its system is "
-            "from true and its heights from the file's",
+            "Shows size, heights, slopes, voids and place of a terrain, errors of the map "
+            "projection, and differences between the loaded heights and the file's",
         .options =
             {required(text_option(
                  "terrain",
