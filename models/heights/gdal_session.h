@@ -10,10 +10,10 @@ namespace octant::models::heights {
 
 /// While one lives, GDAL on this thread keeps off the network and remembers the first error and the
 /// warnings it meets. GDAL begins no threads of its own then, so that each warning belongs to the
-/// session whose work it is about. Neither GDAL nor a library below it (HDF5, PROJ, libpng, libtiff)
-/// prints on any thread. Side files of maps (.aux.xml) are read; none is written, because datasets
-/// are opened for reading only, nothing is set in them and no statistics or histograms are asked
-/// for. Not to be nested.
+/// session whose work it is about. Neither GDAL nor a library below it (HDF5, PROJ, libpng,
+/// libtiff) prints on any thread. Side files of maps (.aux.xml) are read; none is written, because
+/// datasets are opened for reading only, nothing is set in them and no statistics or histograms are
+/// asked for. Not to be nested.
 class GdalSession {
 public:
     GdalSession();

@@ -50,6 +50,19 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+/// The words of a band's name, in which a capital letter may begin a word, too: heightError.
+std::vector<std::string> words_of_name(std::string_view name) {
+    std::string parted;
+    for (const char c : name) {
+        const bool begins = !parted.empty() &&
+                            std::islower(static_cast<unsigned char>(parted.back())) != 0 &&
+                            std::isupper(static_cast<unsigned char>(c)) != 0;
+        parted += begins ? " " : "";
+        parted += c;
+    }
+    return words_of(parted);
+}
+
 bool is_unspecified(std::string_view unit) {
     constexpr std::array<std::string_view, 8> words = {
         "", "unspecified", "unknown", "none", "na", "n a", "undefined", "not specified"};
@@ -264,18 +277,17 @@ GDALColorInterp colour_of(GDALDatasetH dataset, int number) {
     return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, number));
 }
 
-/// Whether words of a band's name say that it tells something about heights, such as their error, or
-/// holds heights of other things than the ground, such as of trees.
+/// Whether words of a band's name say that it tells something about heights, such as their error,
+/// or holds heights of other things than the ground, such as of trees.
 bool says_no_heights(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 46> others = {
-        "error",     "errors",     "err",        "std",         "stdev",     "stddev",
-        "sd",        "deviation",  "sigma",      "rms",         "rmse",      "uncertainty",
-        "unc",       "variance",   "var",        "precision",   "accuracy",  "confidence",
-        "quality",   "qa",         "count",      "counts",      "num",       "number",
-        "mask",      "flag",       "flags",      "slope",       "aspect",    "hillshade",
-        "shade",     "curvature",  "roughness",  "gradient",    "canopy",    "vegetation",
-        "tree",      "trees",      "geoid",      "undulation",  "wave",      "waves",
-        "cloud",     "snow",       "change",     "difference"};
+        "error",      "errors",    "err",      "std",        "stdev",       "stddev",   "sd",
+        "deviation",  "sigma",     "rms",      "rmse",       "uncertainty", "unc",      "variance",
+        "var",        "precision", "accuracy", "confidence", "quality",     "qa",       "count",
+        "counts",     "num",       "number",   "mask",       "flag",        "flags",    "slope",
+        "aspect",     "hillshade", "shade",    "curvature",  "roughness",   "gradient", "canopy",
+        "vegetation", "tree",      "trees",    "geoid",      "undulation",  "wave",     "waves",
+        "cloud",      "snow",      "change",   "difference"};
     const auto end = std::ranges::find(words, "above"); // what heights count from is no matter
     return std::any_of(words.begin(), end, [&](const std::string& word) {
         return std::ranges::find(others, word) != others.end();
@@ -296,7 +308,7 @@ std::vector<int> bands_named_heights(GDALDatasetH dataset) {
 /// The first band whose name does not say that it holds no heights; the first where all do.
 int first_other_band(GDALDatasetH dataset) {
     for (int number = 1; number <= GDALGetRasterCount(dataset); ++number) {
-        if (!says_no_heights(words_of(name_of(dataset, number)))) {
+        if (!says_no_heights(words_of_name(name_of(dataset, number)))) {
             return number;
         }
     }
@@ -382,7 +394,7 @@ bool is_name_of_heights(std::string_view name) {
         "terrain",
         "bathymetry",
         "hgt"};
-    const std::vector<std::string> words = words_of(name);
+    const std::vector<std::string> words = words_of_name(name);
     return !says_no_heights(words) && std::ranges::any_of(words, [&](const std::string& word) {
         return std::ranges::find(heights, word) != heights.end();
     });

@@ -392,7 +392,7 @@ void take_text(const path& file, const std::string& driver, OpenRaster& raster) 
             file,
             raster,
             fmt::format(
-                "{} sample{} with a word such as '{}' count as without data",
+                "{} sample{} with a word such as '{}' count as missing",
                 found.samples,
                 found.samples == 1 ? "" : "s",
                 found.word));
@@ -502,7 +502,8 @@ void check_height(
         error_in(
             file,
             fmt::format(
-                "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as missing",
+                "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as "
+                "missing",
                 range_m.x,
                 range_m.y,
                 height_m,

@@ -23,7 +23,7 @@ struct OpenRaster {
     void* mask = nullptr;          ///< GDALRasterBandH that is 0 where there is no data; null: none
     std::optional<double> no_data; ///< raw number, as the file declares it
     std::vector<double> given_voids; ///< raw numbers, as the options have them
-    TextVoids text_voids;             ///< of a text grid
+    TextVoids text_voids;            ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
@@ -90,8 +90,8 @@ void read_raw(
     std::span<double> raw,
     const GdalSession& gdal);
 
-/// Whether a number that a file stores is one that --void names by `mark`: the same, or the same as a
-/// float, because people write fewer digits than a file has.
+/// Whether a number that a file stores is one that --void names by `mark`: the same, or the same as
+/// a float, because people write fewer digits than a file has.
 bool is_same_raw(double raw, double mark);
 
 /// As read_heights, for a raster of whole metres (asserted); void_metres without data.

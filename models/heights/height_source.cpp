@@ -104,7 +104,9 @@ struct HeightSource::Content {
 
     glm::dvec2 metres_of(const glm::dvec2& column_row) const;
     std::string words_of(const glm::dvec2& at_m) const;
+
     double whole_raw(float height_m) const { return std::round(height_m / whole_unit_m); }
+
     std::vector<StoredSample> samples_of(const Spike& spike) const;
     std::int64_t count_of(std::span<const double> numbers) const;
     std::string cure_of(std::span<const StoredSample> samples) const;
@@ -354,7 +356,8 @@ void HeightSource::Content::add_seams(std::vector<MapNote>& notes) const {
                 metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
         }
         note.text = fmt::format(
-            "{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the slope "
+            "{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
+            "slope "
             "on both sides, at {}. To avoid the step, load only one of the two files",
             seam.a->file.filename().string(),
             seam.b->file.filename().string(),

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double relief_at_1_m = 20.0;
 constexpr double relief_exponent = 0.58;
-constexpr float pit_share = 0.6F; ///< of that relief, for pits
-constexpr int sharp_reach = 4;    ///< the widest ring for which that relief itself is the limit
+constexpr float pit_share = 0.6F;   ///< of that relief, for pits
+constexpr int sharp_reach = 4;      ///< the widest ring for which that relief itself is the limit
 constexpr double wide_factor = 3.0; ///< for wider rings: mesas and stacks are as wide
 /// The share of a ring that has heights, at least, of its samples within the map.
 constexpr double ring_share = 0.6;

@@ -20,12 +20,12 @@ struct Spike {
 };
 
 /// Finds spikes and pits while the rows of a ground are read from the south to the north. A sample
-/// counts if it exceeds everything in a ring of samples around it, 1 to 8 samples away, by more than
-/// the relief that the earth's steepest single peaks have over that distance:
-/// 20 m * (distance / 1 m)^0.58, which is 144 m at 30 m and 1,100 m at 1 km; by three times that for
-/// rings of 5 samples and more, and by 60 % for pits. That it is beyond all samples in a ring tells it from the rim of a cliff. At the map's border the
-/// ring is the part within the map; 60 % of that must have heights. Samples of one sign that lie
-/// closer together than 8 samples are one spike.
+/// counts if it exceeds everything in a ring of samples around it, 1 to 8 samples away, by more
+/// than the relief that the earth's steepest single peaks have over that distance: 20 m * (distance
+/// / 1 m)^0.58, which is 144 m at 30 m and 1,100 m at 1 km; by three times that for rings of 5
+/// samples and more, and by 60 % for pits. That it is beyond all samples in a ring tells it from
+/// the rim of a cliff. At the map's border the ring is the part within the map; 60 % of that must
+/// have heights. Samples of one sign that lie closer together than 8 samples are one spike.
 class SpikeFinder {
 public:
     /// The longest list that is kept; more spikes are only counted.
@@ -74,9 +74,9 @@ struct SeamStep {
 /// The seams between files at which heights step. The step is measured at up to 1,024 points of a
 /// seam between the outermost samples of both files, less the mean slope beside them. A seam counts
 /// if the median of it is at least 1 m, 1 % of a cell and six times its standard error: rugged
-/// ground has large steps of both signs, whose median is small. The grids look from one frame and are in the order in which they
-/// count where they overlap. `cell_m`: side of the finest cells. Throws Error for what cannot be
-/// read.
+/// ground has large steps of both signs, whose median is small. The grids look from one frame and
+/// are in the order in which they count where they overlap. `cell_m`: side of the finest cells.
+/// Throws Error for what cannot be read.
 std::vector<SeamStep>
 steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal);
 

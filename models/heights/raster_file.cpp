@@ -90,7 +90,13 @@ Dataset open_named(const std::string& name) {
     if (Dataset grid = open_grid_that_begins_with_word(name)) {
         return grid;
     }
-    return Dataset(GDALOpenEx(name.c_str(), open_flags, nullptr, nullptr, nullptr));
+    // Else SQLite writes files beside a GeoPackage while it is open. What others have written
+    // beside it belongs to it.
+    constexpr std::array<const char*, 2> immutable = {"@IMMUTABLE=YES", nullptr};
+    std::error_code code;
+    const bool has_log = std::filesystem::exists(name + "-wal", code);
+    return Dataset(GDALOpenEx(
+        name.c_str(), open_flags, nullptr, has_log ? nullptr : immutable.data(), nullptr));
 }
 
 /// The name of a variable at the end of a sub-dataset's: height of NETCDF:"a.nc":height.
@@ -239,8 +245,20 @@ std::uintmax_t bytes_of_label(GDALDatasetH dataset) {
 /// Whether a format has its heights as plain numbers one after the other.
 bool is_plain(std::string_view driver, const path& file) {
     constexpr std::array<std::string_view, 14> plain = {
-        "EHdr", "ENVI", "ISIS2", "ISIS3", "PDS", "PDS4", "VICAR",
-        "GSBG", "GS7BG", "BT",   "SAGA",  "RST", "ERS",  "PNM"};
+        "EHdr",
+        "ENVI",
+        "ISIS2",
+        "ISIS3",
+        "PDS",
+        "PDS4",
+        "VICAR",
+        "GSBG",
+        "GS7BG",
+        "BT",
+        "SAGA",
+        "RST",
+        "ERS",
+        "PNM"};
     constexpr std::string_view classic_netcdf = "CDF";
     return std::ranges::find(plain, driver) != plain.end() ||
            (driver == "netCDF" && FileHeader(file).begins_with(classic_netcdf));
@@ -253,7 +271,8 @@ std::uintmax_t end_of_tiff(FileHeader& header) {
     const std::size_t wide = is_big ? 8 : 4;
     const std::uintmax_t begin = header.number(is_big ? 8 : 4, wide, low_first);
     const std::uintmax_t entries = header.number(begin, is_big ? 8 : 2, low_first);
-    return begin == 0 ? 2 * wide : header.end(begin, (is_big ? 16 : 6) + (is_big ? 20 : 12) * entries);
+    return begin == 0 ? 2 * wide
+                      : header.end(begin, (is_big ? 16 : 6) + (is_big ? 20 : 12) * entries);
 }
 
 /// Where the last of the chunks of a PNG file ends.
@@ -307,6 +326,9 @@ std::uintmax_t bytes_by_header(FileHeader& header) {
     if (header.begins_with("\x89HDF\r\n\x1a\n"sv)) {
         return header.number(header.number(8, 1, true) < 2 ? 40 : 28, 8, true);
     }
+    if (header.begins_with("GRIB") && header.number(7, 1, false) == 2) { // its first message
+        return header.number(8, 8, false);
+    }
     if (header.begins_with("SQLite format 3\0"sv)) { // GeoPackage
         const std::uintmax_t page = header.number(16, 2, false);
         const bool is_valid = header.number(24, 4, false) == header.number(92, 4, false);
@@ -314,7 +336,8 @@ std::uintmax_t bytes_by_header(FileHeader& header) {
     }
     if (header.begins_with("EHFA_HEADER_TAG\0"sv)) { // Erdas Imagine: root and dictionary
         const std::uintmax_t at = header.number(16, 4, true);
-        return 1 + std::max({at + 17, header.number(at + 8, 4, true), header.number(at + 14, 4, true)});
+        return 1 +
+               std::max({at + 17, header.number(at + 8, 4, true), header.number(at + 14, 4, true)});
     }
     return 0;
 }

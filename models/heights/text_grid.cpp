@@ -58,8 +58,8 @@ public:
     WordFile(WordFile&&) = delete;
     WordFile& operator=(WordFile&&) = delete;
 
-    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that is
-    /// too long for a number.
+    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that
+    /// is too long for a number.
     std::optional<std::string_view> next() {
         word_.clear();
         line_of_word_ = line_;
@@ -211,12 +211,11 @@ bool begins_with_key(const path& file) {
     return !word.empty() && is_key(word);
 }
 
-/// A file of GDAL's in memory that reads as another file, in which `zeros` bytes from `begin` on are
-/// the digit 0. It exists while this object lives.
+/// A file of GDAL's in memory that reads as another file, in which `zeros` bytes from `begin` on
+/// are the digit 0. It exists while this object lives.
 class FileWithZeros {
 public:
-    FileWithZeros(
-        const std::string& name, const path& file, std::uint64_t begin, std::size_t zeros)
+    FileWithZeros(const std::string& name, const path& file, std::uint64_t begin, std::size_t zeros)
         : name_(name) {
         VSIStatBufL status;
         if (VSIStatL(file.c_str(), &status) != 0) {
@@ -420,7 +419,11 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     const FileWithZeros side(name.string() + ".aux.xml", file.string() + ".aux.xml", 0, 0);
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     const std::string sparse = "/vsisparse/" + name.string();
-    return Dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
+    Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
+    if (!dataset) {
+        error_unreadable(file, "a height field", "a header without size, place or cells");
+    }
+    return dataset;
 }
 
 bool is_text_grid(const std::string& driver) {

@@ -36,8 +36,7 @@ bool UndeclaredVoids::has(double raw) const {
 std::string raw_text(double raw) {
     constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
     const float single = std::abs(raw) <= largest ? static_cast<float>(raw) : 0.0F;
-    return static_cast<double>(single) == raw ? fmt::format("{}", single)
-                                              : fmt::format("{}", raw);
+    return static_cast<double>(single) == raw ? fmt::format("{}", single) : fmt::format("{}", raw);
 }
 
 bool is_usual_void(double raw) {
@@ -106,8 +105,10 @@ UndeclaredVoids VoidSurvey::result() const {
     const double far_m = std::max(1000.0, 0.5 * range_m);
     UndeclaredVoids voids;
     std::string counts;
+    bool may_be_heights = false;
     const auto take = [&](const Mark& mark) {
         voids.values.push_back(mark.raw);
+        may_be_heights |= mark.height_m >= lowest_m_ && mark.height_m <= highest_m_;
         counts += fmt::format(
             "{}{} of {}",
             counts.empty() ? "" : ", ",
@@ -144,9 +145,9 @@ UndeclaredVoids VoidSurvey::result() const {
     }
     if (!counts.empty()) {
         voids.note = fmt::format(
-            "{} count as missing, though the file does not say so: --void none takes them for "
-            "heights",
-            counts);
+            "{} count as missing, though the file does not say so{}",
+            counts,
+            may_be_heights ? "; --void none takes them for heights" : "");
     }
     return voids;
 }

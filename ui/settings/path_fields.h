@@ -17,12 +17,14 @@ inline constexpr std::array<std::string_view, 4> built_in_terrains{
 inline constexpr FieldInfo void_info{
     "void",
     "V,...|none",
-    "stored numbers meaning 'no data', in addition to the file's own; none: no number does, or only "
+    "stored numbers meaning 'no data', in addition to the file's own; none: no number does, or "
+    "only "
     "those that follow [common ones are recognised and noted]"};
 inline constexpr FieldInfo band_info{
     "band",
     "N|NAME",
-    "band that holds heights, or terrarium, mapbox for heights encoded in RGB [detected and noted]"};
+    "band that holds heights, or terrarium, mapbox for heights encoded in RGB [detected and "
+    "noted]"};
 
 /// Settings of the group Path. Which path, aircraft and ground.
 inline constexpr std::tuple path_rows{

@@ -189,8 +189,7 @@ void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adap
     adapt = read;
 }
 
-void read_setting(
-    const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids) {
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids) {
     models::heights::VoidMarks read;
     for (const std::string_view word : split_fields(text, ',')) {
         const auto number = finite_number(word);

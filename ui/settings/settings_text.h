@@ -54,8 +54,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
 void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
-void read_setting(
-    const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids);
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids);
 
 /// Throws Error "NAME: expected ..., got ..." for a number that `info.one_of` does not list.
 void check_listed(const FieldInfo& info, int value);

@@ -196,7 +196,8 @@ TEST_CASE("a note of a needle says how many samples have its number") {
     value_at(raster, 20, 40) = 4000.0;
     const std::vector<MapNote> notes = read_written(raster).notes;
     REQUIRE(notes.size() == 1);
-    CHECK(has(notes.front().text, "--void 4000 treats every sample of that value as missing (61 in"));
+    CHECK(
+        has(notes.front().text, "--void 4000 treats every sample of that value as missing (61 in"));
 }
 
 TEST_CASE("a spike of several samples is one note, which cures all of it") {
@@ -208,7 +209,8 @@ TEST_CASE("a spike of several samples is one note, which cures all of it") {
             RasterFile raster = metric_hills();
             raster.type = GDT_Float32;
             for (int i = 0; i < size * size; ++i) {
-                value_at(raster, 25 + i % size, 20 + i / size) = 6000.0 + (is_rough ? 7 * i % 11 : 0);
+                value_at(raster, 25 + i % size, 20 + i / size) =
+                    6000.0 + (is_rough ? 7 * i % 11 : 0);
             }
             const auto path = scratch_file("doubt.tif");
             write_raster(path, "GTiff", raster);
@@ -216,8 +218,7 @@ TEST_CASE("a spike of several samples is one note, which cures all of it") {
             CAPTURE(size, is_rough);
             REQUIRE(notes.size() == 1);
             INFO(notes.front().text);
-            CHECK(has(
-                notes.front().text, fmt::format(": {} samples are up to 60", size * size)));
+            CHECK(has(notes.front().text, fmt::format(": {} samples are up to 60", size * size)));
             const HeightField cured = read_height_field(path, options_of(notes.front()));
             CHECK(cured.notes.empty());
             CHECK(cured.filled_voids == size * size);
@@ -337,23 +338,23 @@ TEST_CASE("a step of a few metres in rugged ground is told, and none where there
         random = random * 1664525U + 1013904223U;
         const double part = static_cast<double>(random >> 8U) / 16777216.0 - 0.5;
         const double west_m = i % 200 > 0 ? whole.values.back() : 1500.0;
-        const double north_m =
-            i >= 200 ? whole.values[static_cast<std::size_t>(i) - 200] : 1500.0;
+        const double north_m = i >= 200 ? whole.values[static_cast<std::size_t>(i) - 200] : 1500.0;
         whole.values.push_back(0.5 * (west_m + north_m) + 20.0 * part);
     }
     for (const bool is_east : {true, false}) {
         for (const double raised_m : {0.0, 0.5, 7.0, -7.0, 20.0}) {
             RasterFile first = is_east ? cut(whole, 0, 0, 100, 300) : cut(whole, 0, 0, 200, 150);
-            RasterFile other = is_east ? cut(whole, 100, 0, 100, 300) : cut(whole, 0, 150, 200, 150);
+            RasterFile other =
+                is_east ? cut(whole, 100, 0, 100, 300) : cut(whole, 0, 150, 200, 150);
             for (double& value : other.values) {
                 value += raised_m;
             }
             write_raster(scratch_file("first.tif"), "GTiff", first);
             write_raster(scratch_file("other.tif"), "GTiff", other);
-            const auto notes = read_height_field(std::vector{
-                                                     scratch_folder_file("first.tif"),
-                                                     scratch_folder_file("other.tif")})
-                                   .notes;
+            const auto notes =
+                read_height_field(
+                    std::vector{scratch_folder_file("first.tif"), scratch_folder_file("other.tif")})
+                    .notes;
             CAPTURE(is_east, raised_m);
             REQUIRE(notes.size() == (std::abs(raised_m) > 1.0 ? 1 : 0));
             if (!notes.empty()) {
@@ -378,10 +379,10 @@ TEST_CASE("real rugged maps in two tiles: a step of 7 m is told, and none where 
             }
             write_raster(scratch_file("west.tif"), "GTiff", cut(whole, 0, 0, 501, whole.rows));
             write_raster(scratch_file("east.tif"), "GTiff", east);
-            const auto notes = read_height_field(std::vector{
-                                                     scratch_folder_file("west.tif"),
-                                                     scratch_folder_file("east.tif")})
-                                   .notes;
+            const auto notes =
+                read_height_field(
+                    std::vector{scratch_folder_file("west.tif"), scratch_folder_file("east.tif")})
+                    .notes;
             CAPTURE(name, raised_m);
             REQUIRE(notes.size() == (raised_m > 0.0 ? 1 : 0));
             if (!notes.empty()) {

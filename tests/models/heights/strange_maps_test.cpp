@@ -548,7 +548,9 @@ TEST_CASE("a system in feet whose heights name no unit gets a note") {
 TEST_CASE("the band whose name says elevation is taken, and an option takes any") {
     const HeightField field = read_height_field(kept_map("band2-is-elevation.tif"));
     CHECK(height_at(field, 20, 30) == Approx(484.902679443359));
-    CHECK_THAT(notes_text(field), Contains("band 2 (elevation) of 1 (slope), 2 (elevation) is taken for heights"));
+    CHECK_THAT(
+        notes_text(field),
+        Contains("band 2 (elevation) of 1 (slope), 2 (elevation) is taken for heights"));
     ImportOptions options;
     for (const char* const slope : {"1", "slope", "SLOPE"}) {
         options.band = slope;
@@ -631,8 +633,15 @@ TEST_CASE("a band that tells the error of heights or the like is not taken for h
         return read_height_field(file);
     };
     for (const char* const other :
-         {"height_error", "dem_std", "Elevation uncertainty", "slope of DEM", "dem-count",
-          "DSM mask", "canopy_height", "geoid height"}) {
+         {"height_error",
+          "dem_std",
+          "Elevation uncertainty",
+          "slope of DEM",
+          "dem-count",
+          "DSM mask",
+          "canopy_height",
+          "geoid height",
+          "heightError"}) {
         CAPTURE(other);
         CHECK(field_of({other, "height"}).lowest_m() == 100.0F);
         CHECK(field_of({other, "z"}).lowest_m() == 100.0F);
@@ -725,9 +734,18 @@ TEST_CASE("Cesium heightmaps are decoded, compressed or not, and placed by their
 TEST_CASE("reading maps of any format leaves their folder as it is") {
     const path folder = tests::empty_folder("listing");
     const std::vector<std::pair<const char*, const char*>> formats = {
-        {"GTiff", "a.tif"}, {"PNG", "a.png"},   {"HFA", "a.img"},     {"AAIGrid", "b.asc"},
-        {"EHdr", "c.bil"},  {"netCDF", "a.nc"}, {"XYZ", "a.xyz"},     {"ENVI", "d.envi"},
-        {"SAGA", "e.sdat"}, {"RST", "f.rst"},   {"JP2OpenJPEG", "a.jp2"}, {"GPKG", "a.gpkg"}};
+        {"GTiff", "a.tif"},
+        {"PNG", "a.png"},
+        {"HFA", "a.img"},
+        {"AAIGrid", "b.asc"},
+        {"EHdr", "c.bil"},
+        {"netCDF", "a.nc"},
+        {"XYZ", "a.xyz"},
+        {"ENVI", "d.envi"},
+        {"SAGA", "e.sdat"},
+        {"RST", "f.rst"},
+        {"JP2OpenJPEG", "a.jp2"},
+        {"GPKG", "a.gpkg"}};
     for (const auto& [driver, name] : formats) {
         RasterFile raster = metric_hills();
         raster.type = std::string(driver) == "PNG"    ? GDT_UInt16
@@ -753,6 +771,17 @@ TEST_CASE("reading maps of any format leaves their folder as it is") {
         read_height_field(folder / name);
         CHECK(listing() == before);
     }
+    {
+        // A GeoPackage in the mode in which SQLite keeps a log beside it, by two bytes of its
+        // header.
+        std::fstream header(folder / "a.gpkg", std::ios::binary | std::ios::in | std::ios::out);
+        header.seekp(18);
+        header.write("\2\2", 2);
+    }
+    const std::vector<std::string> with_log = listing();
+    const HeightSource source({folder / "a.gpkg"});
+    CHECK(source.count_voids() == 0);
+    CHECK(listing() == with_log); // while it is open
 }
 
 TEST_CASE("a warning belongs to the session of its thread, others are silent") {
