@@ -107,6 +107,7 @@ struct HeightSource::Content {
 
     double whole_raw(float height_m) const { return std::round(height_m / whole_unit_m); }
 
+    std::vector<StoredSample> samples_near(const glm::ivec2& column_row, int radius) const;
     std::vector<StoredSample> samples_of(const Spike& spike) const;
     std::int64_t count_of(std::span<const double> numbers) const;
     std::string cure_of(std::span<const StoredSample> samples) const;
@@ -214,24 +215,23 @@ void HeightSource::Content::for_each_row(const Do& act) const {
     }
 }
 
-/// Samples of the files at a spike and around it, as far as they belong to it.
-std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
+/// Samples of the files at most `radius` columns and rows away from one of the lattice.
+std::vector<StoredSample>
+HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
     std::vector<StoredSample> samples;
     if (whole) {
-        for (int row = spike.row - spike.radius; row <= spike.row + spike.radius; ++row) {
-            for (int column = spike.column - spike.radius; column <= spike.column + spike.radius;
-                 ++column) {
-                if (column >= 0 && row >= 0 && column < whole->columns && row < whole->rows) {
-                    const float height_m = whole->at(column, row);
-                    samples.push_back({whole_raw(height_m), height_m});
-                }
+        const glm::ivec2 first = glm::max(column_row - radius, 0);
+        const glm::ivec2 last =
+            glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
+        for (int row = first.y; row <= last.y; ++row) {
+            for (int column = first.x; column <= last.x; ++column) {
+                const float height_m = whole->at(column, row);
+                samples.push_back({whole_raw(height_m), height_m});
             }
         }
     }
-    // Samples of another lattice lie up to one beside.
-    const int radius = spike.radius + (lattice.is_source ? 0 : 1);
     for (const SourceGrid& grid : grids) {
-        glm::dvec2 at(spike.column, spike.row);
+        glm::dvec2 at(column_row);
         if (!lattice.is_source) {
             at = glm::dvec2(lattice.west, lattice.south) + at * lattice.step;
             grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
@@ -257,14 +257,22 @@ std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) 
         }
     }
     std::erase_if(samples, [](const StoredSample& each) { return std::isnan(each.height_m); });
+    return samples;
+}
+
+/// The samples of the files that make a spike, the furthest from what lies around it first.
+std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
+    // Samples of another lattice than the ground's lie up to one beside.
+    const int radius = spike.radius + (lattice.is_source ? 0 : 1);
+    std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
     const bool is_pit = spike.above_m < 0.0F;
     std::ranges::stable_sort(samples, [is_pit](const StoredSample& a, const StoredSample& b) {
         return is_pit ? a.height_m < b.height_m : a.height_m > b.height_m;
     });
-    // What lies around is below the outermost sample by all of above_m.
-    const float least_m = samples.empty() ? 0.0F : samples.front().height_m - 0.5F * spike.above_m;
-    std::erase_if(samples, [is_pit, least_m](const StoredSample& each) {
-        return is_pit ? each.height_m > least_m : each.height_m < least_m;
+    // What lies around is all of above_m away from the first.
+    const float limit_m = samples.empty() ? 0.0F : samples.front().height_m - 0.5F * spike.above_m;
+    std::erase_if(samples, [is_pit, limit_m](const StoredSample& each) {
+        return is_pit ? each.height_m > limit_m : each.height_m < limit_m;
     });
     return samples;
 }

@@ -22,7 +22,7 @@ constexpr int sharp_reach = 4;      ///< the widest ring for which that relief i
 constexpr double wide_factor = 3.0; ///< for wider rings: mesas and stacks are as wide
 /// The share of a ring that has heights, at least, of its samples within the map.
 constexpr double ring_share = 0.6;
-constexpr int least_ring = 3; ///< samples of a ring with heights, at least
+constexpr int min_ring = 3; ///< samples of a ring with heights, at least
 
 } // namespace
 
@@ -131,7 +131,7 @@ void SpikeFinder::look_at(int column, int row) {
         const float gap_m = is_spike ? height_m - highest_m : lowest_m - height_m;
         const float least_m =
             relief_m_[static_cast<std::size_t>(k)] * (is_spike ? 1.0F : pit_share);
-        if (known >= std::max<double>(least_ring, ring_share * within) && gap_m > least_m) {
+        if (known >= std::max<double>(min_ring, ring_share * within) && gap_m > least_m) {
             add({column, row, height_m, is_spike ? gap_m : -gap_m, k - 1});
             return;
         }

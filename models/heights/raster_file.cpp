@@ -288,6 +288,13 @@ std::uintmax_t end_of_png(FileHeader& header) {
     return at + around;
 }
 
+/// Whether a JPEG or JPEG 2000 file has the mark that ends it. Small additions may follow.
+bool has_end_mark(FileHeader& header) {
+    constexpr std::uintmax_t last = 4096;
+    const std::uintmax_t begin = header.bytes() - std::min(header.bytes(), last);
+    return header.text(begin, last).find("\xff\xd9") != std::string::npos;
+}
+
 /// Where the boxes of a JPEG 2000 file end; a code stream ends with a mark.
 std::uintmax_t end_of_jpeg_2000(FileHeader& header) {
     const bool has_boxes = header.begins_with(std::string_view("\0", 1));
@@ -300,8 +307,7 @@ std::uintmax_t end_of_jpeg_2000(FileHeader& header) {
         }
         at = header.end(at, size);
     }
-    const bool has_mark = header.bytes() > 2 && header.text(header.bytes() - 2, 2) == "\xff\xd9";
-    return at >= header.bytes() || has_mark ? at : header.bytes() + 2;
+    return at >= header.bytes() || has_end_mark(header) ? at : header.bytes() + 2;
 }
 
 /// How many bytes a file must have by its own description; 0 for forms that have none.
@@ -317,11 +323,8 @@ std::uintmax_t bytes_by_header(FileHeader& header) {
     if (header.begins_with("\0\0\0\x0cjP  "sv) || header.begins_with("\xff\x4f\xff\x51"sv)) {
         return end_of_jpeg_2000(header);
     }
-    if (header.begins_with("\xff\xd8\xff"sv)) { // JPEG: a mark ends it, small additions may follow
-        constexpr std::uintmax_t last = 4096;
-        const std::uintmax_t begin = header.bytes() - std::min(header.bytes(), last);
-        const bool has_mark = header.text(begin, last).find("\xff\xd9") != std::string::npos;
-        return has_mark ? 0 : header.bytes() + 2;
+    if (header.begins_with("\xff\xd8\xff"sv)) { // JPEG
+        return has_end_mark(header) ? 0 : header.bytes() + 2;
     }
     if (header.begins_with("\x89HDF\r\n\x1a\n"sv)) {
         return header.number(header.number(8, 1, true) < 2 ? 40 : 28, 8, true);
