@@ -490,9 +490,8 @@ void check_import_size(const path& file, int columns, int rows) {
 }
 
 bool is_same_raw(double raw, double mark) {
-    constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
-    return raw == mark || (std::abs(raw) <= largest && std::abs(mark) <= largest &&
-                           static_cast<float>(raw) == static_cast<float>(mark));
+    constexpr double float_rounding = 0x1p-24; // as people write fewer digits than a file has
+    return std::abs(raw - mark) <= std::abs(mark) * float_rounding;
 }
 
 void check_height(

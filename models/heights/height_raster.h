@@ -90,8 +90,8 @@ void read_raw(
     std::span<double> raw,
     const GdalSession& gdal);
 
-/// Whether a number that a file stores is one that --void names by `mark`: the same, or the same as
-/// a float, because people write fewer digits than a file has.
+/// Whether a number that a file stores is one that --void names by `mark`: the same but for the
+/// rounding of floats.
 bool is_same_raw(double raw, double mark);
 
 /// As read_heights, for a raster of whole metres (asserted); void_metres without data.

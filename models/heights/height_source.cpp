@@ -102,6 +102,8 @@ struct HeightSource::Content {
     void read(int first_row, std::span<float> heights_m);
     std::string name() const;
 
+    bool has_map() const { return !grids.empty() && grids.front().map(); }
+
     glm::dvec2 metres_of(const glm::dvec2& column_row) const;
     std::string words_of(const glm::dvec2& at_m) const;
 
@@ -320,10 +322,24 @@ std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples
 
 void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
     constexpr std::size_t max_told = 3;
+    constexpr std::size_t min_steep = 30; // so many are rather a wrong width of cells
     std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
     std::ranges::stable_sort(found, [](const Spike& a, const Spike& b) {
         return std::abs(a.above_m) > std::abs(b.above_m);
     });
+    if (found.size() >= min_steep && !lattice.frame) {
+        MapNote note{fmt::format(
+            "{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
+            name(),
+            spikes->count(),
+            spacing_m,
+            has_map() ? "" : ": --terrain-spacing says how wide they are")};
+        for (const Spike& spike : found) {
+            note.places_m.push_back(metres_of({spike.column, spike.row}));
+        }
+        notes.push_back(std::move(note));
+        return;
+    }
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Spike& spike = found[i];
         const glm::dvec2 at_m = metres_of({spike.column, spike.row});

@@ -314,6 +314,24 @@ TEST_CASE("many needles make three sentences and a number, and all are marked") 
     CHECK(notes.back().places_m.size() == 7);
 }
 
+TEST_CASE("ground that is too steep everywhere has another width of cells, and one note says so") {
+    RasterFile raster = hills(60, 50); // without a place, 400 m up and down
+    for (int i = 0; i < 36; ++i) {
+        value_at(raster, 5 + 10 * (i % 6), 5 + 8 * (i / 6)) += 1500.0;
+    }
+    const auto path = scratch_file("steep.tif");
+    write_raster(path, "GTiff", raster);
+    const std::vector<MapNote> notes = read_height_field(path).notes;
+    REQUIRE(notes.size() == 1);
+    CHECK(
+        has(notes.front().text,
+            "steep.tif: 36 places are steeper than any ground on earth if cells are 30 m wide: "
+            "--terrain-spacing says how wide they are"));
+    ImportOptions options;
+    options.spacing_m = 2000.0;
+    CHECK(read_height_field(path, options).notes.empty());
+}
+
 TEST_CASE("a step along a seam is told with both tiles and its height") {
     for (const bool shared : {false, true}) {
         for (const bool degrees : {false, true}) {
