@@ -67,17 +67,22 @@ void SpikeFinder::take(int first_row, std::span<const float> heights_m) {
 }
 
 void SpikeFinder::look_at_row(int row) {
-    // Quick: few samples differ so much from one of their row.
+    // Quick: few samples differ so much from others of their row, and lie beyond both neighbours.
     const float least_m = pit_share * relief_m_[1];
-    for (int column = 0; column < columns_; ++column) {
-        const float height_m = at(column, row);
-        const float near_m = at(column == 0 ? 1 : column - 1, row);
-        const float far_m =
-            at(column < reach ? std::min(column + reach, columns_ - 1) : column - reach, row);
+    const auto width = static_cast<std::size_t>(columns_);
+    const auto line =
+        std::span(band_).subspan(static_cast<std::size_t>(row % (2 * reach + 1)) * width, width);
+    for (std::size_t x = 0; x < width; ++x) {
+        const float height_m = line[x];
+        const float west_m = line[x == 0 ? 1 : x - 1];
+        const float east_m = line[x + 1 < width ? x + 1 : x - 1];
+        const float far_m = line[x < reach ? std::min(x + reach, width - 1) : x - reach];
         const bool is_alike =
-            std::abs(height_m - near_m) <= least_m && std::abs(height_m - far_m) <= least_m;
-        if (!is_alike && !std::isnan(height_m)) { // neighbours may be voids
-            look_at(column, row);
+            std::abs(height_m - west_m) <= least_m && std::abs(height_m - far_m) <= least_m;
+        const bool is_between =
+            (west_m < height_m && height_m < east_m) || (west_m > height_m && height_m > east_m);
+        if (!is_alike && !is_between && !std::isnan(height_m)) { // neighbours may be voids
+            look_at(static_cast<int>(x), row);
         }
     }
 }

@@ -56,7 +56,8 @@ bool is_usual_void(double raw) {
         55537.0,
         65535.0,
         4294967295.0};
-    return std::ranges::find(usual, raw) != usual.end();
+    const bool is_common_height = raw > -999.0 && raw < 9999.0; // nearly all samples
+    return !is_common_height && std::ranges::find(usual, raw) != usual.end();
 }
 
 void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
