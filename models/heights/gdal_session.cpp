@@ -102,7 +102,6 @@ GdalSession::GdalSession() {
 
 GdalSession::~GdalSession() {
     CPLErrorReset();
-    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", nullptr);
     CPLPopErrorHandler();
 }
 
