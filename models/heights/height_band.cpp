@@ -277,8 +277,8 @@ GDALColorInterp colour_of(GDALDatasetH dataset, int number) {
     return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, number));
 }
 
-/// Whether words of a band's name say that it tells something about heights, such as their error,
-/// or holds heights of other things than the ground, such as of trees.
+/// Whether a band's name says that it holds something else: a measure of heights, such as their
+/// error or slope, or heights of other things than the ground, such as trees.
 bool says_no_heights(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 46> others = {
         "error",      "errors",    "err",      "std",        "stdev",       "stddev",   "sd",
@@ -288,7 +288,8 @@ bool says_no_heights(const std::vector<std::string>& words) {
         "aspect",     "hillshade", "shade",    "curvature",  "roughness",   "gradient", "canopy",
         "vegetation", "tree",      "trees",    "geoid",      "undulation",  "wave",     "waves",
         "cloud",      "snow",      "change",   "difference"};
-    const auto end = std::ranges::find(words, "above"); // what heights count from is no matter
+    const auto end =
+        std::ranges::find(words, "above"); // "above geoid" only says what heights count from
     return std::any_of(words.begin(), end, [&](const std::string& word) {
         return std::ranges::find(others, word) != others.end();
     });

@@ -205,7 +205,7 @@ std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
     return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
 }
 
-/// Does something with each row of each file.
+/// Calls act(piece, window) for each row of each file.
 template <typename Do>
 void HeightSource::Content::for_each_row(const Do& act) const {
     for (const SourceGrid& grid : grids) {
@@ -264,7 +264,7 @@ HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) co
 
 /// The samples of the files that make a spike, the furthest from what lies around it first.
 std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
-    // Samples of another lattice than the ground's lie up to one beside.
+    // A sample of the ground lies up to one sample of the file away from the file's own.
     const int radius = spike.radius + (lattice.is_source ? 0 : 1);
     std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
     const bool is_pit = spike.above_m < 0.0F;
@@ -298,7 +298,7 @@ std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) co
     return samples;
 }
 
-/// What cures a spike: the option that takes its samples for missing, and how many that are.
+/// The option that takes the samples of a spike for missing, and how many samples it takes in all.
 std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples) const {
     constexpr std::size_t max_numbers = 16;
     std::vector<double> numbers;

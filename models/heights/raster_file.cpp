@@ -90,8 +90,8 @@ Dataset open_named(const std::string& name) {
     if (Dataset grid = open_grid_that_begins_with_word(name)) {
         return grid;
     }
-    // Else SQLite writes files beside a GeoPackage while it is open. What others have written
-    // beside it belongs to it.
+    // Without IMMUTABLE, SQLite creates log files next to a GeoPackage while it is open. A log that
+    // exists already holds heights, too, and is read.
     constexpr std::array<const char*, 2> immutable = {"@IMMUTABLE=YES", nullptr};
     std::error_code code;
     const bool has_log = std::filesystem::exists(name + "-wal", code);
@@ -145,7 +145,7 @@ std::string chosen_subdataset(
             names.front()));
 }
 
-/// Numbers in a file's description of itself.
+/// Reads numbers and text at places of a file.
 class FileHeader {
 public:
     explicit FileHeader(const path& file)
@@ -157,7 +157,7 @@ public:
 
     std::uintmax_t bytes() const { return bytes_; }
 
-    /// Fewer bytes than asked for at the end of the file.
+    /// Returns fewer bytes than asked for at the end of the file.
     std::string text(std::uintmax_t at, std::size_t size) {
         std::string bytes(at < bytes_ ? std::min<std::uintmax_t>(size, bytes_ - at) : 0, '\0');
         in_.clear();
@@ -310,7 +310,8 @@ std::uintmax_t end_of_jpeg_2000(FileHeader& header) {
     return at >= header.bytes() || has_end_mark(header) ? at : header.bytes() + 2;
 }
 
-/// How many bytes a file must have by its own description; 0 for forms that have none.
+/// The least number of bytes of a complete file, as its own header says; 0 for formats whose header
+/// does not say it.
 std::uintmax_t bytes_by_header(FileHeader& header) {
     using namespace std::string_view_literals;
     if (header.begins_with("II*\0"sv) || header.begins_with("MM\0*"sv) ||
@@ -345,8 +346,8 @@ std::uintmax_t bytes_by_header(FileHeader& header) {
     return 0;
 }
 
-/// Throws Error for a file that ends too soon by its own description. Libraries tell that in words
-/// of their own, or read what is there.
+/// Throws Error for a file that is shorter than its own header says. Libraries tell that in words
+/// of their own, or read what is there and say nothing.
 void check_end(const path& file) {
     std::error_code code;
     if (!std::filesystem::is_regular_file(file, code)) {

@@ -38,7 +38,7 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
 
 /// Words of a text with the lines on which they stand, read piece by piece.
 class WordFile {
-    static constexpr std::size_t longest_word = 1000;
+    static constexpr std::size_t max_letters = 1000;
 
 public:
     /// `separators` beside white space.
@@ -69,9 +69,9 @@ public:
                                separators_.find(*c) != std::string_view::npos;
             if (!parts) {
                 word_ += *c;
-                if (word_.size() > longest_word) {
+                if (word_.size() > max_letters) {
                     line_of_word_ = line_;
-                    refuse("a number", fmt::format("a word of more than {} letters", longest_word));
+                    refuse("a number", fmt::format("a word of more than {} letters", max_letters));
                 }
                 continue;
             }
@@ -410,7 +410,7 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     if (!is_void_word(*word) && !is_not_finite(*word)) {
         words.refuse_word("a height", *word);
     }
-    // Beside the file in memory GDAL looks for its side files, which are those of the given file.
+    // GDAL looks for side files in the folder of the grid, which is in memory here.
     const std::string folder = fmt::format("/vsimem/octant-{}", static_cast<const void*>(&words));
     const path name = path(folder) / file.filename();
     const FileWithZeros grid(name.string(), file, words.begin_of_word(), word->size());

@@ -73,7 +73,7 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::optional<V
     }
 }
 
-/// Files of before had a number or null.
+/// Older files have a number or null.
 void read_field(
     const FieldInfo& info, const ordered_json& json, models::heights::VoidMarks& voids) {
     if (json.is_null()) {

@@ -18,7 +18,7 @@ using visuals::scene::Adaptation;
 
 namespace {
 
-/// Words of VoidMarks: only the numbers that follow count; nothing given.
+/// Words for VoidMarks: "none" counts only the numbers that follow it, "common" is the default.
 constexpr std::string_view no_voids = "none";
 constexpr std::string_view common_voids = "common";
 
