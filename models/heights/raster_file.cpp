@@ -314,8 +314,7 @@ std::uintmax_t end_of_jpeg_2000(FileHeader& header) {
 /// does not say it.
 std::uintmax_t bytes_by_header(FileHeader& header) {
     using namespace std::string_view_literals;
-    if (header.begins_with("II*\0"sv) || header.begins_with("MM\0*"sv) ||
-        header.begins_with("II+\0"sv) || header.begins_with("MM\0+"sv)) {
+    if (header.begins_with("II*") || header.begins_with("II+") || header.begins_with("MM\0"sv)) {
         return end_of_tiff(header);
     }
     if (header.begins_with("\x89PNG\r\n\x1a\n"sv)) {
@@ -336,7 +335,9 @@ std::uintmax_t bytes_by_header(FileHeader& header) {
     if (header.begins_with("SQLite format 3\0"sv)) { // GeoPackage
         const std::uintmax_t page = header.number(16, 2, false);
         const bool is_valid = header.number(24, 4, false) == header.number(92, 4, false);
-        return is_valid ? (page == 1 ? 65536 : page) * header.number(28, 4, false) : 0;
+        const std::uintmax_t pages = is_valid ? header.number(28, 4, false) : 0;
+        constexpr std::uintmax_t own = 100;
+        return std::max(own, (page == 1 ? 65536 : page) * pages);
     }
     if (header.begins_with("EHFA_HEADER_TAG\0"sv)) { // Erdas Imagine: root and dictionary
         const std::uintmax_t at = header.number(16, 4, true);
