@@ -26,6 +26,7 @@ OCTANT_GDAL(CPLMalloc);
 OCTANT_GDAL(CPLPopErrorHandler);
 OCTANT_GDAL(CPLPushErrorHandlerEx);
 OCTANT_GDAL(CPLSetErrorHandlerEx);
+OCTANT_GDAL(CPLSetThreadLocalConfigOption);
 OCTANT_GDAL(CSLCount);
 OCTANT_GDAL(CSLDestroy);
 OCTANT_GDAL(CSLFetchNameValue);
@@ -121,6 +122,7 @@ OCTANT_GDAL(VSIFileFromMemBuffer);
 OCTANT_GDAL(VSIFree);
 OCTANT_GDAL(VSIGetMemFileBuffer);
 OCTANT_GDAL(VSIReadDirRecursive);
+OCTANT_GDAL(VSIStatL);
 OCTANT_GDAL(VSIUnlink);
 #undef OCTANT_GDAL
 

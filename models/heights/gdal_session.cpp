@@ -21,23 +21,8 @@ void add_text(std::vector<std::string>& texts, const char* text) {
     }
 }
 
-/// What GDAL said on threads without a session, which are its own.
-struct Elsewhere {
-    std::mutex writing;
-    std::vector<std::string> texts;
-};
-
-Elsewhere& elsewhere() {
-    static Elsewhere said;
-    return said;
-}
-
-void CPL_STDCALL hear_elsewhere(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
-    if (severity >= CE_Warning) {
-        const std::scoped_lock lock(elsewhere().writing);
-        add_text(elsewhere().texts, text);
-    }
-}
+/// Silences threads without a session.
+void CPL_STDCALL hear_nothing(CPLErr /*severity*/, CPLErrorNum /*number*/, const char* /*text*/) {}
 
 /// All drivers but those that speak to other computers.
 void register_drivers() {
@@ -56,7 +41,7 @@ void register_drivers() {
         "STACTA",
         "STACIT",
         "PostGISRaster"};
-    CPLSetErrorHandlerEx(&hear_elsewhere, nullptr);
+    CPLSetErrorHandlerEx(&hear_nothing, nullptr);
     GDALAllRegister();
     for (const char* const name : remote) {
         if (const GDALDriverH driver = GDALGetDriverByName(name)) {
@@ -109,6 +94,7 @@ void CloseDataset::operator()(void* dataset) const {
 
 GdalSession::GdalSession() {
     CPLPushErrorHandlerEx(&hear, this);
+    CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "1");
     static std::once_flag registered;
     std::call_once(registered, register_drivers);
     silence_hdf5();
@@ -127,15 +113,6 @@ void GdalSession::note_error(const char* text) {
 
 void GdalSession::note_warning(const char* text) {
     add_text(warnings_, text);
-}
-
-const std::vector<std::string>& GdalSession::warnings() {
-    const std::scoped_lock lock(elsewhere().writing);
-    for (const std::string& text : elsewhere().texts) {
-        add_text(warnings_, text.c_str());
-    }
-    elsewhere().texts.clear();
-    return warnings_;
 }
 
 bool GdalSession::names_no_format() const {

@@ -9,9 +9,11 @@
 namespace octant::models::heights {
 
 /// While one lives, GDAL on this thread keeps off the network and remembers the first error and the
-/// warnings it meets. Neither GDAL nor a library below it (HDF5, PROJ, libpng, libtiff) prints on
-/// any thread. Side files of maps (.aux.xml) are read; none is written, because datasets are opened
-/// for reading only and nothing is set in them. Not to be nested.
+/// warnings it meets. GDAL begins no threads of its own then, so that each warning belongs to the
+/// session whose work it is about. Neither GDAL nor a library below it (HDF5, PROJ, libpng,
+/// libtiff) prints on any thread. Side files of maps (.aux.xml) are read; none is written, because
+/// datasets are opened for reading only, nothing is set in them and no statistics or histograms are
+/// asked for. Not to be nested.
 class GdalSession {
 public:
     GdalSession();
@@ -33,9 +35,8 @@ public:
     /// there was none.
     std::string reason(const std::filesystem::path& path) const;
 
-    /// What GDAL warned of on this thread, and what it said on threads of its own that no session
-    /// reported before: each text once, one printable line, at most `max_warnings` of them.
-    const std::vector<std::string>& warnings();
+    /// What GDAL warned of: each text once, one printable line, at most `max_warnings` of them.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
     static constexpr std::size_t max_warnings = 8;
 

@@ -50,6 +50,19 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+/// The words of a band's name, in which a capital letter may begin a word, too: heightError.
+std::vector<std::string> words_of_name(std::string_view name) {
+    std::string parted;
+    for (const char c : name) {
+        const bool begins = !parted.empty() &&
+                            std::islower(static_cast<unsigned char>(parted.back())) != 0 &&
+                            std::isupper(static_cast<unsigned char>(c)) != 0;
+        parted += begins ? " " : "";
+        parted += c;
+    }
+    return words_of(parted);
+}
+
 bool is_unspecified(std::string_view unit) {
     constexpr std::array<std::string_view, 8> words = {
         "", "unspecified", "unknown", "none", "na", "n a", "undefined", "not specified"};
@@ -245,9 +258,9 @@ int band_named(const path& file, GDALDatasetH dataset, const std::string& wanted
     error_in(
         file,
         fmt::format(
-            "expected a band named by --band, got '{}': there {} {}",
+            "--band {}: the file has {}, {}",
             printable(wanted),
-            count == 1 ? "is only" : "are",
+            count == 1 ? "one band" : fmt::format("{} bands", count),
             bands_text(dataset)));
 }
 
@@ -264,21 +277,50 @@ GDALColorInterp colour_of(GDALDatasetH dataset, int number) {
     return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, number));
 }
 
-/// The first band whose name says heights; 0 where none does.
-int band_named_heights(GDALDatasetH dataset) {
+/// Whether a band's name says that it holds something else: a measure of heights, such as their
+/// error or slope, or heights of other things than the ground, such as trees.
+bool says_no_heights(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 46> others = {
+        "error",      "errors",    "err",      "std",        "stdev",       "stddev",   "sd",
+        "deviation",  "sigma",     "rms",      "rmse",       "uncertainty", "unc",      "variance",
+        "var",        "precision", "accuracy", "confidence", "quality",     "qa",       "count",
+        "counts",     "num",       "number",   "mask",       "flag",        "flags",    "slope",
+        "aspect",     "hillshade", "shade",    "curvature",  "roughness",   "gradient", "canopy",
+        "vegetation", "tree",      "trees",    "geoid",      "undulation",  "wave",     "waves",
+        "cloud",      "snow",      "change",   "difference"};
+    const auto end =
+        std::ranges::find(words, "above"); // "above geoid" only says what heights count from
+    return std::any_of(words.begin(), end, [&](const std::string& word) {
+        return std::ranges::find(others, word) != others.end();
+    });
+}
+
+/// The bands whose names say heights.
+std::vector<int> bands_named_heights(GDALDatasetH dataset) {
+    std::vector<int> numbers;
     for (int number = 1; number <= GDALGetRasterCount(dataset); ++number) {
         if (is_name_of_heights(name_of(dataset, number))) {
+            numbers.push_back(number);
+        }
+    }
+    return numbers;
+}
+
+/// The first band whose name does not say that it holds no heights; the first where all do.
+int first_other_band(GDALDatasetH dataset) {
+    for (int number = 1; number <= GDALGetRasterCount(dataset); ++number) {
+        if (!says_no_heights(words_of_name(name_of(dataset, number)))) {
             return number;
         }
     }
-    return 0;
+    return 1;
 }
 
 /// The band of heights where no option names one.
 int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& notes) {
     const int count = GDALGetRasterCount(dataset);
-    const int by_name = count > 1 ? band_named_heights(dataset) : 0;
-    const int number = std::max(by_name, 1);
+    const std::vector<int> named = count > 1 ? bands_named_heights(dataset) : std::vector<int>();
+    const int number = named.empty() ? first_other_band(dataset) : named.front();
     const GDALColorInterp colour = colour_of(dataset, number);
     const bool is_coloured =
         GDALGetRasterColorTable(GDALGetRasterBand(dataset, number)) != nullptr ||
@@ -288,7 +330,7 @@ int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& no
     }
     const bool has_alpha = count > 1 && colour_of(dataset, count) == GCI_AlphaBand;
     const int others = count - 1 - (has_alpha ? 1 : 0);
-    if (by_name == 0 && others >= 2 && is_bytes(dataset)) {
+    if (named.empty() && others >= 2 && is_bytes(dataset)) {
         error_in(
             file,
             fmt::format(
@@ -296,17 +338,12 @@ int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& no
                 "takes one of them for heights",
                 count));
     }
-    if (others > 0 && by_name == 0) {
+    if (others > 0 && (named.size() != 1 || number > 1)) { // a single one in front is no guess
         notes.push_back({fmt::format(
             "{}: band {} of {} is taken for heights: --band N|NAME chooses another",
             file.filename().string(),
             band_text(dataset, number),
             bands_text(dataset))});
-    } else if (by_name > 1) {
-        notes.push_back({fmt::format(
-            "{}: band {} is taken for heights: --band N|NAME chooses another",
-            file.filename().string(),
-            band_text(dataset, number))});
     }
     return number;
 }
@@ -358,8 +395,8 @@ bool is_name_of_heights(std::string_view name) {
         "terrain",
         "bathymetry",
         "hgt"};
-    const std::vector<std::string> words = words_of(name);
-    return std::ranges::any_of(words, [&](const std::string& word) {
+    const std::vector<std::string> words = words_of_name(name);
+    return !says_no_heights(words) && std::ranges::any_of(words, [&](const std::string& word) {
         return std::ranges::find(heights, word) != heights.end();
     });
 }

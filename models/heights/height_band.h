@@ -28,16 +28,18 @@ struct HeightBand {
     std::vector<MapNote> notes;
 };
 
-/// Whether a band's name says that it holds heights of the ground.
+/// Whether a band's name says that it holds heights of the ground, and not their error, their
+/// slope, or heights of trees.
 bool is_name_of_heights(std::string_view name);
 
 /// The raw number that a GDALRasterBandH declares for no data.
 std::optional<double> declared_no_data(void* band);
 
 /// Chooses the band of heights: the one that the options name; else that of a raster with one;
-/// heights that are coded in colours by the rules of Terrarium or Mapbox; a band whose name says
-/// elevation, height or the like; the first one, with a note of the others. Throws Error for
-/// pictures, complex numbers, units that are no lengths, and bands that are not there.
+/// heights that are coded in colours by the rules of Terrarium or Mapbox; the first band whose name
+/// says elevation, height or the like; the first one that does not say error, slope or the like. A
+/// note tells of the others unless the first band is the only one that says heights. Throws Error
+/// for pictures, complex numbers, units that are no lengths, and bands that are not there.
 HeightBand
 height_band_of(const std::filesystem::path& file, void* dataset, const ImportOptions& options);
 

@@ -19,9 +19,9 @@ namespace octant::models::heights {
 /// laid on a grid first.
 ///
 /// Heights: of the band that height_band.h chooses; scale, offset and unit (the band's, else the
-/// system's, else the option's) applied. No data are NaN, infinities, magnitudes from 1e30, the
-/// file's declared value, the option's, what a mask or an alpha band leaves out, words of text
-/// grids (text_grid.h), and undeclared values that void_values.h finds. They are filled smoothly
+/// system's, else the option's) applied. No data are NaN, infinities, the file's declared value,
+/// the option's, what a mask or an alpha band leaves out, words of text grids (text_grid.h), and
+/// undeclared values that void_values.h finds. They are filled smoothly
 /// and counted in `filled_voids`. What was guessed stands in `notes`.
 ///
 /// Memory: 4 bytes a sample; about 11 more a void while filling; for a plain PGM also the file.

@@ -1,7 +1,6 @@
 #include "models/heights/height_raster.h"
 
 #include "models/heights/bounds.h"
-#include "models/heights/control_points.h"
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
@@ -16,6 +15,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
+#include <new>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -32,12 +33,9 @@ using GeoTransform = std::array<double, 6>;
 
 /// Whether a raw number stands for no data by the file's word or the options'.
 bool is_void(double raw, const OpenRaster& raster) {
-    constexpr double absurd = 1e30;
-    const auto is = [raw](const std::optional<double>& mark) {
-        return mark && static_cast<float>(raw) == static_cast<float>(*mark);
-    };
-    return !std::isfinite(raw) || std::abs(raw) >= absurd || is(raster.no_data) ||
-           is(raster.given_void);
+    return !std::isfinite(raw) || (raster.no_data && is_same_raw(raw, *raster.no_data)) ||
+           std::ranges::any_of(
+               raster.given_voids, [raw](double mark) { return is_same_raw(raw, mark); });
 }
 
 double height_of(double raw, const OpenRaster& raster) {
@@ -58,8 +56,7 @@ bool is_believed(double height_m, const Ellipsoid& ellipsoid) {
 
 /// Whether a number must be looked at among all others of its raster before it counts as a height.
 bool is_doubtful(double raw, double height_m, const OpenRaster& raster) {
-    const bool may_be_mark = !raster.no_data && !raster.given_void;
-    return !is_believed(height_m, raster.ellipsoid) || (may_be_mark && is_usual_void(raw));
+    return !is_believed(height_m, raster.ellipsoid) || is_usual_void(raw);
 }
 
 std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset) {
@@ -181,9 +178,6 @@ double modulus_of(GDALRasterBandH band) {
 
 const UndeclaredVoids&
 undeclared_voids(const path& file, const OpenRaster& raster, const GdalSession& gdal) {
-    if (!raster.undeclared && raster.given_void) {
-        raster.undeclared.emplace();
-    }
     if (!raster.undeclared) {
         const glm::dvec2 range_m = believed_m(raster.ellipsoid);
         VoidSurvey survey(range_m.x, range_m.y, modulus_of(raster.band));
@@ -249,12 +243,12 @@ struct DegreeSigns {
     bool by_name = false; ///< its axes say so
     glm::dvec2 cell{0.0};
     glm::dvec2 extent{0.0};
+    double furthest = 0.0; ///< of all coordinates, from 0
 
     bool is_fine() const { return std::max(cell.x, cell.y) < 1.0; }
 };
 
 DegreeSigns degree_signs(GDALDatasetH dataset, const OpenRaster& raster) {
-    constexpr double edge_deg = 1.0; // outer edges of cells may lie behind a pole
     Bounds bounds;
     for (const double column : {-0.5, raster.columns - 0.5}) {
         for (const double row : {-0.5, raster.rows - 0.5}) {
@@ -264,6 +258,10 @@ DegreeSigns degree_signs(GDALDatasetH dataset, const OpenRaster& raster) {
     DegreeSigns signs;
     signs.cell = raster.map->steps();
     signs.extent = bounds.size();
+    const glm::dvec2 furthest = glm::max(glm::abs(bounds.least), glm::abs(bounds.most));
+    signs.furthest = std::max(furthest.x, furthest.y);
+    // Outer edges of cells may lie behind a pole.
+    const double edge_deg = std::clamp(signs.cell.y, 1.0, 5.0);
     signs.fit = bounds.least.x >= -360.0 - edge_deg && bounds.most.x <= 360.0 + edge_deg &&
                 bounds.least.y >= -90.0 - edge_deg && bounds.most.y <= 90.0 + edge_deg &&
                 signs.extent.x <= 360.0 + edge_deg;
@@ -308,7 +306,36 @@ Reference assumed_system(const path& file, GDALDatasetH dataset, OpenRaster& ras
                 "metres: --terrain-system EPSG:4326 or --terrain-system metres says which",
                 signs.cell.x));
     }
+    constexpr double coarsest_deg = 10.0;
+    if (std::max(signs.cell.x, signs.cell.y) <= coarsest_deg) {
+        note(
+            file,
+            raster,
+            fmt::format(
+                "no coordinate system is named, and cells of {:g} may be degrees: taken as metres; "
+                "--terrain-system EPSG:4326 takes them as degrees",
+                signs.cell.x));
+    }
     return nullptr;
+}
+
+/// Throws Error where a geographic system does not fit the coordinates.
+void check_degrees(const path& file, GDALDatasetH dataset, const OpenRaster& raster) {
+    const SystemHandle system = raster.system.get();
+    if (system == nullptr || OSRIsGeographic(system) == 0) {
+        return;
+    }
+    const DegreeSigns signs = degree_signs(dataset, raster);
+    if (!signs.fit) {
+        const bool is_own = GDALGetSpatialRef(dataset) != nullptr;
+        error_in(
+            file,
+            fmt::format(
+                "expected longitudes and latitudes, as {} says, got coordinates up to {:.10g}{}",
+                is_own ? "the system of the file" : "--terrain-system",
+                signs.furthest,
+                is_own ? "" : ": --terrain-system takes a system in metres, or the word metres"));
+    }
 }
 
 /// Whether a geographic system of the Earth leaves its datum open.
@@ -345,7 +372,7 @@ Reference system_of_raster(
         return assumed_system(file, dataset, raster);
     }
     if (options.system) {
-        note(file, raster, "names its own coordinate system, which counts, not --terrain-system");
+        note(file, raster, "--terrain-system ignored: the file names its own system");
     }
     if (has_degrees_for_lengths(own) || (OSRIsGeographic(own) != 0 && has_unnamed_datum(own))) {
         note(file, raster, "degrees on a datum that is not named are taken as WGS 84");
@@ -366,7 +393,7 @@ void take_text(const path& file, const std::string& driver, OpenRaster& raster) 
             file,
             raster,
             fmt::format(
-                "{} sample{} with a word such as '{}' count as without data",
+                "{} sample{} with a word such as '{}' count as missing",
                 found.samples,
                 found.samples == 1 ? "" : "s",
                 found.word));
@@ -376,10 +403,10 @@ void take_text(const path& file, const std::string& driver, OpenRaster& raster) 
             file,
             raster,
             fmt::format(
-                "{} words behind the {} x {} heights are left out",
+                "{} extra number{} after the last height ignored; a row may be too long, which "
+                "shifts all rows below it",
                 found.numbers_left,
-                raster.columns,
-                raster.rows));
+                found.numbers_left == 1 ? "" : "s"));
     }
 }
 
@@ -430,6 +457,50 @@ void check_whole(const path& file, GDALDatasetH dataset) {
     }
 }
 
+/// Stands for no data where the source declares none; read_height_field takes it so, too.
+constexpr double usual_no_data = -32768.0;
+
+/// A list of one, which GDAL frees.
+template <typename Number>
+Number* list_of(Number value) {
+    void* const memory = CPLMalloc(sizeof(Number));
+    return new (memory) Number(value);
+}
+
+/// A band of a raster that is placed by ground control points alone, laid by GDAL on a grid of
+/// their coordinate system (bilinear; no data where it has none). The source must outlive the grid.
+/// Null for any other raster. Throws Error for points that no grid fits.
+Dataset grid_by_control_points(const path& file, void* source, int band, const GdalSession& gdal) {
+    std::array<double, 6> transform = {};
+    const int points = GDALGetGCPCount(source);
+    if (points == 0 || GDALGetRasterCount(source) == 0 ||
+        GDALGetGeoTransform(source, transform.data()) == CE_None) {
+        return nullptr;
+    }
+    int declared = 0;
+    const double value = GDALGetRasterNoDataValue(GDALGetRasterBand(source, band), &declared);
+    const std::unique_ptr<GDALWarpOptions, void (*)(GDALWarpOptions*)> options(
+        GDALCreateWarpOptions(), [](GDALWarpOptions* own) { GDALDestroyWarpOptions(own); });
+    options->nBandCount = 1;
+    options->panSrcBands = list_of(band);
+    options->panDstBands = list_of(1);
+    options->padfDstNoDataReal = list_of(declared != 0 ? value : usual_no_data);
+    if (declared != 0) {
+        options->padfSrcNoDataReal = list_of(value);
+    }
+    constexpr double exact = 0.0;
+    const char* const system = GDALGetGCPProjection(source);
+    Dataset grid(
+        GDALAutoCreateWarpedVRT(source, system, system, GRA_Bilinear, exact, options.get()));
+    if (!grid) {
+        error_in(
+            file,
+            fmt::format(
+                "expected control points that a grid fits, got {}: {}", points, gdal.reason(file)));
+    }
+    return grid;
+}
+
 /// Whether heights count from the ellipsoid and not from the sea, as the system says.
 bool is_ellipsoidal(SystemHandle system) {
     const char* const datum = OSRGetAttrValue(system, "VERT_DATUM", 0);
@@ -463,6 +534,11 @@ void check_import_size(const path& file, int columns, int rows) {
     }
 }
 
+bool is_same_raw(double raw, double mark) {
+    constexpr double float_rounding = 0x1p-24; // as people write fewer digits than a file has
+    return std::abs(raw - mark) <= std::abs(mark) * float_rounding;
+}
+
 void check_height(
     const path& file, double height_m, double raw, bool names_unit, const Ellipsoid& ellipsoid) {
     if (!is_believed(height_m, ellipsoid)) {
@@ -470,13 +546,13 @@ void check_height(
         error_in(
             file,
             fmt::format(
-                "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {:.15g} says that it "
-                "stands for no data",
+                "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as "
+                "missing",
                 range_m.x,
                 range_m.y,
                 height_m,
                 names_unit ? "" : "--height-scale says how many metres a unit is, ",
-                raw));
+                raw_text(raw)));
     }
 }
 
@@ -492,7 +568,11 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     raster.band = band.band;
     raster.mask = band.mask;
     raster.no_data = band.no_data;
-    raster.given_void = options.void_value;
+    raster.given_voids = options.voids.values;
+    if (options.voids.only) {
+        raster.no_data.reset();
+        raster.undeclared.emplace(); // nothing is searched for
+    }
     raster.scale_m = band.scale_m;
     raster.offset_m = band.offset_m;
     raster.names_unit = band.names_unit;
@@ -510,6 +590,7 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     if (const auto transform = transform_of(file, dataset)) {
         take_transform(*transform, raster);
         raster.system = system_of_raster(file, dataset, options, raster);
+        check_degrees(file, dataset, raster);
         raster.ellipsoid = raster.system ? ellipsoid_of(wkt_of(raster.system.get())) : Ellipsoid();
     }
     const GDALDriverH reader = GDALGetDatasetDriver(raster.datasets.front().get());
@@ -534,6 +615,21 @@ std::vector<MapNote> notes_of(const path& file, const OpenRaster& raster) {
     return notes;
 }
 
+void read_raw(
+    const path& file,
+    const OpenRaster& raster,
+    const GridWindow& window,
+    std::span<double> raw,
+    const GdalSession& gdal) {
+    const auto columns = static_cast<std::size_t>(window.columns);
+    assert(raw.size() == columns * static_cast<std::size_t>(window.rows));
+    for (int row = 0; row < window.rows; ++row) {
+        const GridWindow one{window.first_column, window.columns, window.first_row + row, 1};
+        const auto line = raw.subspan(static_cast<std::size_t>(row) * columns, columns);
+        read_raw_line(file, raster, one, line, gdal);
+    }
+}
+
 void read_heights(
     const path& file,
     const OpenRaster& raster,
@@ -547,10 +643,10 @@ void read_heights(
         const int row = raster.from_south ? line_in_file : window.rows - 1 - line_in_file;
         const GridWindow one{window.first_column, window.columns, window.first_row + row, 1};
         read_raw_line(file, raster, one, line, gdal);
-        float* const out = heights_m.data() + static_cast<std::size_t>(row) * columns;
-        for (std::size_t x = 0; x < columns; ++x) {
-            out[x] = height_from_raw(file, line[x], raster, gdal);
-        }
+        std::ranges::transform(
+            line,
+            heights_m.begin() + static_cast<std::ptrdiff_t>(row) * window.columns,
+            [&](double raw) { return height_from_raw(file, raw, raster, gdal); });
     }
 }
 
@@ -567,36 +663,15 @@ void read_whole_metres(
         is_there.resize(heights_m.size());
         read_window(file, raster, raster.mask, window, is_there.data(), gdal);
     }
-    const auto whole = [](const std::optional<double>& mark) {
-        constexpr int nothing = 1 << 20;
-        const bool is_whole = mark && std::abs(*mark) <= 32768.0 && *mark == std::floor(*mark);
-        return is_whole ? static_cast<int>(*mark) : nothing;
-    };
-    const int no_data = whole(raster.no_data);
-    const int given = whole(raster.given_void);
     constexpr int lowest_sure_m = -998; // all usual marks are below, or above the highest height
     constexpr int highest_sure_m = 9000;
-    bool has_doubtful = false;
-    for (std::size_t i = 0; i < heights_m.size(); ++i) {
-        const int metres = heights_m[i];
-        const bool is_void =
-            metres == no_data || metres == given || (!is_there.empty() && is_there[i] == 0);
-        has_doubtful |= !is_void && (metres < lowest_sure_m || metres > highest_sure_m);
-        if (is_void) {
-            heights_m[i] = void_metres;
-        }
-    }
-    if (!has_doubtful) {
-        return;
-    }
     for (std::size_t i = 0; i < heights_m.size(); ++i) {
         const int metres = heights_m[i];
         const bool is_sure = metres >= lowest_sure_m && metres <= highest_sure_m;
-        // -32768 is a void by now, unless nobody said so.
-        const bool is_declared =
-            metres == void_metres && (no_data == void_metres || given == void_metres ||
-                                      (!is_there.empty() && is_there[i] == 0));
-        if (!is_sure && !is_declared && std::isnan(height_from_raw(file, metres, raster, gdal))) {
+        const bool is_left_out =
+            (!is_there.empty() && is_there[i] == 0) || is_void(metres, raster) ||
+            (!is_sure && std::isnan(height_from_raw(file, metres, raster, gdal)));
+        if (is_left_out) {
             heights_m[i] = void_metres;
         }
     }

@@ -22,8 +22,8 @@ struct OpenRaster {
     void* band = nullptr;          ///< GDALRasterBandH
     void* mask = nullptr;          ///< GDALRasterBandH that is 0 where there is no data; null: none
     std::optional<double> no_data; ///< raw number, as the file declares it
-    std::optional<double> given_void; ///< raw number, as the options have it
-    TextVoids text_voids;             ///< of a text grid
+    std::vector<double> given_voids; ///< raw numbers, as the options have them
+    TextVoids text_voids;            ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
@@ -80,6 +80,19 @@ void read_heights(
     const GridWindow& window,
     std::span<float> heights_m,
     const GdalSession& gdal);
+
+/// The numbers that the file stores for a window, row after row from the south; NaN where there is
+/// no data by the file's word or the options'. Throws Error as read_height_field.
+void read_raw(
+    const std::filesystem::path& file,
+    const OpenRaster& raster,
+    const GridWindow& window,
+    std::span<double> raw,
+    const GdalSession& gdal);
+
+/// Whether a number that a file stores is one that --void names by `mark`: the same but for the
+/// rounding of floats.
+bool is_same_raw(double raw, double mark);
 
 /// As read_heights, for a raster of whole metres (asserted); void_metres without data.
 void read_whole_metres(

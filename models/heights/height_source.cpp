@@ -8,13 +8,14 @@
 #include "models/heights/resampler.h"
 #include "models/heights/source_grid.h"
 #include "models/heights/target_lattice.h"
+#include "models/heights/void_values.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <utility>
 
@@ -30,18 +31,20 @@ plain_heights(const path& file, const ImportOptions& options, std::vector<MapNot
     HeightGrid grid = read_plain_pgm(
         file, [&file](int columns, int rows) { check_import_size(file, columns, rows); });
     const double unit_m = options.height_scale.value_or(1.0);
+    const std::vector<double>& given = options.voids.values;
+    const auto is_given = [&given](float raw) {
+        return std::ranges::find(given, static_cast<double>(raw)) != given.end();
+    };
     VoidSurvey survey(lowest_import_m, highest_import_m, 65536.0);
-    for (const float height : grid.heights_m) {
-        survey.add(static_cast<double>(height), static_cast<double>(height) * unit_m);
+    for (const float raw : grid.heights_m) {
+        if (!is_given(raw)) {
+            survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m);
+        }
     }
-    UndeclaredVoids voids = survey.result();
-    if (options.void_value) {
-        voids = {};
-        voids.values.push_back(*options.void_value);
-    }
+    const UndeclaredVoids voids = options.voids.only ? UndeclaredVoids() : survey.result();
     for (float& height : grid.heights_m) {
         const double raw = static_cast<double>(height);
-        if (voids.has(raw)) {
+        if (is_given(height) || voids.has(raw)) {
             height = std::numeric_limits<float>::quiet_NaN();
         } else {
             check_height(file, raw * unit_m, raw, false);
@@ -71,6 +74,12 @@ open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSes
     return grids;
 }
 
+/// A sample of a file: the number that it stores, and the height that this means.
+struct StoredSample {
+    double raw = 0.0;
+    float height_m = 0.0F;
+};
+
 } // namespace
 
 struct HeightSource::Content {
@@ -78,6 +87,7 @@ struct HeightSource::Content {
     std::unique_ptr<GdalSession> gdal;
     std::vector<SourceGrid> grids;
     std::optional<HeightGrid> whole; ///< a plain PGM
+    double whole_unit_m = 1.0;
     std::vector<MapNote> whole_notes;
     TargetLattice lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
@@ -92,9 +102,19 @@ struct HeightSource::Content {
     void read(int first_row, std::span<float> heights_m);
     std::string name() const;
 
+    bool has_map() const { return !grids.empty() && grids.front().map(); }
+
     glm::dvec2 metres_of(const glm::dvec2& column_row) const;
     std::string words_of(const glm::dvec2& at_m) const;
-    double own_height_m(const Spike& spike) const;
+
+    double whole_raw(float height_m) const { return std::round(height_m / whole_unit_m); }
+
+    std::vector<StoredSample> samples_near(const glm::ivec2& column_row, int radius) const;
+    std::vector<StoredSample> samples_of(const Spike& spike) const;
+    std::int64_t count_of(std::span<const double> numbers) const;
+    std::string cure_of(std::span<const StoredSample> samples) const;
+    template <typename Do>
+    void for_each_row(const Do& act) const;
     void add_spikes(std::vector<MapNote>& notes) const;
     void add_seams(std::vector<MapNote>& notes) const;
 };
@@ -109,6 +129,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
             error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
         whole = plain_heights(file, options, whole_notes);
+        whole_unit_m = options.height_scale.value_or(1.0);
         take_picture(whole->columns, whole->rows, options.spacing_m);
         return;
     }
@@ -184,32 +205,141 @@ std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
     return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
 }
 
-/// The height that the file itself has at a spike or right beside it.
-double HeightSource::Content::own_height_m(const Spike& spike) const {
-    float own_m = spike.height_m;
-    glm::dvec2 at = glm::dvec2(lattice.west, lattice.south) +
-                    glm::dvec2(spike.column, spike.row) * lattice.step;
+/// Calls act(piece, window) for each row of each file.
+template <typename Do>
+void HeightSource::Content::for_each_row(const Do& act) const {
     for (const SourceGrid& grid : grids) {
-        glm::dvec2 there = at;
-        grid.grid_from_frame({&there.x, 1}, {&there.y, 1});
-        const int column = static_cast<int>(std::lround(there.x)) - 1;
-        const int row = static_cast<int>(std::lround(there.y)) - 1;
-        std::array<float, 9> near_m = {};
-        grid.read({column, 3, row, 3}, near_m, *gdal);
-        for (const float height_m : near_m) {
-            const bool is_beyond = spike.above_m > 0.0F ? height_m > own_m : height_m < own_m;
-            own_m = is_beyond ? height_m : own_m;
+        for (const SourcePiece& piece : grid.pieces()) {
+            for (int y = 0; y < piece.raster.rows; ++y) {
+                act(piece, GridWindow{0, piece.raster.columns, y, 1});
+            }
         }
     }
-    return own_m;
+}
+
+/// Samples of the files at most `radius` columns and rows away from one of the lattice.
+std::vector<StoredSample>
+HeightSource::Content::samples_near(const glm::ivec2& column_row, int radius) const {
+    std::vector<StoredSample> samples;
+    if (whole) {
+        const glm::ivec2 first = glm::max(column_row - radius, 0);
+        const glm::ivec2 last =
+            glm::min(column_row + radius, glm::ivec2(whole->columns, whole->rows) - 1);
+        for (int row = first.y; row <= last.y; ++row) {
+            for (int column = first.x; column <= last.x; ++column) {
+                const float height_m = whole->at(column, row);
+                samples.push_back({whole_raw(height_m), height_m});
+            }
+        }
+    }
+    for (const SourceGrid& grid : grids) {
+        glm::dvec2 at(column_row);
+        if (!lattice.is_source) {
+            at = glm::dvec2(lattice.west, lattice.south) + at * lattice.step;
+            grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
+        }
+        const glm::ivec2 centre(glm::round(at));
+        for (const SourcePiece& piece : grid.pieces()) {
+            const glm::ivec2 corner(piece.column, piece.row);
+            const glm::ivec2 size(piece.raster.columns, piece.raster.rows);
+            const glm::ivec2 first = glm::max(centre - radius - corner, 0);
+            const glm::ivec2 count = glm::min(centre + radius + 1 - corner, size) - first;
+            if (count.x <= 0 || count.y <= 0) {
+                continue;
+            }
+            const GridWindow window{first.x, count.x, first.y, count.y};
+            const auto n = static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
+            std::vector<double> raw(n);
+            std::vector<float> heights_m(n);
+            read_raw(piece.file, piece.raster, window, raw, *gdal);
+            read_heights(piece.file, piece.raster, window, heights_m, *gdal);
+            for (std::size_t i = 0; i < n; ++i) {
+                samples.push_back({raw[i], heights_m[i]});
+            }
+        }
+    }
+    std::erase_if(samples, [](const StoredSample& each) { return std::isnan(each.height_m); });
+    return samples;
+}
+
+/// The samples of the files that make a spike, the furthest from what lies around it first.
+std::vector<StoredSample> HeightSource::Content::samples_of(const Spike& spike) const {
+    // A sample of the ground lies up to one sample of the file away from the file's own.
+    const int radius = spike.radius + (lattice.is_source ? 0 : 1);
+    std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
+    const bool is_pit = spike.above_m < 0.0F;
+    std::ranges::stable_sort(samples, [is_pit](const StoredSample& a, const StoredSample& b) {
+        return is_pit ? a.height_m < b.height_m : a.height_m > b.height_m;
+    });
+    // What lies around is all of above_m away from the first.
+    const float limit_m = samples.empty() ? 0.0F : samples.front().height_m - 0.5F * spike.above_m;
+    std::erase_if(samples, [is_pit, limit_m](const StoredSample& each) {
+        return is_pit ? each.height_m > limit_m : each.height_m < limit_m;
+    });
+    return samples;
+}
+
+/// How many samples of the files have one of these numbers. Reads all of them.
+std::int64_t HeightSource::Content::count_of(std::span<const double> numbers) const {
+    const auto is_one = [numbers](double raw) {
+        return std::ranges::any_of(
+            numbers, [raw](double number) { return is_same_raw(raw, number); });
+    };
+    std::int64_t samples = 0;
+    if (whole) {
+        return std::ranges::count_if(
+            whole->heights_m, [&](float height_m) { return is_one(whole_raw(height_m)); });
+    }
+    for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
+        std::vector<double> raw(static_cast<std::size_t>(row.columns));
+        read_raw(piece.file, piece.raster, row, raw, *gdal);
+        samples += std::ranges::count_if(raw, is_one);
+    });
+    return samples;
+}
+
+/// The option that takes the samples of a spike for missing, and how many samples it takes in all.
+std::string HeightSource::Content::cure_of(std::span<const StoredSample> samples) const {
+    constexpr std::size_t max_numbers = 16;
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    for (const StoredSample& sample : samples) {
+        if (std::ranges::find(numbers, sample.raw) == numbers.end()) {
+            numbers.push_back(sample.raw);
+            texts.push_back(raw_text(sample.raw));
+        }
+    }
+    if (numbers.size() > max_numbers) {
+        return fmt::format("its {} different numbers are too many for --void", numbers.size());
+    }
+    const std::int64_t count = count_of(numbers);
+    return fmt::format(
+        "--void {} treats every sample of {} as missing ({} in all)",
+        fmt::join(texts, ","),
+        numbers.size() == 1 ? "that value" : "these values",
+        count);
 }
 
 void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
     constexpr std::size_t max_told = 3;
+    constexpr std::size_t min_steep = 30; // so many are rather a wrong width of cells
     std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
     std::ranges::stable_sort(found, [](const Spike& a, const Spike& b) {
         return std::abs(a.above_m) > std::abs(b.above_m);
     });
+    if (found.size() >= min_steep && !lattice.frame) {
+        MapNote note{fmt::format(
+            "{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
+            name(),
+            spikes->count(),
+            spacing_m,
+            has_map() ? "" : ": --terrain-spacing says how wide they are")};
+        for (const Spike& spike : found) {
+            note.places_m.push_back(metres_of({spike.column, spike.row}));
+        }
+        notes.push_back(std::move(note));
+        return;
+    }
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Spike& spike = found[i];
         const glm::dvec2 at_m = metres_of({spike.column, spike.row});
@@ -217,22 +347,24 @@ void HeightSource::Content::add_spikes(std::vector<MapNote>& notes) const {
             notes.back().places_m.push_back(at_m);
             continue;
         }
-        const double own_m = lattice.is_source ? spike.height_m : own_height_m(spike);
+        const std::vector<StoredSample> samples = samples_of(spike);
         notes.push_back(
             {fmt::format(
-                 "{}: a height of {:.6g} m stands alone, {:.0f} m {} all around it, at {}: --void "
-                 "{:.9g} leaves it out",
+                 "{}: {} {:.6g} m, {:.0f} m {} all {} neighbours, at {}; {}",
                  name(),
-                 own_m,
+                 samples.size() == 1 ? "one sample is"
+                                     : fmt::format("{} samples are up to", samples.size()),
+                 samples.empty() ? spike.height_m : samples.front().height_m,
                  std::abs(spike.above_m),
                  spike.above_m > 0.0F ? "above" : "below",
+                 samples.size() == 1 ? "its" : "their",
                  words_of(at_m),
-                 own_m),
+                 cure_of(samples)),
              {at_m}});
     }
     if (found.size() > max_told) {
         notes.back().text = fmt::format(
-            "{}; {} more heights stand alone",
+            "{}; {} more such places are marked in --picture",
             notes.back().text,
             spikes->count() - static_cast<std::int64_t>(max_told));
     }
@@ -249,8 +381,8 @@ void HeightSource::Content::add_seams(std::vector<MapNote>& notes) const {
         }
         note.text = fmt::format(
             "{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
-            "slope on "
-            "both sides, about {}: --terrain with one of them alone has no step",
+            "slope "
+            "on both sides, at {}. To avoid the step, load only one of the two files",
             seam.a->file.filename().string(),
             seam.b->file.filename().string(),
             std::abs(seam.rise_m),
@@ -331,22 +463,12 @@ std::int64_t HeightSource::count_voids() const {
         return std::ranges::count_if(
             content_->whole->heights_m, [](float height_m) { return std::isnan(height_m); });
     }
-    std::vector<float> row;
-    for (const SourceGrid& grid : content_->grids) {
-        for (const SourcePiece& piece : grid.pieces()) {
-            row.resize(static_cast<std::size_t>(piece.raster.columns));
-            for (int y = 0; y < piece.raster.rows; ++y) {
-                read_heights(
-                    piece.file,
-                    piece.raster,
-                    {0, piece.raster.columns, y, 1},
-                    row,
-                    *content_->gdal);
-                voids +=
-                    std::ranges::count_if(row, [](float height_m) { return std::isnan(height_m); });
-            }
-        }
-    }
+    content_->for_each_row([&](const SourcePiece& piece, const GridWindow& row) {
+        std::vector<float> heights_m(static_cast<std::size_t>(row.columns));
+        read_heights(piece.file, piece.raster, row, heights_m, *content_->gdal);
+        voids +=
+            std::ranges::count_if(heights_m, [](float height_m) { return std::isnan(height_m); });
+    });
     return voids;
 }
 

@@ -2,8 +2,17 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace octant::models::heights {
+
+/// Stored numbers of height files that mean "no data".
+struct VoidMarks {
+    std::vector<double> values = {}; ///< in addition to the file's own and to common ones
+    bool only = false; ///< neither the file's own nor common ones mean "no data", only `values` do
+
+    bool operator==(const VoidMarks&) const = default;
+};
 
 /// What files of heights do not say themselves. Numbers above zero and finite (asserted).
 struct ImportOptions {
@@ -14,9 +23,7 @@ struct ImportOptions {
     /// a PROJ string, well-known text, a .prj file; or "metres". Nothing: WGS 84 where their axes
     /// are in degrees, else metres.
     std::optional<std::string> system = {};
-    /// A raw number that stands for no data. With it no other one is taken for a void unless the
-    /// file declares it.
-    std::optional<double> void_value = {};
+    VoidMarks voids = {};
     /// The band of heights: its number from 1 on, its name, or "terrarium" or "mapbox" for heights
     /// that are coded in colours. Nothing: chosen by height_band_of.
     std::optional<std::string> band = {};

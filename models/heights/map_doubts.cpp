@@ -17,9 +17,12 @@ namespace {
 
 constexpr double relief_at_1_m = 20.0;
 constexpr double relief_exponent = 0.58;
-constexpr float pit_share = 0.6F; ///< of that relief, for pits
-/// The share of a ring that has heights, at least.
+constexpr float pit_share = 0.6F;   ///< of that relief, for pits
+constexpr int sharp_reach = 4;      ///< the widest ring for which that relief itself is the limit
+constexpr double wide_factor = 3.0; ///< for wider rings: mesas and stacks are as wide
+/// The share of a ring that has heights, at least, of its samples within the map.
 constexpr double ring_share = 0.6;
+constexpr int min_ring = 3; ///< samples of a ring with heights, at least
 
 } // namespace
 
@@ -29,8 +32,9 @@ SpikeFinder::SpikeFinder(int columns, int rows, double spacing_m)
     , relief_m_{}
     , band_(static_cast<std::size_t>(columns) * (2 * reach + 1)) {
     for (int k = 1; k <= reach; ++k) {
+        const double sure = k > sharp_reach ? wide_factor : 1.0;
         relief_m_[static_cast<std::size_t>(k)] =
-            static_cast<float>(relief_at_1_m * std::pow(k * spacing_m, relief_exponent));
+            static_cast<float>(sure * relief_at_1_m * std::pow(k * spacing_m, relief_exponent));
     }
 }
 
@@ -63,16 +67,41 @@ void SpikeFinder::take(int first_row, std::span<const float> heights_m) {
 }
 
 void SpikeFinder::look_at_row(int row) {
-    // Quick: few samples differ so much from one of their row.
+    // Quick: few samples differ so much from others of their row, and lie beyond both neighbours.
     const float least_m = pit_share * relief_m_[1];
-    for (int column = 0; column < columns_; ++column) {
-        const float height_m = at(column, row);
-        const float near_m = at(column == 0 ? 1 : column - 1, row);
-        const float far_m =
-            at(column < reach ? std::min(column + reach, columns_ - 1) : column - reach, row);
-        if (std::abs(height_m - near_m) > least_m || std::abs(height_m - far_m) > least_m) {
-            look_at(column, row);
+    const auto width = static_cast<std::size_t>(columns_);
+    const auto line =
+        std::span(band_).subspan(static_cast<std::size_t>(row % (2 * reach + 1)) * width, width);
+    for (std::size_t x = 0; x < width; ++x) {
+        const float height_m = line[x];
+        const float west_m = line[x == 0 ? 1 : x - 1];
+        const float east_m = line[x + 1 < width ? x + 1 : x - 1];
+        const float far_m = line[x < reach ? std::min(x + reach, width - 1) : x - reach];
+        const bool is_alike =
+            std::abs(height_m - west_m) <= least_m && std::abs(height_m - far_m) <= least_m;
+        const bool is_between =
+            (west_m < height_m && height_m < east_m) || (west_m > height_m && height_m > east_m);
+        if (!is_alike && !is_between && !std::isnan(height_m)) { // neighbours may be voids
+            look_at(static_cast<int>(x), row);
         }
+    }
+}
+
+void SpikeFinder::add(const Spike& spike) {
+    for (Spike& known : found_) {
+        const int apart =
+            std::max(std::abs(known.column - spike.column), std::abs(known.row - spike.row));
+        if (apart < reach && std::signbit(known.above_m) == std::signbit(spike.above_m)) {
+            const bool is_further = std::abs(spike.above_m) > std::abs(known.above_m);
+            const int radius = std::max({known.radius, spike.radius, apart});
+            known = is_further ? spike : known;
+            known.radius = radius;
+            return;
+        }
+    }
+    ++count_;
+    if (found_.size() < longest_list) {
+        found_.push_back(spike);
     }
 }
 
@@ -82,8 +111,10 @@ void SpikeFinder::look_at(int column, int row) {
         float lowest_m = std::numeric_limits<float>::infinity();
         float highest_m = -lowest_m;
         int known = 0;
-        const auto add = [&](int x, int y) {
+        int within = 0;
+        const auto look = [&](int x, int y) {
             const bool inside = x >= 0 && x < columns_ && y >= begin_row_ && y < end_row_;
+            within += inside ? 1 : 0;
             const float there_m = inside ? at(x, y) : std::numeric_limits<float>::quiet_NaN();
             if (!std::isnan(there_m)) {
                 lowest_m = std::min(lowest_m, there_m);
@@ -92,10 +123,10 @@ void SpikeFinder::look_at(int column, int row) {
             }
         };
         for (int i = -k; i < k; ++i) { // once round
-            add(column + i, row - k);
-            add(column + k, row + i);
-            add(column - i, row + k);
-            add(column - k, row - i);
+            look(column + i, row - k);
+            look(column + k, row + i);
+            look(column - i, row + k);
+            look(column - k, row - i);
         }
         // One sample of a wider spike stands for all of it.
         if (k == 1 && height_m < highest_m && height_m > lowest_m) {
@@ -105,11 +136,8 @@ void SpikeFinder::look_at(int column, int row) {
         const float gap_m = is_spike ? height_m - highest_m : lowest_m - height_m;
         const float least_m =
             relief_m_[static_cast<std::size_t>(k)] * (is_spike ? 1.0F : pit_share);
-        if (known >= ring_share * 8 * k && gap_m > least_m) {
-            ++count_;
-            if (found_.size() < longest_list) {
-                found_.push_back({column, row, height_m, is_spike ? gap_m : -gap_m});
-            }
+        if (known >= std::max<double>(min_ring, ring_share * within) && gap_m > least_m) {
+            add({column, row, height_m, is_spike ? gap_m : -gap_m, k - 1});
             return;
         }
     }
@@ -118,10 +146,10 @@ void SpikeFinder::look_at(int column, int row) {
 namespace {
 
 /// Samples on each side of a seam.
-constexpr int depth = 4;
-/// Points along a seam that are looked at, at most.
-constexpr int most_points = 64;
-constexpr std::size_t fewest_points = 8;
+constexpr int depth = 2;
+/// Points along a seam that are looked at.
+constexpr int max_points = 1024;
+constexpr std::size_t min_points = 8;
 
 /// A side of a file: from its first sample along it, and outwards.
 struct Side {
@@ -235,26 +263,23 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-double median_size_of(std::vector<double> values) {
+/// The standard error of the median of normally distributed values, by their median distance from
+/// it, which outliers do not change.
+double error_of_median(std::vector<double> values, double median) {
+    constexpr double error_of_mean_distance = 1.2533 * 1.4826;
     for (double& value : values) {
-        value = std::abs(value);
+        value = std::abs(value - median);
     }
-    return median_of(std::move(values));
+    const double root = std::sqrt(static_cast<double>(values.size()));
+    return error_of_mean_distance * median_of(std::move(values)) / root;
 }
 
 /// What is measured at the points of a seam.
 struct Measured {
     std::vector<double> rises_m;
     std::vector<double> steps_m;
-    std::vector<double> usual_m; ///< the same measure within both files
     std::vector<glm::dvec2> column_row;
 };
-
-/// The height from sample i to i + 1 less the mean slope beside them.
-double step_after(const std::array<double, 2 * depth>& heights_m, std::size_t i) {
-    return 1.5 * (heights_m.at(i + 1) - heights_m.at(i)) -
-           0.5 * (heights_m.at(i + 2) - heights_m.at(i - 1));
-}
 
 /// Whether the side of `a` is seen at a point: what lies behind it belongs to `b` alone, or `a`
 /// comes first.
@@ -265,7 +290,7 @@ bool is_seen(const Placed& a, const Placed& b, bool a_is_first, const glm::dvec2
 Measured
 measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, const Reader& read) {
     Measured found;
-    const int points = std::min(side.samples, most_points);
+    const int points = std::min(side.samples, max_points);
     for (int i = 0; i < points; ++i) {
         const int along = points == 1 ? 0 : (side.samples - 1) * i / (points - 1);
         const glm::dvec2 edge(
@@ -285,10 +310,9 @@ measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, co
             heights_m.at(static_cast<std::size_t>(j)) = height_m.value_or(0.0);
         }
         if (is_known) {
-            found.rises_m.push_back(heights_m.at(depth) - heights_m.at(depth - 1));
-            found.steps_m.push_back(step_after(heights_m, depth - 1));
-            found.usual_m.push_back(step_after(heights_m, 1));
-            found.usual_m.push_back(step_after(heights_m, 2 * depth - 3));
+            const double rise_m = heights_m[2] - heights_m[1];
+            found.rises_m.push_back(rise_m);
+            found.steps_m.push_back(1.5 * rise_m - 0.5 * (heights_m[3] - heights_m[0]));
             found.column_row.push_back(begin + edge + 0.5 * out);
         }
     }
@@ -297,19 +321,13 @@ measured(const Placed& a, const Placed& b, const Side& side, bool a_is_first, co
 
 /// Nothing where the ground runs on smoothly enough. `cell_m`: of the finer ground.
 std::optional<SeamStep> step_of(const Placed& a, const Placed& b, Measured at, double cell_m) {
-    if (at.steps_m.size() < fewest_points) {
+    if (at.steps_m.size() < min_points) {
         return std::nullopt;
     }
+    constexpr double sure = 6.0; // standard errors
     const double step_m = median_of(at.steps_m);
-    const double usual_m = median_size_of(at.usual_m);
-    const auto alike = std::ranges::count_if(
-        at.steps_m, [&](double each_m) { return std::signbit(each_m) == std::signbit(step_m); });
-    constexpr double all_alike = 0.9;
-    const double least_m = std::max(1.0, 0.05 * cell_m);
-    const bool is_step =
-        std::abs(step_m) >= std::max(least_m, 2.0 * usual_m) &&
-        static_cast<double>(alike) >= all_alike * static_cast<double>(at.steps_m.size());
-    if (!is_step) {
+    const double least_m = std::max(1.0, 0.01 * cell_m);
+    if (std::abs(step_m) < std::max(least_m, sure * error_of_median(at.steps_m, step_m))) {
         return std::nullopt;
     }
     return SeamStep{

@@ -10,19 +10,22 @@
 
 namespace octant::models::heights {
 
-/// A sample that stands alone, far above or below everything around it.
+/// A sample, or a cluster of samples, far above or below everything around it.
 struct Spike {
-    int column = 0;
+    int column = 0; ///< of the sample that is furthest from what lies around it
     int row = 0;
     float height_m = 0.0F;
     float above_m = 0.0F; ///< the nearest height around it; below zero for a pit
+    int radius = 0;       ///< its other samples are at most so many columns and rows away
 };
 
 /// Finds spikes and pits while the rows of a ground are read from the south to the north. A sample
-/// counts if it exceeds everything at a distance of 1, 2, 3 or 4 samples by more than the relief
-/// that the earth's steepest single peaks have over that distance: 20 m * (distance / 1 m)^0.58,
-/// which is 144 m at 30 m and 1,100 m at 1 km; by 60 % of it for pits. That it is beyond all
-/// samples in a ring tells it from the rim of a cliff.
+/// counts if it exceeds everything in a ring of samples around it, 1 to 8 samples away, by more
+/// than the relief that the earth's steepest single peaks have over that distance: 20 m * (distance
+/// / 1 m)^0.58, which is 144 m at 30 m and 1,100 m at 1 km; by three times that for rings of 5
+/// samples and more, and by 60 % for pits. That it is beyond all samples in a ring tells it from
+/// the rim of a cliff. At the map's border the ring is the part within the map; 60 % of that must
+/// have heights. Samples of one sign that lie closer together than 8 samples are one spike.
 class SpikeFinder {
 public:
     /// The longest list that is kept; more spikes are only counted.
@@ -34,14 +37,15 @@ public:
     /// taken before begin a new search.
     void take(int first_row, std::span<const float> heights_m);
 
-    /// By row and column.
+    /// By row and column of the first sample that was found of each.
     const std::vector<Spike>& found() const { return found_; }
 
     std::int64_t count() const { return count_; }
 
 private:
-    static constexpr int reach = 4;
+    static constexpr int reach = 8;
 
+    void add(const Spike& spike);
     float at(int column, int row) const;
     void look_at_row(int row);
     void look_at(int column, int row);
@@ -67,12 +71,12 @@ struct SeamStep {
     const SourceGrid* grid = nullptr;
 };
 
-/// The seams between files at which heights step although both sides run on smoothly. The step is
-/// measured between the outermost samples of both files, less the mean slope beside them; a seam
-/// counts if the median of it is at least 1 m and 5 % of a cell and stands out from the same
-/// measure taken within the files. The grids look from one frame and are in the order in which they
-/// count where they overlap. `cell_m`: side of the finest cells. Throws Error for what cannot be
-/// read.
+/// The seams between files at which heights step. The step is measured at up to 1,024 points of a
+/// seam between the outermost samples of both files, less the mean slope beside them. A seam counts
+/// if the median of it is at least 1 m, 1 % of a cell and six times its standard error: rugged
+/// ground has large steps of both signs, whose median is small. The grids look from one frame and
+/// are in the order in which they count where they overlap. `cell_m`: side of the finest cells.
+/// Throws Error for what cannot be read.
 std::vector<SeamStep>
 steps_at_seams(const std::vector<SourceGrid>& grids, double cell_m, const GdalSession& gdal);
 

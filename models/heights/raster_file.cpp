@@ -3,6 +3,7 @@
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
+#include "models/heights/text_grid.h"
 #include "models/heights/web_tiles.h"
 #include "sim/base/error.h"
 
@@ -70,8 +71,9 @@ std::vector<std::string> subdatasets_of(GDALDatasetH dataset) {
 /// Throws Error when the raster's values would come from elsewhere.
 void check_sources(const path& file, GDALDatasetH dataset) {
     for (const std::string& name : taken(GDALGetFileList(dataset))) {
-        const bool is_far =
-            name.find("://") != std::string::npos || (is_virtual(name) && !is_in_archive(name));
+        const bool is_own = name.starts_with("/vsisparse//vsimem/octant-"); // text_grid.h
+        const bool is_far = name.find("://") != std::string::npos ||
+                            (is_virtual(name) && !is_in_archive(name) && !is_own);
         if (is_far) {
             error_in(
                 file,
@@ -81,20 +83,20 @@ void check_sources(const path& file, GDALDatasetH dataset) {
     }
 }
 
-/// What a file begins with.
-std::string first_bytes(const path& file) {
-    std::string bytes(8, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(in.gcount()));
-    return bytes;
-}
-
 Dataset open_named(const std::string& name) {
     if (Dataset heightmap = open_cesium_heightmap(name)) {
         return heightmap;
     }
-    return Dataset(GDALOpenEx(name.c_str(), open_flags, nullptr, nullptr, nullptr));
+    if (Dataset grid = open_grid_that_begins_with_word(name)) {
+        return grid;
+    }
+    // Without IMMUTABLE, SQLite creates log files next to a GeoPackage while it is open. A log that
+    // exists already holds heights, too, and is read.
+    constexpr std::array<const char*, 2> immutable = {"@IMMUTABLE=YES", nullptr};
+    std::error_code code;
+    const bool has_log = std::filesystem::exists(name + "-wal", code);
+    return Dataset(GDALOpenEx(
+        name.c_str(), open_flags, nullptr, has_log ? nullptr : immutable.data(), nullptr));
 }
 
 /// The name of a variable at the end of a sub-dataset's: height of NETCDF:"a.nc":height.
@@ -143,6 +145,55 @@ std::string chosen_subdataset(
             names.front()));
 }
 
+/// Reads numbers and text at places of a file.
+class FileHeader {
+public:
+    explicit FileHeader(const path& file)
+        : in_(file, std::ios::binary) {
+        std::error_code code;
+        const std::uintmax_t bytes = std::filesystem::file_size(file, code);
+        bytes_ = code ? 0 : bytes;
+    }
+
+    std::uintmax_t bytes() const { return bytes_; }
+
+    /// Returns fewer bytes than asked for at the end of the file.
+    std::string text(std::uintmax_t at, std::size_t size) {
+        std::string bytes(at < bytes_ ? std::min<std::uintmax_t>(size, bytes_ - at) : 0, '\0');
+        in_.clear();
+        in_.seekg(static_cast<std::streamoff>(at));
+        in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        return bytes;
+    }
+
+    bool begins_with(std::string_view text_at_begin) {
+        return text(0, text_at_begin.size()) == text_at_begin;
+    }
+
+    /// A number of up to 8 bytes; 0 beyond the end of the file.
+    std::uintmax_t number(std::uintmax_t at, std::size_t size, bool low_first) {
+        std::string bytes = text(at, size);
+        if (low_first) {
+            std::ranges::reverse(bytes);
+        }
+        std::uintmax_t value = 0;
+        for (const char byte : bytes) {
+            value = value << 8U | static_cast<unsigned char>(byte);
+        }
+        return bytes.size() == size ? value : 0;
+    }
+
+    /// The end of a part of the file, at most a large number.
+    static std::uintmax_t end(std::uintmax_t at, std::uintmax_t size) {
+        constexpr std::uintmax_t large = std::uintmax_t{1} << 62U;
+        return std::min(at, large) + std::min(size, large);
+    }
+
+private:
+    std::ifstream in_;
+    std::uintmax_t bytes_ = 0;
+};
+
 /// Of the largest file behind a raster that is no label, which is the one with its numbers.
 std::uintmax_t bytes_of(GDALDatasetH dataset) {
     constexpr std::array<std::string_view, 6> labels = {
@@ -164,14 +215,16 @@ std::uintmax_t end_of_blocks(GDALDatasetH dataset) {
     int width = 1;
     int height = 1;
     GDALGetBlockSize(band, &width, &height);
+    const int columns = (GDALGetRasterXSize(dataset) - 1) / std::max(width, 1) + 1;
+    const int rows = (GDALGetRasterYSize(dataset) - 1) / std::max(height, 1) + 1;
     const auto number = [&](const char* what, int x, int y) -> std::uintmax_t {
         const char* const text =
             GDALGetMetadataItem(band, fmt::format("BLOCK_{}_{}_{}", what, x, y).c_str(), "TIFF");
         return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
     };
     std::uintmax_t end = 0;
-    for (int y = 0; y * height < GDALGetRasterYSize(dataset); ++y) {
-        for (int x = 0; x * width < GDALGetRasterXSize(dataset); ++x) {
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
             end = std::max(end, number("OFFSET", x, y) + number("SIZE", x, y));
         }
     }
@@ -191,44 +244,138 @@ std::uintmax_t bytes_of_label(GDALDatasetH dataset) {
 
 /// Whether a format has its heights as plain numbers one after the other.
 bool is_plain(std::string_view driver, const path& file) {
-    constexpr std::array<std::string_view, 10> plain = {
-        "EHdr", "ENVI", "ISIS2", "ISIS3", "PDS", "PDS4", "VICAR", "GSBG", "GS7BG", "BT"};
+    constexpr std::array<std::string_view, 14> plain = {
+        "EHdr",
+        "ENVI",
+        "ISIS2",
+        "ISIS3",
+        "PDS",
+        "PDS4",
+        "VICAR",
+        "GSBG",
+        "GS7BG",
+        "BT",
+        "SAGA",
+        "RST",
+        "ERS",
+        "PNM"};
     constexpr std::string_view classic_netcdf = "CDF";
     return std::ranges::find(plain, driver) != plain.end() ||
-           (driver == "netCDF" && first_bytes(file).starts_with(classic_netcdf));
+           (driver == "netCDF" && FileHeader(file).begins_with(classic_netcdf));
 }
 
-/// What is wrong with a file that no driver opens: one that ends too soon.
-std::string cut_short_unopened(const path& file) {
+/// Where the first directory of a TIFF file ends, which may be anywhere in it.
+std::uintmax_t end_of_tiff(FileHeader& header) {
+    const bool low_first = header.begins_with("II");
+    const bool is_big = header.number(2, 2, low_first) == 43;
+    const std::size_t wide = is_big ? 8 : 4;
+    const std::uintmax_t begin = header.number(is_big ? 8 : 4, wide, low_first);
+    const std::uintmax_t entries = header.number(begin, is_big ? 8 : 2, low_first);
+    return begin == 0 ? 2 * wide
+                      : header.end(begin, (is_big ? 16 : 6) + (is_big ? 20 : 12) * entries);
+}
+
+/// Where the last of the chunks of a PNG file ends.
+std::uintmax_t end_of_png(FileHeader& header) {
+    constexpr std::uintmax_t around = 12; // length, kind and checksum of a chunk
+    std::uintmax_t at = 8;
+    while (header.text(at + 4, 4) != "IEND") {
+        if (at >= header.bytes()) {
+            return at + around;
+        }
+        at += around + header.number(at, 4, false);
+    }
+    return at + around;
+}
+
+/// Whether a JPEG or JPEG 2000 file has the mark that ends it. Small additions may follow.
+bool has_end_mark(FileHeader& header) {
+    constexpr std::uintmax_t last = 4096;
+    const std::uintmax_t begin = header.bytes() - std::min(header.bytes(), last);
+    return header.text(begin, last).find("\xff\xd9") != std::string::npos;
+}
+
+/// Where the boxes of a JPEG 2000 file end; a code stream ends with a mark.
+std::uintmax_t end_of_jpeg_2000(FileHeader& header) {
+    const bool has_boxes = header.begins_with(std::string_view("\0", 1));
+    std::uintmax_t at = 0;
+    while (has_boxes && at < header.bytes()) {
+        std::uintmax_t size = header.number(at, 4, false);
+        size = size == 1 ? header.number(at + 8, 8, false) : size;
+        if (size < 8) { // to the end of the file, or no box
+            break;
+        }
+        at = header.end(at, size);
+    }
+    return at >= header.bytes() || has_end_mark(header) ? at : header.bytes() + 2;
+}
+
+/// The least number of bytes of a complete file, as its own header says; 0 for formats whose header
+/// does not say it.
+std::uintmax_t bytes_by_header(FileHeader& header) {
+    using namespace std::string_view_literals;
+    if (header.begins_with("II*") || header.begins_with("II+") || header.begins_with("MM\0"sv)) {
+        return end_of_tiff(header);
+    }
+    if (header.begins_with("\x89PNG\r\n\x1a\n"sv)) {
+        return end_of_png(header);
+    }
+    if (header.begins_with("\0\0\0\x0cjP  "sv) || header.begins_with("\xff\x4f\xff\x51"sv)) {
+        return end_of_jpeg_2000(header);
+    }
+    if (header.begins_with("\xff\xd8\xff"sv)) { // JPEG
+        return has_end_mark(header) ? 0 : header.bytes() + 2;
+    }
+    if (header.begins_with("\x89HDF\r\n\x1a\n"sv)) {
+        return header.number(header.number(8, 1, true) < 2 ? 40 : 28, 8, true);
+    }
+    if (header.begins_with("GRIB") && header.number(7, 1, false) == 2) { // its first message
+        return header.number(8, 8, false);
+    }
+    if (header.begins_with("SQLite format 3\0"sv)) { // GeoPackage
+        const std::uintmax_t page = header.number(16, 2, false);
+        const bool is_valid = header.number(24, 4, false) == header.number(92, 4, false);
+        const std::uintmax_t pages = is_valid ? header.number(28, 4, false) : 0;
+        constexpr std::uintmax_t own = 100;
+        return std::max(own, (page == 1 ? 65536 : page) * pages);
+    }
+    if (header.begins_with("EHFA_HEADER_TAG\0"sv)) { // Erdas Imagine: root and dictionary
+        const std::uintmax_t at = header.number(16, 4, true);
+        return 1 +
+               std::max({at + 17, header.number(at + 8, 4, true), header.number(at + 14, 4, true)});
+    }
+    return 0;
+}
+
+/// Throws Error for a file that is shorter than its own header says. Libraries tell that in words
+/// of their own, or read what is there and say nothing.
+void check_end(const path& file) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code)) {
+        return; // within an archive, or a folder
+    }
+    FileHeader header(file);
+    const std::uintmax_t bytes = bytes_by_header(header);
+    if (header.bytes() < bytes) {
+        error_unreadable(
+            file,
+            "a height field",
+            fmt::format("only the first {} of its at least {} bytes", header.bytes(), bytes));
+    }
+}
+
+/// How much of a .hgt tile, which has no header, is there; empty for other files.
+std::string cut_short_tile(const path& file) {
     std::error_code code;
     const std::uintmax_t bytes = std::filesystem::file_size(file, code);
     const std::string ending = file.extension().string();
-    if (code) {
+    if (code || (ending != ".hgt" && ending != ".HGT")) {
         return {};
     }
-    if (ending == ".hgt" || ending == ".HGT") {
-        constexpr std::uintmax_t coarse = std::uintmax_t{2} * 1201 * 1201;
-        constexpr std::uintmax_t fine = std::uintmax_t{2} * 3601 * 3601;
-        return fmt::format(
-            "only the first {} of the {} bytes of a .hgt tile",
-            bytes,
-            bytes <= coarse ? coarse : fine);
-    }
-    // A TIFF begins with where its description lies, in the byte order of its first two letters.
-    const std::string first = first_bytes(file);
-    const bool is_tiff = first.starts_with(std::string_view("II*\0", 4)) ||
-                         first.starts_with(std::string_view("MM\0*", 4));
-    if (!is_tiff || first.size() < 8) {
-        return {};
-    }
-    std::uintmax_t described_at = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t from_high = first.front() == 'M' ? 4 + i : 7 - i;
-        described_at = described_at << 8U | static_cast<unsigned char>(first[from_high]);
-    }
-    return described_at < bytes
-               ? std::string()
-               : fmt::format("only the first {} of its more than {} bytes", bytes, described_at);
+    constexpr std::uintmax_t coarse = std::uintmax_t{2} * 1201 * 1201;
+    constexpr std::uintmax_t fine = std::uintmax_t{2} * 3601 * 3601;
+    return fmt::format(
+        "only the first {} of the {} bytes of a .hgt tile", bytes, bytes <= coarse ? coarse : fine);
 }
 
 } // namespace
@@ -278,9 +425,10 @@ Dataset open_raster_file(
     GdalSession& gdal,
     std::optional<std::string>& band,
     std::vector<MapNote>& notes) {
+    check_end(file);
     Dataset dataset = open_named(file.string());
     if (!dataset) {
-        const std::string cut_short = cut_short_unopened(file);
+        const std::string cut_short = cut_short_tile(file);
         if (!cut_short.empty()) {
             error_unreadable(file, "a height field", cut_short);
         }

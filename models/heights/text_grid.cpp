@@ -38,6 +38,8 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
 
 /// Words of a text with the lines on which they stand, read piece by piece.
 class WordFile {
+    static constexpr std::size_t max_letters = 1000;
+
 public:
     /// `separators` beside white space.
     WordFile(const path& file, std::string_view separators)
@@ -56,7 +58,8 @@ public:
     WordFile(WordFile&&) = delete;
     WordFile& operator=(WordFile&&) = delete;
 
-    /// The next word, valid until the next call; nothing at the end.
+    /// The next word, valid until the next call; nothing at the end. Throws Error for a word that
+    /// is too long for a number.
     std::optional<std::string_view> next() {
         word_.clear();
         line_of_word_ = line_;
@@ -66,6 +69,10 @@ public:
                                separators_.find(*c) != std::string_view::npos;
             if (!parts) {
                 word_ += *c;
+                if (word_.size() > max_letters) {
+                    line_of_word_ = line_;
+                    refuse("a number", fmt::format("a word of more than {} letters", max_letters));
+                }
                 continue;
             }
             line_of_word_ = line_;
@@ -77,6 +84,9 @@ public:
         line_of_word_ = line_;
         return word_.empty() ? std::nullopt : std::optional<std::string_view>(word_);
     }
+
+    /// Where the last word begins in the file, if a separator follows it.
+    std::uint64_t begin_of_word() const { return bytes_ + at_ - 1 - word_.size(); }
 
     /// Of the last word; of the file's last one at the end.
     int line() const { return line_of_word_; }
@@ -92,6 +102,7 @@ public:
 private:
     bool fill() {
         if (at_ == filled_) {
+            bytes_ += filled_;
             filled_ = VSIFReadL(piece_.data(), 1, piece_.size(), stream_);
             at_ = 0;
         }
@@ -110,6 +121,7 @@ private:
     std::array<char, 1 << 16> piece_{};
     std::size_t at_ = 0;
     std::size_t filled_ = 0;
+    std::uint64_t bytes_ = 0; ///< of the file before the piece
     std::string word_;
     int line_ = 1;
     int line_of_word_ = 1;
@@ -173,6 +185,81 @@ bool is_void_word(std::string_view word) {
     return is_one_of(word, words) || word.find_first_not_of('*') == std::string_view::npos;
 }
 
+bool is_key(std::string_view word) {
+    constexpr std::array<std::string_view, 21> keys = {
+        "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
+        "dx",    "dy",    "nodata_value", "nodata",    "byteorder", "north:",    "south:",
+        "east:", "west:", "rows:",        "cols:",     "null:",     "type:",     "multiplier:"};
+    return is_one_of(word, keys);
+}
+
+bool is_alphabetic(std::string_view word) {
+    return std::isalpha(static_cast<unsigned char>(word.front())) != 0;
+}
+
+/// Whether a file may be an ESRI or GRASS text grid.
+bool begins_with_key(const path& file) {
+    VSILFILE* const stream = VSIFOpenL(file.c_str(), "rb");
+    if (stream == nullptr) {
+        return false; // a folder, or a name that only a driver knows
+    }
+    std::array<char, 16> bytes = {};
+    const std::size_t size = VSIFReadL(bytes.data(), 1, bytes.size(), stream);
+    VSIFCloseL(stream);
+    const std::string_view text(bytes.data(), size);
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+    return !word.empty() && is_key(word);
+}
+
+/// A file of GDAL's in memory that reads as another file, in which `zeros` bytes from `begin` on
+/// are the digit 0. It exists while this object lives.
+class FileWithZeros {
+public:
+    FileWithZeros(const std::string& name, const path& file, std::uint64_t begin, std::size_t zeros)
+        : name_(name) {
+        VSIStatBufL status;
+        if (VSIStatL(file.c_str(), &status) != 0) {
+            return;
+        }
+        const auto bytes = static_cast<std::uint64_t>(status.st_size);
+        char* const escaped = CPLEscapeString(file.c_str(), -1, CPLES_XML);
+        const auto part = [escaped](std::uint64_t from, std::uint64_t to) {
+            return fmt::format(
+                "<SubfileRegion><Filename relative=\"0\">{0}</Filename><DestinationOffset>{1}"
+                "</DestinationOffset><SourceOffset>{1}</SourceOffset><RegionLength>{2}"
+                "</RegionLength></SubfileRegion>",
+                escaped,
+                from,
+                to - from);
+        };
+        const std::string zero_part = fmt::format(
+            "<ConstantRegion><DestinationOffset>{}</DestinationOffset><RegionLength>{}"
+            "</RegionLength><Value>{}</Value></ConstantRegion>",
+            begin,
+            zeros,
+            int{'0'});
+        text_ = fmt::format(
+            "<VSISparseFile><Length>{}</Length>{}{}</VSISparseFile>",
+            bytes,
+            zeros == 0 ? "" : part(0, begin) + zero_part,
+            part(begin + zeros, bytes));
+        CPLFree(escaped);
+        VSIFCloseL(VSIFileFromMemBuffer(
+            name.c_str(), reinterpret_cast<GByte*>(text_.data()), text_.size(), FALSE));
+    }
+
+    ~FileWithZeros() { VSIUnlink(name_.c_str()); }
+
+    FileWithZeros(const FileWithZeros&) = delete;
+    FileWithZeros& operator=(const FileWithZeros&) = delete;
+    FileWithZeros(FileWithZeros&&) = delete;
+    FileWithZeros& operator=(FileWithZeros&&) = delete;
+
+private:
+    std::string name_;
+    std::string text_;
+};
+
 class GridCheck {
 public:
     GridCheck(const path& file, const std::string& driver, int columns, int rows)
@@ -192,14 +279,6 @@ public:
     }
 
 private:
-    static bool is_key(std::string_view word) {
-        constexpr std::array<std::string_view, 20> keys = {
-            "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
-            "dx",    "dy",    "nodata_value", "nodata",    "byteorder", "north:",    "south:",
-            "east:", "west:", "rows:",        "cols:",     "null:",     "type:"};
-        return is_one_of(word, keys) || is_same_word(word, "multiplier:");
-    }
-
     /// Lines of a key and its value. Returns the first word behind them.
     std::optional<std::string_view> keyed_header() {
         while (const auto word = words_.next()) {
@@ -257,10 +336,6 @@ private:
         std::int64_t seen = 0;
         for (; word && seen < samples_; word = words_.next()) {
             if (!is_number(*word)) {
-                if (seen == 0 && std::isalpha(static_cast<unsigned char>(word->front())) != 0) {
-                    // GDAL takes it for a part of the header.
-                    words_.refuse_word("a number for the first height", *word);
-                }
                 if (driver_ == surfer || !(is_void_word(*word) || is_not_finite(*word))) {
                     words_.refuse_word("a height", *word);
                 }
@@ -282,19 +357,24 @@ private:
         if (voids_.samples++ == 0) {
             voids_.word = printable(std::string(word));
         }
-        std::vector<TextVoids::Run>& runs = voids_.runs;
-        if (!runs.empty() && runs.back().first + runs.back().samples == sample) {
-            ++runs.back().samples;
-        } else {
-            runs.push_back({sample, 1});
-        }
+        voids_.are_void.resize(static_cast<std::size_t>(sample) + 1);
+        voids_.are_void.back() = true;
     }
 
-    /// Three numbers a line; the first line may name columns.
+    /// Numbers only, but for a first line without any, which names columns.
     void check_points() {
+        std::string name; // a word of the first line that is no number
+        bool has_number = false;
         while (const auto word = words_.next()) {
             if (words_.line() > 1) {
                 check_number(word);
+                continue;
+            }
+            const bool is_name = !is_number(*word) && !is_not_finite(*word);
+            has_number = has_number || !is_name;
+            name = is_name && name.empty() ? std::string(*word) : name;
+            if (has_number && !name.empty()) {
+                words_.refuse_word("a number", name);
             }
         }
     }
@@ -308,17 +388,42 @@ private:
 } // namespace
 
 void TextVoids::apply(std::int64_t first, std::span<double> raw) const {
-    const std::int64_t end = first + static_cast<std::int64_t>(raw.size());
-    auto run =
-        std::ranges::upper_bound(runs, first, {}, [](const Run& r) { return r.first + r.samples; });
-    for (; run != runs.end() && run->first < end; ++run) {
-        const std::int64_t from = std::max(run->first, first);
-        const std::int64_t to = std::min(run->first + run->samples, end);
-        std::fill(
-            raw.begin() + (from - first),
-            raw.begin() + (to - first),
-            std::numeric_limits<double>::quiet_NaN());
+    const auto begin = static_cast<std::size_t>(first);
+    for (std::size_t i = 0; i < raw.size() && begin + i < are_void.size(); ++i) {
+        raw[i] = are_void[begin + i] ? std::numeric_limits<double>::quiet_NaN() : raw[i];
     }
+}
+
+Dataset open_grid_that_begins_with_word(const path& file) {
+    if (!begins_with_key(file)) {
+        return nullptr;
+    }
+    WordFile words(file, "");
+    auto word = words.next();
+    while (word && is_key(*word)) {
+        words.next(); // its value
+        word = words.next();
+    }
+    if (!word || !is_alphabetic(*word)) {
+        return nullptr;
+    }
+    if (!is_void_word(*word) && !is_not_finite(*word)) {
+        words.refuse_word("a height", *word);
+    }
+    // GDAL looks for side files in the folder of the grid, which is in memory here.
+    const std::string folder = fmt::format("/vsimem/octant-{}", static_cast<const void*>(&words));
+    const path name = path(folder) / file.filename();
+    const FileWithZeros grid(name.string(), file, words.begin_of_word(), word->size());
+    const FileWithZeros system(
+        path(name).replace_extension(".prj").string(), path(file).replace_extension(".prj"), 0, 0);
+    const FileWithZeros side(name.string() + ".aux.xml", file.string() + ".aux.xml", 0, 0);
+    constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+    const std::string sparse = "/vsisparse/" + name.string();
+    Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
+    if (!dataset) {
+        error_unreadable(file, "a height field", "a header without size, place or cells");
+    }
+    return dataset;
 }
 
 bool is_text_grid(const std::string& driver) {

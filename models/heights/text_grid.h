@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/heights/gdal_session.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -10,12 +12,7 @@ namespace octant::models::heights {
 
 /// Samples of a text grid for which a word such as NA stands.
 struct TextVoids {
-    struct Run {
-        std::int64_t first = 0; ///< samples count row after row from the north
-        std::int64_t samples = 0;
-    };
-
-    std::vector<Run> runs; ///< in order, apart from each other
+    std::vector<bool> are_void; ///< samples row after row from the north, up to the last such one
     std::int64_t samples = 0;
     std::string word;                ///< the first of them
     bool declares_no_number = false; ///< NODATA_value is a word: what GDAL makes of it is no value
@@ -25,6 +22,12 @@ struct TextVoids {
     void apply(std::int64_t first, std::span<double> raw) const;
 };
 
+/// Opens an ESRI or GRASS text grid whose first height is a word without data, such as NA. GDAL
+/// alone takes that for a part of the header: it refuses the file or loses the first row. The
+/// dataset has 0 there. Null for all other files. Throws Error for a first height that is neither a
+/// number nor such a word.
+Dataset open_grid_that_begins_with_word(const std::filesystem::path& file);
+
 /// Whether a driver of GDAL's reads text grids, of which it takes the front of a damaged number,
 /// and 0 for what is no number at all.
 bool is_text_grid(const std::string& driver);
@@ -32,7 +35,8 @@ bool is_text_grid(const std::string& driver);
 /// Checks every number of a text grid that GDAL has opened by this driver. ESRI and GRASS grids may
 /// have words without data (NA, NULL, ***) in place of heights, which are returned. Throws Error
 /// "file:line: expected ..., got ..." for other words, damaged numbers, and a file that ends before
-/// columns * rows of them.
+/// columns * rows of them. Points may have a first line of names, which has no numbers. Memory: a
+/// bit a sample where there are such words.
 TextVoids check_text_grid(
     const std::filesystem::path& file, const std::string& driver, int columns, int rows);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace octant::models::heights {
 
@@ -28,17 +29,25 @@ std::string samples_text(std::int64_t samples) {
 } // namespace
 
 bool UndeclaredVoids::has(double raw) const {
-    return raw >= wrapped_from || std::ranges::find(values, raw) != values.end();
+    return raw >= wrapped_from || std::abs(raw) >= beyond_heights ||
+           std::ranges::find(values, raw) != values.end();
+}
+
+std::string raw_text(double raw) {
+    constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
+    const float single = std::abs(raw) <= largest ? static_cast<float>(raw) : 0.0F;
+    return static_cast<double>(single) == raw ? fmt::format("{}", single) : fmt::format("{}", raw);
 }
 
 bool is_usual_void(double raw) {
-    constexpr std::array<double, 14> usual = {
+    constexpr std::array<double, 15> usual = {
         -999.0,
         -9999.0,
         -10000.0,
         -32767.0,
         -32768.0,
         -99999.0,
+        -100000.0, // black of a Mapbox tile, in tenths of a metre
         9999.0,
         99999.0,
         32767.0,
@@ -47,7 +56,8 @@ bool is_usual_void(double raw) {
         55537.0,
         65535.0,
         4294967295.0};
-    return std::ranges::find(usual, raw) != usual.end();
+    const bool is_common_height = raw > -999.0 && raw < 9999.0; // nearly all samples
+    return !is_common_height && std::ranges::find(usual, raw) != usual.end();
 }
 
 void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
@@ -56,6 +66,8 @@ void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
         ++found->samples;
     } else if (marks.size() <= max_absurd || is_usual_void(raw)) {
         marks.push_back({raw, height_m, 1});
+    } else {
+        ++marks.back().samples;
     }
 }
 
@@ -68,6 +80,8 @@ void VoidSurvey::add(double raw, double height_m) {
     const bool is_height = height_m >= lowest_m_ && height_m <= highest_m_;
     if (is_usual_void(raw)) {
         count(usual_, raw, height_m);
+    } else if (std::abs(raw) >= beyond_heights) {
+        count(beyond_, raw, height_m);
     } else if (is_height) {
         ++ordinary_;
         least_m_ = std::min(least_m_, height_m);
@@ -92,11 +106,17 @@ UndeclaredVoids VoidSurvey::result() const {
     const double far_m = std::max(1000.0, 0.5 * range_m);
     UndeclaredVoids voids;
     std::string counts;
+    bool may_be_heights = false;
     const auto take = [&](const Mark& mark) {
         voids.values.push_back(mark.raw);
+        may_be_heights |= mark.height_m >= lowest_m_ && mark.height_m <= highest_m_;
         counts += fmt::format(
-            "{}{} of {:.15g}", counts.empty() ? "" : ", ", samples_text(mark.samples), mark.raw);
+            "{}{} of {}",
+            counts.empty() ? "" : ", ",
+            samples_text(mark.samples),
+            raw_text(mark.raw));
     };
+    std::ranges::for_each(beyond_, take);
     for (const Mark& mark : usual_) {
         if (distance_m(mark.height_m) > near_m) {
             take(mark);
@@ -126,9 +146,9 @@ UndeclaredVoids VoidSurvey::result() const {
     }
     if (!counts.empty()) {
         voids.note = fmt::format(
-            "{} count as without data, though the file does not say so: --void VALUE names "
-            "another value",
-            counts);
+            "{} count as missing, though the file does not say so{}",
+            counts,
+            may_be_heights ? "; --void none takes them for heights" : "");
     }
     return voids;
 }

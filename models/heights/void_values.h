@@ -18,6 +18,12 @@ struct UndeclaredVoids {
     bool has(double raw) const;
 };
 
+/// Numbers of this size and more are no heights in any unit, such as -FLT_MAX.
+inline constexpr double beyond_heights = 1e30;
+
+/// The shortest text of a stored number that --void takes for this number.
+std::string raw_text(double raw);
+
 /// Whether a number is one that software writes for "no data" by habit, such as -9999.
 bool is_usual_void(double raw);
 
@@ -26,7 +32,7 @@ bool is_usual_void(double raw);
 /// have true heights of -9999 m. Of other numbers those do that no ground has as a height, where
 /// there is one of them, or up to three of fewer samples than heights have, far from all heights
 /// and whole or a power of ten: more are heights in a unit that is not known. Negative heights
-/// that were stored in unsigned numbers do, too.
+/// that were stored in unsigned numbers do, too, and all numbers from beyond_heights on.
 class VoidSurvey {
 public:
     /// `modulus`: 2^bits of the unsigned numbers that samples are or were.
@@ -60,6 +66,7 @@ private:
     double greatest_m_ = -std::numeric_limits<double>::infinity();
     std::vector<Mark> usual_;
     std::vector<Mark> absurd_; ///< at most max_absurd + 1
+    std::vector<Mark> beyond_; ///< at most max_absurd + 1; the last stands for all others
     Mark wrapped_;             ///< the least of them, and their number
     double greatest_wrapped_ = 0.0;
 };

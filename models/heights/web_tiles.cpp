@@ -28,14 +28,17 @@ namespace {
 
 using std::filesystem::path;
 
-/// A height is the offset and each channel times its weight.
+/// A height is the offset and each channel times its weight, in a unit in which both are exact.
 struct Weights {
     std::array<double, 3> channel;
-    double offset_m;
+    double offset;
+    const char* unit;
+    double unit_m;
 };
 
 constexpr std::array<Weights, 2> weights_of_codes = {
-    Weights{{256.0, 1.0, 1.0 / 256.0}, -32768.0}, Weights{{6553.6, 25.6, 0.1}, -10000.0}};
+    Weights{{256.0, 1.0, 1.0 / 256.0}, -32768.0, "m", 1.0},
+    Weights{{65536.0, 256.0, 1.0}, -100000.0, "dm", 0.1}};
 
 const Weights& weights_of(ColourCode code) {
     return weights_of_codes.at(static_cast<std::size_t>(code));
@@ -158,8 +161,9 @@ struct Neighbours {
     }
 
     void add(const glm::ivec3& pixel, const Weights& weights) {
-        const double height_m = weights.offset_m + weights.channel[0] * pixel.x +
-                                weights.channel[1] * pixel.y + weights.channel[2] * pixel.z;
+        const double code = weights.offset + weights.channel[0] * pixel.x +
+                            weights.channel[1] * pixel.y + weights.channel[2] * pixel.z;
+        const double height_m = code * weights.unit_m;
         ++pixels;
         heights += height_m >= lowest_import_m && height_m <= highest_import_m ? 1 : 0;
         furthest_m = std::max(furthest_m, std::abs(height_m));
@@ -302,7 +306,7 @@ Dataset decoded_heights(const path& file, void* dataset, ColourCode code) {
             "<ScaleOffset>{:.17g}</ScaleOffset><ScaleRatio>{:.17g}</ScaleRatio></ComplexSource>",
             source,
             channel + 1,
-            channel == 0 ? weights.offset_m : 0.0,
+            channel == 0 ? weights.offset : 0.0,
             weights.channel.at(static_cast<std::size_t>(channel)));
     }
     std::string alpha;
@@ -316,12 +320,13 @@ Dataset decoded_heights(const path& file, void* dataset, ColourCode code) {
     }
     Dataset heights = open_virtual(fmt::format(
         "<VRTDataset rasterXSize=\"{}\" rasterYSize=\"{}\">{}<VRTRasterBand dataType=\"Float64\" "
-        "band=\"1\" subClass=\"VRTDerivedRasterBand\"><UnitType>m</UnitType>"
+        "band=\"1\" subClass=\"VRTDerivedRasterBand\"><UnitType>{}</UnitType>"
         "<PixelFunctionType>sum</PixelFunctionType><SourceTransferType>Float64"
         "</SourceTransferType>{}</VRTRasterBand>{}</VRTDataset>",
         columns,
         rows,
         place,
+        weights.unit,
         sources,
         alpha));
     if (!heights) {

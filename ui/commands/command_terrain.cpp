@@ -150,9 +150,8 @@ Command info_command() {
     auto options = std::make_shared<TerrainOptions>();
     Command command{
         .name = "info",
-        .summary =
-            "Shows size, heights, slopes, voids and place of a terrain, how far its system is "
-            "from true and its heights from the file's",
+        .summary = "Shows size, heights, slopes, voids and place of a terrain, errors of the map "
+                   "projection, and differences between the loaded heights and the file's",
         .options =
             {required(text_option(
                  "terrain",

@@ -1,6 +1,7 @@
 #include "ui/commands/terrain_options.h"
 
 #include "ui/commands/read_option.h"
+#include "ui/settings/path_fields.h"
 
 namespace octant::ui::commands {
 
@@ -22,7 +23,7 @@ void add_file_rows(
     double& spacing_m,
     std::optional<double>& height_scale,
     std::optional<std::string>& system,
-    std::optional<double>& void_value,
+    models::heights::VoidMarks& voids,
     std::optional<std::string>& band) {
     table.insert(
         table.end(),
@@ -42,25 +43,15 @@ void add_file_rows(
               "coordinate system of files that name none: EPSG:4326, a PROJ string, a .prj file or "
               "metres [degrees: WGS 84; else metres]"},
              system),
-         read_option(
-             {"void",
-              "VALUE",
-              "raw number that stands for no data, beside the declared one [found, and said]",
-              -1e38,
-              1e38},
-             void_value),
-         read_option(
-             {"band",
-              "N|NAME",
-              "band that holds heights; terrarium, mapbox: coded in colours [found, and said]"},
-             band)});
+         read_option(settings::void_info, voids),
+         read_option(settings::band_info, band)});
 }
 
 } // namespace
 
 void add_file_options(std::vector<Option>& table, models::heights::ImportOptions& files) {
     add_file_rows(
-        table, files.spacing_m, files.height_scale, files.system, files.void_value, files.band);
+        table, files.spacing_m, files.height_scale, files.system, files.voids, files.band);
 }
 
 void add_file_options(std::vector<Option>& table, settings::PathSettings& path) {
@@ -69,7 +60,7 @@ void add_file_options(std::vector<Option>& table, settings::PathSettings& path) 
         path.terrain_spacing_m,
         path.terrain_height_scale,
         path.terrain_system,
-        path.terrain_void,
+        path.terrain_voids,
         path.terrain_band);
 }
 

@@ -13,6 +13,19 @@ namespace octant::ui::settings {
 inline constexpr std::array<std::string_view, 4> built_in_terrains{
     "hills", "canyon", "background60", "none"};
 
+/// Options of all commands that read maps.
+inline constexpr FieldInfo void_info{
+    "void",
+    "V,...|none",
+    "stored numbers meaning 'no data', in addition to the file's own; none: no number does, or "
+    "only "
+    "those that follow [common ones are recognised and noted]"};
+inline constexpr FieldInfo band_info{
+    "band",
+    "N|NAME",
+    "band that holds heights, or terrarium, mapbox for heights encoded in RGB [detected and "
+    "noted]"};
+
 /// Settings of the group Path. Which path, aircraft and ground.
 inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
@@ -71,21 +84,10 @@ inline constexpr std::tuple path_rows{
          "coordinate system of terrain files that name none: EPSG:4326, a PROJ string, a .prj file "
          "or metres [degrees: WGS 84; else metres]"},
         {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
-    setting<&RunSettings::path, &PathSettings::terrain_void>(
-        {"void",
-         "VALUE",
-         "raw number of terrain files that stands for no data, beside the declared one [found, and "
-         "said]",
-         -1e38,
-         1e38},
-        {.group = SettingGroup::Path, .change = SettingsChange::Flight, .start = -9999.0}),
+    setting<&RunSettings::path, &PathSettings::terrain_voids>(
+        void_info, {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
     setting<&RunSettings::path, &PathSettings::terrain_band>(
-        {"band",
-         "N|NAME",
-         "band of terrain files that holds heights; terrarium, mapbox: coded in colours [found, "
-         "and "
-         "said]"},
-        {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
+        band_info, {.group = SettingGroup::Path, .change = SettingsChange::Flight}),
     setting<&RunSettings::path, &PathSettings::place>(
         {"place",
          "X,Y|LAT,LON",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/heights/import_options.h"
 #include "sim/height_mode.h"
 #include "visuals/scene/settings.h"
 
@@ -32,8 +33,8 @@ struct PathSettings {
     std::optional<double> terrain_height_scale;
     /// The coordinate system of terrain files that name none; metres if not set.
     std::optional<std::string> terrain_system;
-    /// The raw number of terrain files that stands for no data, beside those that they declare.
-    std::optional<double> terrain_void;
+    /// Stored numbers of terrain files that mean "no data".
+    models::heights::VoidMarks terrain_voids;
     /// The band of terrain files that holds heights, by number or name; chosen if not set.
     std::optional<std::string> terrain_band;
     /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the

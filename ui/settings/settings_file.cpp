@@ -73,6 +73,16 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::optional<V
     }
 }
 
+/// Older files have a number or null.
+void read_field(
+    const FieldInfo& info, const ordered_json& json, models::heights::VoidMarks& voids) {
+    if (json.is_null()) {
+        voids = {};
+    } else {
+        read_setting(info, scalar_text(json), voids);
+    }
+}
+
 void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std::string>& value) {
     const bool names = json.is_array() && !json.empty() && json.size() <= 4096 &&
                        std::all_of(json.begin(), json.end(), [](const ordered_json& item) {

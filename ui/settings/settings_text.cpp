@@ -18,6 +18,10 @@ using visuals::scene::Adaptation;
 
 namespace {
 
+/// Words for VoidMarks: "none" counts only the numbers that follow it, "common" is the default.
+constexpr std::string_view no_voids = "none";
+constexpr std::string_view common_voids = "common";
+
 [[noreturn]] void refuse(const FieldInfo& info, const std::string& expected, std::string_view got) {
     throw Error(
         fmt::format("{}: expected {}, got '{}'", info.name, expected, printable(std::string(got))));
@@ -90,6 +94,17 @@ std::string text_of(const Adaptation& adapt) {
         }
     }
     return text;
+}
+
+std::string text_of(const models::heights::VoidMarks& voids) {
+    std::vector<std::string> words;
+    if (voids.only) {
+        words.emplace_back(no_voids);
+    }
+    for (const double value : voids.values) {
+        words.push_back(text_of(value));
+    }
+    return words.empty() ? std::string(common_voids) : fmt::format("{}", fmt::join(words, ","));
 }
 
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value) {
@@ -172,6 +187,21 @@ void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adap
         }
     }
     adapt = read;
+}
+
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids) {
+    models::heights::VoidMarks read;
+    for (const std::string_view word : split_fields(text, ',')) {
+        const auto number = finite_number(word);
+        if (number) {
+            read.values.push_back(*number);
+        } else if (word == no_voids) {
+            read.only = true;
+        } else if (text != common_voids) {
+            refuse(info, "numbers with commas between them, or none", text);
+        }
+    }
+    voids = read;
 }
 
 void check_listed(const FieldInfo& info, int value) {

@@ -42,6 +42,7 @@ std::string text_of(const glm::ivec2& value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const glm::vec3& colour);
 std::string text_of(const visuals::scene::Adaptation& adapt);
+std::string text_of(const models::heights::VoidMarks& voids);
 
 /// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value
 /// as it was.
@@ -53,6 +54,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
 void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids);
 
 /// Throws Error "NAME: expected ..., got ..." for a number that `info.one_of` does not list.
 void check_listed(const FieldInfo& info, int value);

@@ -1,5 +1,6 @@
 #include "ui/window/setting_widgets.h"
 
+#include "sim/base/error.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/window/panel_parts.h"
 #include "ui/window/setting_style.h"
@@ -188,6 +189,18 @@ bool edit(const settings::SettingInfo& info, glm::dvec3& value) {
     }
     value = {edited[0], edited[1], edited[2]};
     return true;
+}
+
+bool edit(const settings::SettingInfo& info, models::heights::VoidMarks& voids) {
+    const auto typed = typed_text("##value", settings::text_of(voids), info.form);
+    try {
+        models::heights::VoidMarks read;
+        settings::read_setting(info, typed.value_or(""), read);
+        voids = read;
+        return true;
+    } catch (const Error&) {
+        return false; // as typed in part, or nothing typed
+    }
 }
 
 bool edit(const settings::SettingInfo& /*info*/, glm::vec3& colour) {

@@ -78,7 +78,7 @@ models::heights::ImportOptions import_options(const settings::PathSettings& sett
         settings.terrain_spacing_m,
         settings.terrain_height_scale,
         settings.terrain_system,
-        settings.terrain_void,
+        settings.terrain_voids,
         settings.terrain_band};
 }
 

@@ -30,8 +30,9 @@ hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOpt
         const std::string bytes = text.value_or("");
         hash.add(std::as_bytes(std::span(bytes)));
     }
-    hash.add_word(options.void_value ? 1 : 0);
-    hash.add_word(std::bit_cast<std::uint64_t>(options.void_value.value_or(0.0)));
+    hash.add_word(options.voids.only ? 1 : 0);
+    hash.add_word(options.voids.values.size());
+    hash.add(std::as_bytes(std::span(options.voids.values)));
     for (const path& input : inputs) {
         std::error_code code;
         const std::string name = std::filesystem::absolute(input, code).string();

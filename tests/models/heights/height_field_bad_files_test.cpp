@@ -178,7 +178,7 @@ TEST_CASE("a field without any height is refused") {
 TEST_CASE("heights that no ground has are refused") {
     const auto message = [](const std::string& got, const std::string& scale) {
         return "expected heights from -12000 to 9000 m, got " + got + " m: " + scale + "--void " +
-               got + " says that it stands for no data";
+               got + " treats it as missing";
     };
     const std::string scale = "--height-scale says how many metres a unit is, ";
     check_raster_refused(flat(4, 4, 9000.5), message("9000.5", scale));

@@ -262,7 +262,7 @@ TEST_CASE("samples without data are told by the usual marks and filled") {
     }
 }
 
-TEST_CASE("a declared mark replaces the usual ones") {
+TEST_CASE("a declared mark and the usual ones count") {
     RasterFile raster = counted(3, 3);
     raster.transform = {0.0, 10.0, 0.0, 0.0, 0.0, -10.0};
     raster.values[4] = -9999.0;
@@ -271,8 +271,8 @@ TEST_CASE("a declared mark replaces the usual ones") {
     const auto path = scratch_file("declared.tif");
     write_raster(path, "GTiff", raster);
     const HeightField field = read_height_field(path);
-    CHECK(field.filled_voids == 2);
-    CHECK(field.height_m(1, 1) == -9999.0F);
+    CHECK(field.filled_voids == 3); // 7 stands twice
+    CHECK(field.lowest_m() >= 0.0F);
 }
 
 TEST_CASE("reading leaves no file behind and reads the same heights twice") {

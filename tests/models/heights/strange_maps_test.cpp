@@ -173,7 +173,7 @@ TEST_CASE("undeclared values that no height has are voids, counted in a note") {
     const HeightField kept = read_height_field(kept_map("minus99999.tif"));
     CHECK(kept.filled_voids == 400);
     CHECK_THAT(
-        notes_text(kept), Contains("minus99999.tif: 400 samples of -99999 count as without"));
+        notes_text(kept), Contains("minus99999.tif: 400 samples of -99999 count as missing"));
     for (const double mark :
          {-9999.0, -10000.0, -32768.0, -99999.0, 32767.0, 65535.0, -999.0, 1e20, -1e9}) {
         RasterFile raster = small_map();
@@ -234,17 +234,63 @@ TEST_CASE("true heights are no voids, whatever their numbers") {
     CHECK(read_small(centimetres, options).highest_m() == Approx(635.0));
 }
 
-TEST_CASE("an option names the value that stands for no data, and nothing else is guessed then") {
-    RasterFile raster = small_map();
-    raster.values[9] = 0.0;
-    raster.values[10] = -9999.0;
-    ImportOptions options;
-    options.void_value = 0.0;
-    const HeightField field = read_small(raster, options);
-    CHECK(field.filled_voids == 1);
-    CHECK(field.lowest_m() == -9999.0F);
-    REQUIRE(field.notes.size() == 1); // it counts as a height, which stands alone
-    CHECK_THAT(field.notes.front().text, Contains("--void -9999 leaves it out"));
+TEST_CASE("common voids are found beside the file's own and the option's, unless it says none") {
+    for (const GDALDataType type : {GDT_Float32, GDT_Int16}) {
+        RasterFile raster = small_map();
+        raster.type = type;
+        raster.values[9] = 0.0;
+        raster.values[10] = -9999.0;
+        ImportOptions options;
+        options.voids.values = {0.0};
+        const HeightField field = read_small(raster, options);
+        CHECK(field.filled_voids == 2);
+        CHECK(field.lowest_m() == 100.0F);
+        CHECK_THAT(notes_text(field), Contains("1 sample of -9999 count as missing"));
+        raster.no_data = -32768.0;
+        raster.values[11] = -32768.0;
+        CHECK(read_small(raster, options).filled_voids == 3);
+        raster.no_data = 0.0;
+        raster.values[11] = -10000.0;
+        const HeightField declared = read_small(raster);
+        CHECK(declared.filled_voids == 3);
+        CHECK_THAT(notes_text(declared), Contains("1 sample of -9999, 1 sample of -10000"));
+        options.voids = {{}, true};
+        raster.no_data = 131.0; // a height of the map
+        const HeightField whole = read_small(raster, options);
+        CHECK(whole.filled_voids == 0);
+        CHECK(whole.lowest_m() == -10000.0F);
+        CHECK(height_at(whole, 7, 3) == 131.0);
+        options.voids.values = {-9999.0, -10000.0};
+        CHECK(read_small(raster, options).filled_voids == 2);
+        CHECK(read_small(raster, options).lowest_m() == 0.0F);
+    }
+}
+
+TEST_CASE("numbers beyond all heights are voids, counted in a note") {
+    for (const double mark : {-3.4028234663852886e38, -3.4028230607370965e38, 1.70141e38, -1e32}) {
+        RasterFile raster = small_map();
+        raster.values[9] = mark;
+        raster.values[30] = mark;
+        const HeightField field = read_small(raster);
+        CAPTURE(mark);
+        CHECK(field.filled_voids == 2);
+        CHECK(field.lowest_m() == 100.0F);
+        CHECK_THAT(notes_text(field), Contains("2 samples of ") && Contains("e+3"));
+        raster.no_data = mark;
+        CHECK(read_small(raster).filled_voids == 2);
+        CHECK(read_small(raster).notes.empty());
+    }
+    RasterFile many = small_map();
+    for (std::size_t i = 0; i < 6; ++i) {
+        many.values[7 * i] = -1e33 - 1e32 * static_cast<double>(i);
+    }
+    CHECK(read_small(many).filled_voids == 6);
+    RasterFile large = small_map();
+    large.values[9] = 1e20; // the nearest float is 100000002004087734272
+    CHECK_THAT(notes_text(read_small(large)), Contains("1 sample of 1e+20 count"));
+    large.values[9] = 1.5e9 + 0.5;
+    large.type = GDT_Float64;
+    CHECK_THROWS_WITH(read_small(large), Contains("--void 1500000000.5 treats it as missing"));
 }
 
 TEST_CASE("a plain PGM has its undeclared voids found and the option's honoured") {
@@ -254,7 +300,7 @@ TEST_CASE("a plain PGM has its undeclared voids found and the option's honoured"
     CHECK(field.filled_voids == 1);
     CHECK_THAT(notes_text(field), Contains("1 sample of 65535"));
     ImportOptions options;
-    options.void_value = 10.0;
+    options.voids.values = {10.0};
     write_text(file, "P2 3 3 255 10 11 12 13 14 15 16 17 18");
     CHECK(read_height_field(file, options).filled_voids == 1);
 }
@@ -272,17 +318,80 @@ TEST_CASE("a damaged number in a text grid is refused with its line") {
         read_height_field(ascii_grid("1 2 3\n4 5")),
         Contains(":8: expected 6 heights, got the end of the file after 5"));
     CHECK_THROWS_WITH(
-        read_height_field(ascii_grid("NA 2 3\n4 5 6")),
-        Contains("words.asc:6: expected a number for the first height, got 'NA'"));
-    CHECK_THROWS_WITH(read_height_field(ascii_grid("O1 2 3\n4 5 6")), Contains("words.asc:6: "));
-    const path points = scratch_file("points.xyz");
-    write_text(points, "x y z\n0 0 1\n30 0 2\n0 30 3\n30 30 4O\n");
+        read_height_field(ascii_grid("O1 2 3\n4 5 6")),
+        Contains("words.asc:6: expected a height, got 'O1'"));
     CHECK_THROWS_WITH(
-        read_height_field(points), Contains("points.xyz:5: expected a number, got '4O'"));
+        read_height_field(ascii_grid("1 2 3\n4 " + std::string(5000000, '5') + " 6")),
+        Contains("words.asc:7: expected a number, got a word of more than 1000 letters"));
     const path surfer = scratch_file("surfer.grd");
     write_text(surfer, "DSAA\n2 2\n0 30\n0 30\n1 4\n1 2\n3 NA\n");
     CHECK_THROWS_WITH(
         read_height_field(surfer), Contains("surfer.grd:7: expected a height, got 'NA'"));
+}
+
+TEST_CASE("a damaged number in points is refused with its line, also in the first one") {
+    const path points = scratch_file("points.xyz");
+    const std::string rest = "30 0 2\n0 30 3\n30 30 ";
+    write_text(points, "x y z\n0 0 1\n" + rest + "4O\n");
+    CHECK_THROWS_WITH(
+        read_height_field(points), Contains("points.xyz:5: expected a number, got '4O'"));
+    for (const char* const first : {"0 0 4O\n", "O 0 4\n", "0,0,1m\n"}) {
+        write_text(points, first + rest + "4\n");
+        CHECK_THROWS_WITH(
+            read_height_field(points), Contains("points.xyz:1: expected a number, got '"));
+    }
+    for (const char* const first : {"x y z\n", "X,Y,Z\n", ""}) {
+        write_text(points, std::string(first) + "0 0 1\n" + rest + "4\n");
+        CHECK(read_height_field(points).highest_m() == 4.0F);
+    }
+}
+
+TEST_CASE("a text grid may begin with a word without data") {
+    for (const char* const word : {"NA", "nan", "NULL", "void", "***"}) {
+        CAPTURE(word);
+        const std::string first = word;
+        for (const std::string& header : {std::string(), "NODATA_value " + first + "\n"}) {
+            const HeightField field =
+                read_height_field(ascii_grid(first + " 0 12\n13 0 15", header));
+            CHECK(field.filled_voids == 1);
+            CHECK(height_at(field, 1, 0) == 0.0);
+            CHECK(height_at(field, 2, 0) == 12.0);
+            CHECK(height_at(field, 0, 1) == 13.0);
+            CHECK(height_at(field, 2, 1) == 15.0);
+            CHECK_THAT(notes_text(field), Contains("1 sample with a word such as '" + first + "'"));
+        }
+        // GDAL alone takes each such row for a part of the header and finds no heights.
+        CHECK(
+            read_height_field(ascii_grid(first + " 11 12\n" + first + " 14 15")).filled_voids == 2);
+        CHECK(read_height_field(ascii_grid(first + "\n11\n12\n13\n14\n15")).filled_voids == 1);
+    }
+    const path grid = ascii_grid("NA 11 12\n13 14 15");
+    write_text(
+        path(grid).replace_extension(".prj"),
+        "Projection    UTM\nZone          32\nDatum         WGS84\nSpheroid      WGS84\n"
+        "Units         METERS\nZunits        NO\nParameters\n");
+    const HeightSource source({grid});
+    CHECK(source.place());
+    std::filesystem::remove(path(grid).replace_extension(".prj"));
+}
+
+TEST_CASE("words without data at every other sample are found, and extra numbers are told") {
+    std::string heights;
+    for (int i = 0; i < 100; ++i) {
+        for (int j = 0; j < 100; ++j) {
+            heights += (i + j) % 2 == 0 ? "NA " : "7 ";
+        }
+        heights += "\n";
+    }
+    const path file = scratch_file("chess.asc");
+    const std::string header = "ncols 100\nnrows 100\nxllcorner 1000\nyllcorner 0\ncellsize 30\n";
+    write_text(file, header + heights);
+    CHECK(read_height_field(file).filled_voids == 5000);
+    write_text(file, header + heights + "8 9\n");
+    CHECK_THAT(
+        notes_text(read_height_field(file)),
+        Contains("2 extra numbers after the last height ignored; a row may be too long, which "
+                 "shifts all rows below it"));
 }
 
 TEST_CASE("words without data in a text grid are voids, counted in a note") {
@@ -333,6 +442,41 @@ TEST_CASE("axes in degrees are never metres, at any spacing") {
     options.system = "metres";
     CHECK_NOTHROW(check_system(options));
     CHECK(read_small(metres, options).spacing_m() == 0.5);
+}
+
+TEST_CASE("cells of a few units that may be degrees are taken as metres with a note") {
+    RasterFile raster = small_map();
+    raster.system.clear();
+    for (const double cell : {1.0, 2.0, 5.0}) {
+        raster.transform = {-4.0 * cell, cell, 0.0, 3.0 * cell, 0.0, -cell};
+        const HeightField field = read_small(raster);
+        CHECK(field.spacing_m() == cell);
+        CHECK(!field.place);
+        CHECK_THAT(notes_text(field), Contains("may be degrees: taken as metres"));
+    }
+    raster.transform = {3000.0, 1.0, 0.0, 2000.0, 0.0, -1.0};
+    CHECK(read_small(raster).notes.empty());
+    raster.transform = {0.0, 30.0, 0.0, 180.0, 0.0, -30.0};
+    CHECK(read_small(raster).notes.empty());
+}
+
+TEST_CASE("coordinates in metres are refused where a system says that they are degrees") {
+    RasterFile raster = small_map();
+    raster.system.clear();
+    ImportOptions options;
+    options.system = "EPSG:4326";
+    CHECK_THROWS_WITH(
+        read_small(raster, options),
+        Contains("small.tif: expected longitudes and latitudes, as --terrain-system says, got "
+                 "coordinates up to 5000000: --terrain-system takes a system in metres"));
+    raster.system = "EPSG:4326";
+    CHECK_THROWS_WITH(
+        read_small(raster), Contains("as the system of the file says, got coordinates up to"));
+    options.system = "EPSG:32632";
+    raster.transform = {8.0, 0.01, 0.0, 47.0, 0.0, -0.01};
+    CHECK_THAT(
+        notes_text(read_small(raster, options)),
+        Contains("--terrain-system ignored: the file names its own system"));
 }
 
 TEST_CASE("degrees on a datum without a name are taken as WGS 84, with a note") {
@@ -404,7 +548,9 @@ TEST_CASE("a system in feet whose heights name no unit gets a note") {
 TEST_CASE("the band whose name says elevation is taken, and an option takes any") {
     const HeightField field = read_height_field(kept_map("band2-is-elevation.tif"));
     CHECK(height_at(field, 20, 30) == Approx(484.902679443359));
-    CHECK_THAT(notes_text(field), Contains("band 2 (elevation) is taken for heights"));
+    CHECK_THAT(
+        notes_text(field),
+        Contains("band 2 (elevation) of 1 (slope), 2 (elevation) is taken for heights"));
     ImportOptions options;
     for (const char* const slope : {"1", "slope", "SLOPE"}) {
         options.band = slope;
@@ -415,7 +561,7 @@ TEST_CASE("the band whose name says elevation is taken, and an option takes any"
     options.band = "3";
     CHECK_THROWS_WITH(
         read_height_field(kept_map("band2-is-elevation.tif"), options),
-        Contains("expected a band named by --band, got '3': there are 1 (slope), 2 (elevation)"));
+        Contains("--band 3: the file has 2 bands, 1 (slope), 2 (elevation)"));
     RasterFile two = small_map();
     two.bands = 2;
     CHECK_THAT(notes_text(read_small(two)), Contains("band 1 of 1, 2 is taken for heights"));
@@ -464,6 +610,74 @@ TEST_CASE("Terrarium and Mapbox tiles are decoded and placed by their number") {
         tile.height_at(0.0, 0.0).value_or(0.0) ==
         Approx(300.0 + 25.0 * std::sin(3.15) * 31.5).margin(8.0));
     CHECK_THAT(tile.notes().front().text, Contains("by the rule of Mapbox tiles"));
+}
+
+TEST_CASE("a band that tells the error of heights or the like is not taken for heights") {
+    const auto field_of = [](const std::vector<std::string>& names) {
+        RasterFile raster = small_map();
+        raster.bands = static_cast<int>(names.size());
+        raster.values.clear();
+        for (int i = 0; i < 48 * raster.bands; ++i) {
+            raster.values.push_back(100.0 * (i / 48));
+        }
+        const path file = scratch_file("bands.tif");
+        write_raster(file, "GTiff", raster);
+        {
+            const Dataset dataset(GDALOpen(file.c_str(), GA_Update));
+            for (int i = 0; i < raster.bands; ++i) {
+                const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), i + 1);
+                GDALSetDescription(band, names[static_cast<std::size_t>(i)].c_str());
+                GDALSetRasterColorInterpretation(band, GCI_Undefined);
+            }
+        }
+        return read_height_field(file);
+    };
+    for (const char* const other :
+         {"height_error",
+          "dem_std",
+          "Elevation uncertainty",
+          "slope of DEM",
+          "dem-count",
+          "DSM mask",
+          "canopy_height",
+          "geoid height",
+          "heightError"}) {
+        CAPTURE(other);
+        CHECK(field_of({other, "height"}).lowest_m() == 100.0F);
+        CHECK(field_of({other, "z"}).lowest_m() == 100.0F);
+        const HeightField first = field_of({"height", other});
+        CHECK(first.lowest_m() == 0.0F);
+        CHECK(first.notes.empty());
+    }
+    CHECK(field_of({"height above geoid", "count"}).notes.empty());
+    CHECK_THAT(
+        notes_text(field_of({"dem_first", "dem_last"})),
+        Contains("band 1 (dem_first) of 1 (dem_first), 2 (dem_last) is taken for heights"));
+    RasterFile one = small_map();
+    ImportOptions options;
+    options.band = "7";
+    CHECK_THROWS_WITH(
+        read_small(one, options), Contains("small.tif: --band 7: the file has one band, 1"));
+}
+
+TEST_CASE("the sea of a Mapbox tile is at 0 m") {
+    RasterFile tile;
+    tile.columns = 16;
+    tile.rows = 16;
+    tile.type = GDT_Byte;
+    tile.bands = 3;
+    for (const double channel : {1.0, 134.0, 160.0}) { // 100000 tenths of a metre
+        tile.values.insert(tile.values.end(), 256, channel);
+    }
+    tile.values[512] = 161.0;
+    const path file = scratch_file("sea.png");
+    write_raster(file, "PNG", tile);
+    const HeightField field = read_height_field(file);
+    CHECK(field.lowest_m() == 0.0F);
+    CHECK(field.highest_m() == 0.1F);
+    tile.values[40] = tile.values[256 + 40] = tile.values[512 + 40] = 0.0; // black
+    write_raster(file, "PNG", tile);
+    CHECK(read_height_field(file).filled_voids == 1);
 }
 
 TEST_CASE("photographs and drawings are no coded heights") {
@@ -515,6 +729,73 @@ TEST_CASE("Cesium heightmaps are decoded, compressed or not, and placed by their
     CHECK(map_inputs({folder.string()}).size() == 1);
     write_text(packed, bytes.substr(0, 5000));
     CHECK_THROWS_WITH(read_height_field(packed), Contains("such as a quantized mesh"));
+}
+
+TEST_CASE("reading maps of any format leaves their folder as it is") {
+    const path folder = tests::empty_folder("listing");
+    const std::vector<std::pair<const char*, const char*>> formats = {
+        {"GTiff", "a.tif"},
+        {"PNG", "a.png"},
+        {"HFA", "a.img"},
+        {"AAIGrid", "b.asc"},
+        {"EHdr", "c.bil"},
+        {"netCDF", "a.nc"},
+        {"XYZ", "a.xyz"},
+        {"ENVI", "d.envi"},
+        {"SAGA", "e.sdat"},
+        {"RST", "f.rst"},
+        {"JP2OpenJPEG", "a.jp2"},
+        {"GPKG", "a.gpkg"}};
+    for (const auto& [driver, name] : formats) {
+        RasterFile raster = metric_hills();
+        raster.type = std::string(driver) == "PNG"    ? GDT_UInt16
+                      : std::string(driver) == "GPKG" ? GDT_Float32
+                                                      : GDT_Int16;
+        write_raster(folder / name, driver, raster);
+    }
+    const auto listing = [&folder] {
+        std::vector<std::string> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+            files.push_back(
+                entry.path().string() + " " + std::to_string(entry.file_size()) + " " +
+                std::to_string(entry.last_write_time().time_since_epoch().count()));
+        }
+        std::ranges::sort(files);
+        return files;
+    };
+    const std::vector<std::string> before = listing();
+    for (const auto& [driver, name] : formats) {
+        CAPTURE(name);
+        const HeightSource source({folder / name});
+        CHECK(source.count_voids() == 0);
+        read_height_field(folder / name);
+        CHECK(listing() == before);
+    }
+    {
+        // A GeoPackage in the mode in which SQLite keeps a log beside it, by two bytes of its
+        // header.
+        std::fstream header(folder / "a.gpkg", std::ios::binary | std::ios::in | std::ios::out);
+        header.seekp(18);
+        header.write("\2\2", 2);
+    }
+    const std::vector<std::string> with_log = listing();
+    const HeightSource source({folder / "a.gpkg"});
+    CHECK(source.count_voids() == 0);
+    CHECK(listing() == with_log); // while it is open
+}
+
+TEST_CASE("a warning belongs to the session of its thread, others are silent") {
+    const GdalSession session;
+    std::thread([] {
+        CPLError(CE_Warning, CPLE_AppDefined, "of nobody");
+        const GdalSession other;
+        CPLError(CE_Warning, CPLE_AppDefined, "of the other");
+        CHECK(other.warnings() == std::vector<std::string>{"of the other"});
+    }).join();
+    CHECK(session.warnings().empty());
+    CPLError(CE_Warning, CPLE_AppDefined, "of this");
+    CHECK(session.warnings() == std::vector<std::string>{"of this"});
+    CHECK(std::string(CPLGetConfigOption("GDAL_NUM_THREADS", "")) == "1"); // none of GDAL's own
 }
 
 TEST_CASE("libraries print nothing on any thread and warn once") {

@@ -56,6 +56,11 @@ glm::dvec3 other_value(const SettingInfo& /*info*/, const glm::dvec3& value) {
     return value + glm::dvec3(1.0, -2.5, 3.0);
 }
 
+models::heights::VoidMarks
+other_value(const SettingInfo& /*info*/, const models::heights::VoidMarks& voids) {
+    return {{-9999.0, 0.5}, !voids.only};
+}
+
 glm::vec3 other_value(const SettingInfo& /*info*/, const glm::vec3& /*colour*/) {
     return {1.0F, 0.0F, 51.0F / 255.0F};
 }

@@ -43,6 +43,25 @@ TEST_CASE("settings survive the way to a file and back") {
     CHECK_FALSE(ui::settings::settings_json(RunSettings{}) == json);
 }
 
+TEST_CASE("stored numbers that mean no data are a list, with none in front the only ones") {
+    const auto voids_of = [](const std::string& json) {
+        return ui::settings::read_settings(settings_file("{\"void\": " + json + "}"))
+            .path.terrain_voids;
+    };
+    using models::heights::VoidMarks;
+    CHECK(voids_of("\"-9999,0.5\"") == VoidMarks{{-9999.0, 0.5}, false});
+    CHECK(voids_of("\"none\"") == VoidMarks{{}, true});
+    CHECK(voids_of("\"none,-3.4028235e+38\"") == VoidMarks{{-3.4028235e+38}, true});
+    CHECK(voids_of("\"common\"") == VoidMarks{});
+    CHECK(voids_of("null") == VoidMarks{}); // as files of before had it
+    CHECK(voids_of("-9999.0") == VoidMarks{{-9999.0}, false});
+    for (const char* const wrong : {"\"nothing\"", "\"0,\"", "\"\"", "\"nan\"", "\"common,0\""}) {
+        CHECK_THROWS_WITH(
+            voids_of(wrong),
+            Catch::Contains("void: expected numbers with commas between them, or none, got '"));
+    }
+}
+
 TEST_CASE("a missing key keeps its default and a wrong one is refused with its line") {
     CHECK(
         ui::settings::read_settings(settings_file("{}")).ground.triangles ==
