@@ -184,10 +184,15 @@ public:
         return with_normals(surface_.to_mesh(original_, units_), original_);
     }
 
-    std::size_t shells_gone() const { return shells_gone_; }
+    /// Adds what has changed in the topology.
+    void tell(Simplified& result) const {
+        result.shells_gone = shells_gone_;
+        result.holes_closed = collapsing_.holes_closed();
+        result.handles_cut = collapsing_.handles_cut();
+    }
 
     CollapseSequence sequence() {
-        if (shells_gone_ > 0) {
+        if (shells_gone_ > 0 || collapsing_.handles_cut() > 0) {
             return {};
         }
         return {std::move(original_), std::move(collapsing_.collapses())};
@@ -209,12 +214,10 @@ private:
 Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
     Simplified result;
     const double start_s = cpu_s();
-    SimplifyOptions keeping = options;
-    keeping.keep_shells = true; // A sequence has only collapses.
     {
         Goal goal = options.goal;
         goal.error_m = beyond_goal * *goal.error_m;
-        Simplification work(std::move(original), keeping);
+        Simplification work(std::move(original), options);
         work.collapse(goal);
         result.sequence = work.sequence();
     }
@@ -248,7 +251,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     Simplification work(std::move(original), options);
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
-    result.shells_gone = work.shells_gone();
+    work.tell(result);
     result.steps = work.optimize();
     result.mesh = work.mesh();
     result.sequence = work.sequence();
@@ -265,7 +268,9 @@ CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& opt
         surface.lock_border(original, units);
     }
     CollapsingSurface collapsing(surface, units, cost_weights);
-    collapse_by_quadrics(collapsing, options.goal, options);
+    SimplifyOptions keeping = options;
+    keeping.keep_topology = true;
+    collapse_by_quadrics(collapsing, options.goal, keeping);
     return {std::move(original), std::move(collapsing.collapses())};
 }
 

@@ -62,7 +62,8 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
     options.colour_weight = command.colour_weight;
-    options.keep_shells = command.keep_shells || command.lock_border;
+    options.keep_shells = command.keep_shells;
+    options.keep_topology = command.keep_topology || command.lock_border;
     options.lock_border = command.lock_border;
     options.threads = command.threads;
     return options;
@@ -389,6 +390,8 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["method"] = command.method;
     figures["steps"] = result.steps;
     figures["shells_gone"] = result.shells_gone;
+    figures["holes_closed"] = result.holes_closed;
+    figures["handles_cut"] = result.handles_cut;
     add_texture_error(figures, seams, result.mesh);
     const double measured_from_s = base::process_cpu_s();
     write_and_measure(
