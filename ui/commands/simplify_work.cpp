@@ -220,7 +220,8 @@ bool keeps_goals(
         refuse(
             command.uv_error > 0.0
                 ? "--uv-error takes more triangles than the goal allows"
-                : "no edge can collapse any more without changing the kind of surface");
+                : "no edge can collapse any more without folding the surface or changing what is "
+                  "to be kept");
     }
     return is_kept;
 }
