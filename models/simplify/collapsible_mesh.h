@@ -139,10 +139,10 @@ public:
         }
     }
 
-    /// What collapsing an edge does: the same topology is left where the link condition holds, where
-    /// the boundary counts as one more vertex. Where a third common neighbour of the ends breaks it,
-    /// the collapse closes a hole of three edges or cuts a handle, if that is allowed; a cut needs a
-    /// vertex slot that a collapse has emptied before.
+    /// What collapsing an edge does: the same topology is left where the link condition holds,
+    /// where the boundary counts as one more vertex. Where a third common neighbour of the ends
+    /// breaks it, the collapse closes a hole of three edges or cuts a handle, if that is allowed; a
+    /// cut needs a vertex slot that a collapse has emptied before.
     CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const;
 
     /// Whether collapsing an edge leaves a manifold of the same topology.

@@ -34,6 +34,7 @@ public:
 
     /// The holes that were closed and the handles that were cut.
     std::size_t holes_closed() const { return holes_closed_; }
+
     std::size_t handles_cut() const { return handles_cut_; }
 
     /// Gives the slots of what is gone back and keeps the order of the rest.

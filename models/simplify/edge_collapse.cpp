@@ -47,9 +47,8 @@ public:
         , surface_(collapsing.surface())
         , local_(local)
         , shells_(shells)
-        , length_share2_(
-              std::max(local == nullptr ? options.length_share * options.length_share : 0.0,
-                       length_share2))
+        , length_share2_(std::max(
+              local == nullptr ? options.length_share * options.length_share : 0.0, length_share2))
         , show_progress_(options.show_progress)
         , changes_(allowed_changes(local, options))
         , edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3))
@@ -331,10 +330,10 @@ void EdgeCollapse::collapse(HalfEdge h) {
     update_around(kept);
 }
 
-/// Moves a vertex of a cut, where both sides lie at the same place, a little towards its neighbours,
-/// so that the sides do not touch.
+/// Moves a vertex of a cut, where both sides lie at the same place, a little towards its
+/// neighbours, so that the sides do not touch.
 void EdgeCollapse::part(std::uint32_t vertex) {
-    constexpr double share = 0.1;
+    constexpr double share = 0.01;
     if (surface_.is_border_vertex(vertex)) {
         return;
     }
@@ -388,10 +387,12 @@ void EdgeCollapse::update_shell(std::uint32_t shell) {
     if (!(shell_costs_[shell] > 0.0)) {
         shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
     }
-    const std::size_t too_many = surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
+    const std::size_t too_many =
+        surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
     heap_.set(
         edges_ + shell,
-        static_cast<float>(shell_costs_[shell] * 2.0 / static_cast<double>(std::min(faces, too_many))));
+        static_cast<float>(
+            shell_costs_[shell] * 2.0 / static_cast<double>(std::min(faces, too_many))));
 }
 
 /// Drops a shell if that still costs as little as was found before.

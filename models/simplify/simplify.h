@@ -29,7 +29,8 @@ struct Simplified {
 /// same bytes on any number of threads. Lengths are in metres.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 
-/// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error (asserted).
+/// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error
+/// (asserted).
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
 
 /// Optimizes a mesh that was simplified before: the last step of simplified().

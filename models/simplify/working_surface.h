@@ -56,10 +56,11 @@ struct WorkingSurface {
         return locks_border() && mesh.is_boundary_vertex(vertex);
     }
 
-    /// What the collapse of an edge does: CollapsibleMesh::effect_of, but an edge of a locked border
-    /// may not collapse.
+    /// What the collapse of an edge does: CollapsibleMesh::effect_of, but an edge of a locked
+    /// border may not collapse.
     CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const {
-        return locks_border() && mesh.twin(h) == none ? CollapseEffect{} : mesh.effect_of(h, allowed);
+        return locks_border() && mesh.twin(h) == none ? CollapseEffect{}
+                                                      : mesh.effect_of(h, allowed);
     }
 
     /// Whether an edge may collapse without a change of the topology.

@@ -252,7 +252,8 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
              command.keep_shells),
          flag(
              "--keep-topology",
-             "neither drop shells nor close holes nor cut handles, also where a goal is out of reach "
+             "neither drop shells nor close holes nor cut handles, also where a goal is out of "
+             "reach "
              "then",
              command.keep_topology),
          flag(
@@ -300,7 +301,8 @@ constexpr const char* simplify_footer =
     "does not hold is said.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
     "  vertices, method, steps (that the optimization tried), shells_gone, holes_closed,\n"
-    "  handles_cut (not for an error), error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB 0..1, where there are\n"
+    "  handles_cut (not for an error), error, error_of_diagonal, rms, rms_of_diagonal, colour_rms "
+    "(length in RGB 0..1, where there are\n"
     "  colours), uv_error, uv_rms (of texture coordinates, at samples, where there are some),\n"
     "  time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
     "  with --shared-border files (in, out, faces, vertices, error and so on each);\n"
