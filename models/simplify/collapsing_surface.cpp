@@ -46,8 +46,10 @@ CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placemen
         made.colour = units_.colour_to_file(placement.colour);
     }
     vertex_numbers_[kept] = static_cast<std::uint32_t>(first_vertices_ + collapses_.size());
+    if (effect.kind == CollapseEffect::Kind::ClosesHole) {
+        hole_closings_.push_back(collapses_.size());
+    }
     collapses_.push_back(made);
-    holes_closed_ += effect.kind == CollapseEffect::Kind::ClosesHole ? 1U : 0U;
     if (effect.kind == CollapseEffect::Kind::CutsHandle) {
         ++handles_cut_;
         copy_vertex(kept, gone);

@@ -32,8 +32,8 @@ public:
     /// sequence of collapses any more.
     CollapseEffect collapse(HalfEdge h, const Placement& placement, double error);
 
-    /// The holes that were closed and the handles that were cut.
-    std::size_t holes_closed() const { return holes_closed_; }
+    /// The collapses that closed a hole each, by their indices, and the number of handles cut.
+    const std::vector<std::size_t>& hole_closings() const { return hole_closings_; }
 
     std::size_t handles_cut() const { return handles_cut_; }
 
@@ -68,7 +68,7 @@ private:
     std::size_t first_faces_;
     std::size_t first_vertices_;
     std::vector<Collapse> collapses_;
-    std::size_t holes_closed_ = 0;
+    std::vector<std::size_t> hole_closings_;
     std::size_t handles_cut_ = 0;
 };
 

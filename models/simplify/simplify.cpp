@@ -187,9 +187,11 @@ public:
     /// Adds what has changed in the topology.
     void tell(Simplified& result) const {
         result.shells_gone = shells_gone_;
-        result.holes_closed = collapsing_.holes_closed();
+        result.holes_closed = collapsing_.hole_closings().size();
         result.handles_cut = collapsing_.handles_cut();
     }
+
+    const std::vector<std::size_t>& hole_closings() const { return collapsing_.hole_closings(); }
 
     CollapseSequence sequence() {
         if (shells_gone_ > 0 || collapsing_.handles_cut() > 0) {
@@ -214,11 +216,13 @@ private:
 Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
     Simplified result;
     const double start_s = cpu_s();
+    std::vector<std::size_t> hole_closings;
     {
         Goal goal = options.goal;
         goal.error_m = beyond_goal * *goal.error_m;
         Simplification work(std::move(original), options);
         work.collapse(goal);
+        hole_closings = work.hole_closings();
         result.sequence = work.sequence();
     }
     const double collapsed_s = cpu_s();
@@ -228,6 +232,8 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
                               : optimized(mesh, result.sequence.original, options);
     });
     result.sequence.collapses.resize(kept.collapses);
+    result.holes_closed = static_cast<std::size_t>(
+        std::ranges::lower_bound(hole_closings, kept.collapses) - hole_closings.begin());
     result.mesh = std::move(kept.mesh);
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;

@@ -15,7 +15,7 @@ struct Simplified {
     /// handles cut.
     CollapseSequence sequence;
     std::size_t shells_gone = 0;
-    std::size_t holes_closed = 0; ///< Not told for a wanted error.
+    std::size_t holes_closed = 0;
     std::size_t handles_cut = 0;
     std::size_t steps = 0; ///< That the optimization tried.
     double collapse_cpu_s = 0.0;
