@@ -78,7 +78,7 @@ bool CollapsibleMesh::is_neighbour(std::uint32_t vertex, std::uint32_t other) co
     return found;
 }
 
-bool CollapsibleMesh::may_collapse(HalfEdge h) const {
+CollapseEffect CollapsibleMesh::effect_of(HalfEdge h, TopologyChanges allowed) const {
     const std::uint32_t u = origin(h);
     const std::uint32_t w = target(h);
     const HalfEdge other = twins_[h];
@@ -87,10 +87,12 @@ bool CollapsibleMesh::may_collapse(HalfEdge h) const {
         return twins_[next_of(side)] == none && twins_[previous_of(side)] == none;
     };
     if (is_ear(h) || (other != none && is_ear(other))) {
-        return false;
+        return {};
     }
-    if (other != none && is_boundary_vertex(u) && is_boundary_vertex(w)) {
-        return false;
+    const std::uint32_t x = origin(previous_of(h));
+    const std::uint32_t y = other == none ? none : origin(previous_of(other));
+    if (x == y || (other != none && is_boundary_vertex(u) && is_boundary_vertex(w))) {
+        return {};
     }
     ++mark_;
     const auto far_end = [this](HalfEdge e, std::uint32_t v) {
@@ -101,15 +103,91 @@ bool CollapsibleMesh::may_collapse(HalfEdge h) const {
         marks_[far_end(e, u)] = mark_;
         ++u_edges;
     });
+    marks_[x] = mark_ - 1;
+    if (y != none) {
+        marks_[y] = mark_ - 1;
+    }
     std::size_t common = 0;
     std::size_t w_edges = 0;
+    std::uint32_t third = none;
     edges_around(w, [&](HalfEdge e) {
-        common += static_cast<std::size_t>(marks_[far_end(e, w)] == mark_);
+        if (marks_[far_end(e, w)] == mark_) {
+            third = far_end(e, w);
+            ++common;
+        }
         ++w_edges;
     });
     // A lone tetrahedron would become two triangles on top of each other.
-    const bool tetrahedron = u_edges == 3 && w_edges == 3 && other != none;
-    return common == (other == none ? 1U : 2U) && !tetrahedron;
+    if (common > 1 || (u_edges == 3 && w_edges == 3 && (other != none || common == 1))) {
+        return {};
+    }
+    if (common == 0) {
+        return {CollapseEffect::Kind::SameTopology};
+    }
+    const auto needed = other == none ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
+    return allowed < needed ? CollapseEffect{} : effect_on_cycle(h, third);
+}
+
+/// effect_of() where `c` is the only common neighbour that is not opposite the edge.
+CollapseEffect CollapsibleMesh::effect_on_cycle(HalfEdge h, std::uint32_t c) const {
+    const std::uint32_t u = origin(h);
+    const std::uint32_t w = target(h);
+    if (twins_[h] == none) {
+        const HalfEdge second = outs_[w];
+        const HalfEdge third = outs_[c];
+        const bool goes_around = twins_[third] == none && target(second) == c && target(third) == u;
+        return goes_around ? CollapseEffect{CollapseEffect::Kind::ClosesHole, second, third}
+                           : CollapseEffect{};
+    }
+    CollapseEffect effect{CollapseEffect::Kind::CutsHandle};
+    around(c, [&](HalfEdge e) {
+        effect.second = target(e) == w ? twins_[e] : effect.second;
+        effect.third = target(e) == u ? e : effect.third;
+    });
+    if (emptied_vertex_ == none || vertex_is_there(emptied_vertex_) || effect.second == none ||
+        effect.third == none || twins_[effect.third] == none ||
+        !is_connected_without({h, effect.second, effect.third})) {
+        return {};
+    }
+    return effect;
+}
+
+/// Whether one can go from left to right of a cycle of edges without crossing it. Both sides are
+/// searched in turns, so that a small part that the cycle cuts off is soon searched.
+bool CollapsibleMesh::is_connected_without(const std::array<HalfEdge, 3>& cycle) const {
+    face_marks_.resize(face_slots(), 0);
+    face_mark_ += 2;
+    std::array<std::vector<std::uint32_t>, 2> found;
+    for (const HalfEdge h : cycle) {
+        for (const std::uint32_t side : {0U, 1U}) {
+            const std::uint32_t face = face_of(side == 0 ? h : twins_[h]);
+            if (face_marks_[face] < face_mark_) {
+                face_marks_[face] = face_mark_ + side;
+                found[side].push_back(face);
+            } else if (face_marks_[face] != face_mark_ + side) {
+                return true;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < found[0].size() && i < found[1].size(); ++i) {
+        for (const std::uint32_t side : {0U, 1U}) {
+            for (HalfEdge h = 3 * found[side][i]; h < 3 * found[side][i] + 3; ++h) {
+                const HalfEdge beyond = twins_[h];
+                if (beyond == none || std::ranges::find(cycle, h) != cycle.end() ||
+                    std::ranges::find(cycle, beyond) != cycle.end()) {
+                    continue;
+                }
+                std::uint32_t& mark = face_marks_[face_of(beyond)];
+                if (mark < face_mark_) {
+                    mark = face_mark_ + side;
+                    found[side].push_back(face_of(beyond));
+                } else if (mark != face_mark_ + side) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
 }
 
 void CollapsibleMesh::ring_of(HalfEdge h, std::vector<RingFace>& ring) const {
@@ -172,7 +250,17 @@ void CollapsibleMesh::take_out(HalfEdge h) {
     --face_count_;
 }
 
-void CollapsibleMesh::collapse(HalfEdge h) {
+/// Gives the fan of triangles in which `h` starts to another vertex.
+void CollapsibleMesh::give_fan(HalfEdge h, std::uint32_t vertex) {
+    const std::uint32_t before = origin(h);
+    set_out(h);
+    around(before, [&](HalfEdge e) { origins_[e] = vertex; });
+    outs_[vertex] = outs_[before];
+}
+
+CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
+    CollapseEffect effect = effect_of(h, TopologyChanges::HolesAndHandles);
+    assert(effect.kind != CollapseEffect::Kind::NotAllowed);
     const std::uint32_t u = origin(h);
     const std::uint32_t w = target(h);
     const HalfEdge other = twins_[h];
@@ -190,6 +278,24 @@ void CollapsibleMesh::collapse(HalfEdge h) {
     }
     outs_[w] = none;
     --vertex_count_;
+    if (effect.kind == CollapseEffect::Kind::ClosesHole) {
+        join(effect.second, effect.third);
+        set_out(effect.third);
+    } else if (effect.kind == CollapseEffect::Kind::CutsHandle) {
+        const HalfEdge right_second = twins_[effect.second]; // c -> w
+        const HalfEdge right_third = twins_[effect.third];   // u -> c
+        join(effect.second, effect.third);
+        join(right_second, right_third);
+        effect.made = emptied_vertex_;
+        give_fan(right_third, w);
+        give_fan(right_second, effect.made);
+        set_out(effect.second);
+        set_out(effect.third);
+        vertex_count_ += 2;
+    }
+    if (outs_[w] == none) {
+        emptied_vertex_ = w;
+    }
     set_out(xu != none ? xu : next_of(wx));
     set_out(wx != none ? wx : next_of(xu));
     assert(origins_[xu != none ? xu : next_of(wx)] == u);
@@ -198,6 +304,7 @@ void CollapsibleMesh::collapse(HalfEdge h) {
         set_out(uy != none ? uy : next_of(yw));
         assert(origins_[uy != none ? uy : next_of(yw)] == y);
     }
+    return effect;
 }
 
 void CollapsibleMesh::split(
@@ -287,6 +394,9 @@ KeptSlots CollapsibleMesh::compact() {
     marks_.assign(vertex_slots(), 0);
     marks_.shrink_to_fit();
     mark_ = 0;
+    face_marks_.clear();
+    face_mark_ = 0;
+    emptied_vertex_ = none;
     return kept;
 }
 

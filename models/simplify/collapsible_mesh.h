@@ -53,6 +53,21 @@ void keep_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
     list.shrink_to_fit();
 }
 
+/// Which changes of the topology a collapse may make.
+enum class TopologyChanges : std::uint8_t { None, Holes, HolesAndHandles };
+
+/// What the collapse of an edge (u, w) does to the topology.
+struct CollapseEffect {
+    enum class Kind : std::uint8_t { NotAllowed, SameTopology, ClosesHole, CutsHandle };
+    Kind kind = Kind::NotAllowed;
+    /// Of a hole or a handle: the half-edges from w to a vertex c and from c to u. With the edge
+    /// they go around the hole, which has three edges, or around the handle.
+    HalfEdge second = none;
+    HalfEdge third = none;
+    /// After a cut: the vertex that stands for c right of u, w, c. The one for u and w there is w.
+    std::uint32_t made = none;
+};
+
 /// The connectivity of a triangle mesh as half-edges: an oriented manifold, perhaps with boundary,
 /// which stays one. Triangles keep their numbers ("slots"); a collapse empties two of them and
 /// allocates nothing.
@@ -124,9 +139,16 @@ public:
         }
     }
 
-    /// Whether collapsing an edge leaves a manifold of the same topology: the link condition, where
-    /// the boundary counts as one more vertex.
-    bool may_collapse(HalfEdge h) const;
+    /// What collapsing an edge does: the same topology is left where the link condition holds,
+    /// where the boundary counts as one more vertex. Where a third common neighbour of the ends
+    /// breaks it, the collapse closes a hole of three edges or cuts a handle, if that is allowed; a
+    /// cut needs a vertex slot that a collapse has emptied before.
+    CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const;
+
+    /// Whether collapsing an edge leaves a manifold of the same topology.
+    bool may_collapse(HalfEdge h) const {
+        return effect_of(h, TopologyChanges::None).kind == CollapseEffect::Kind::SameTopology;
+    }
 
     /// Fills `ring` with the triangles that stay when `h` collapses and have a corner that moves.
     void ring_of(HalfEdge h, std::vector<RingFace>& ring) const;
@@ -136,8 +158,9 @@ public:
         std::uint32_t vertex, std::vector<RingFace>& ring, std::vector<std::uint32_t>& faces) const;
 
     /// Collapses an edge: all that met target(h) then meets origin(h), and the edge's triangles go.
-    /// may_collapse(h) must be true.
-    void collapse(HalfEdge h);
+    /// effect_of(h) must allow it. Where a handle is cut, its two sides get vertices of their own,
+    /// which lie at the same places. Returns what it did.
+    CollapseEffect collapse(HalfEdge h);
 
     /// Splits an edge at a new vertex, whose slot must be free, as must be the slots of `faces`: one
     /// on a boundary, else two. `h` then runs from its origin to the new vertex; the first of the
@@ -163,6 +186,9 @@ private:
     void take_out(HalfEdge h);
     bool has_one_fan_a_vertex() const;
     bool is_neighbour(std::uint32_t vertex, std::uint32_t other) const;
+    CollapseEffect effect_on_cycle(HalfEdge h, std::uint32_t c) const;
+    bool is_connected_without(const std::array<HalfEdge, 3>& cycle) const;
+    void give_fan(HalfEdge h, std::uint32_t vertex);
 
     /// For each half-edge the vertex that it starts from; none = the triangle is gone.
     std::vector<std::uint32_t> origins_;
@@ -175,6 +201,10 @@ private:
     /// For each vertex the number of the last search that met it.
     mutable std::vector<std::uint32_t> marks_;
     mutable std::uint32_t mark_ = 0;
+    /// For each triangle the number of the last search that met it; made when first needed.
+    mutable std::vector<std::uint32_t> face_marks_;
+    mutable std::uint32_t face_mark_ = 0;
+    std::uint32_t emptied_vertex_ = none; ///< The last slot that a collapse emptied.
 };
 
 } // namespace octant::models::simplify

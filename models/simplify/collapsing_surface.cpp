@@ -26,7 +26,7 @@ CollapsingSurface::CollapsingSurface(
     , first_faces_(surface.mesh.face_slots())
     , first_vertices_(surface.mesh.vertex_slots()) {}
 
-void CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
+CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
     const std::uint32_t gone = mesh.target(h);
@@ -38,7 +38,7 @@ void CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double 
     made.left = face_numbers_[face_of(h)];
     made.right = twin == none ? none : face_numbers_[face_of(twin)];
     made.error_m = error * units_.diagonal_m;
-    mesh.collapse(h);
+    const CollapseEffect effect = mesh.collapse(h);
     quadrics_.merge(kept, gone);
     surface_.places[kept] = placement.place;
     if (surface_.coloured()) {
@@ -46,7 +46,25 @@ void CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double 
         made.colour = units_.colour_to_file(placement.colour);
     }
     vertex_numbers_[kept] = static_cast<std::uint32_t>(first_vertices_ + collapses_.size());
+    if (effect.kind == CollapseEffect::Kind::ClosesHole) {
+        hole_closings_.push_back(collapses_.size());
+    }
     collapses_.push_back(made);
+    if (effect.kind == CollapseEffect::Kind::CutsHandle) {
+        ++handles_cut_;
+        copy_vertex(kept, gone);
+        copy_vertex(mesh.origin(effect.third), effect.made);
+    }
+    return effect;
+}
+
+/// Gives a vertex the place, the colour and the quadric of another one.
+void CollapsingSurface::copy_vertex(std::uint32_t from, std::uint32_t to) {
+    surface_.places[to] = surface_.places[from];
+    if (surface_.coloured()) {
+        surface_.colours[to] = surface_.colours[from];
+    }
+    quadrics_.copy(from, to);
 }
 
 KeptSlots CollapsingSurface::compact() {

@@ -28,8 +28,14 @@ public:
     const VertexQuadrics& quadrics() const { return quadrics_; }
 
     /// Collapses an edge that may collapse, merges the quadrics of its ends and records it. `error`
-    /// is the estimated error so far, in working units.
-    void collapse(HalfEdge h, const Placement& placement, double error);
+    /// is the estimated error so far, in working units. Where that cuts a handle, the record is no
+    /// sequence of collapses any more.
+    CollapseEffect collapse(HalfEdge h, const Placement& placement, double error);
+
+    /// The collapses that closed a hole each, by their indices, and the number of handles cut.
+    const std::vector<std::size_t>& hole_closings() const { return hole_closings_; }
+
+    std::size_t handles_cut() const { return handles_cut_; }
 
     /// Gives the slots of what is gone back and keeps the order of the rest.
     KeptSlots compact();
@@ -52,6 +58,8 @@ public:
     const std::vector<std::uint32_t>& face_numbers() const { return face_numbers_; }
 
 private:
+    void copy_vertex(std::uint32_t from, std::uint32_t to);
+
     WorkingSurface& surface_;
     const WorkingUnits& units_;
     VertexQuadrics quadrics_;
@@ -60,6 +68,8 @@ private:
     std::size_t first_faces_;
     std::size_t first_vertices_;
     std::vector<Collapse> collapses_;
+    std::vector<std::size_t> hole_closings_;
+    std::size_t handles_cut_ = 0;
 };
 
 } // namespace octant::models::simplify

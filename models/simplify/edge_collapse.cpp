@@ -47,10 +47,10 @@ public:
         , surface_(collapsing.surface())
         , local_(local)
         , shells_(shells)
-        , length_share2_(
-              std::max(local == nullptr ? options.length_share * options.length_share : 0.0,
-                       length_share2))
+        , length_share2_(std::max(
+              local == nullptr ? options.length_share * options.length_share : 0.0, length_share2))
         , show_progress_(options.show_progress)
+        , changes_(allowed_changes(local, options))
         , edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3))
         , heap_(edges_ + (shells == nullptr ? 0 : shells->count()))
         , known_(edges_, Known::Old)
@@ -64,6 +64,16 @@ public:
     void run(const Goal& goal);
 
 private:
+    /// A record of collapses, which an error is searched along, holds no cut handles.
+    static TopologyChanges
+    allowed_changes(const LocalError* local, const SimplifyOptions& options) {
+        if (options.keep_topology) {
+            return TopologyChanges::None;
+        }
+        return local == nullptr || options.goal.error_m ? TopologyChanges::Holes
+                                                        : TopologyChanges::HolesAndHandles;
+    }
+
     /// What is known of the cost of an edge.
     enum class Known : std::uint8_t {
         Old,     ///< A guess, or what was found before something changed nearby.
@@ -80,6 +90,7 @@ private:
     void load(HalfEdge h, const Placement& placement);
     double length_cost(HalfEdge edge, const Placement& placement) const;
     void collapse(HalfEdge h);
+    void part(std::uint32_t vertex);
     void update_around(std::uint32_t vertex);
     void update_shell(std::uint32_t shell);
     void drop(std::uint32_t shell);
@@ -89,8 +100,11 @@ private:
     LocalError* local_; ///< Null: quadrics are the costs.
     Shells* shells_;    ///< Null: none may be dropped.
     std::vector<double> shell_costs_;
+    std::size_t wanted_faces_ = 0;
     double length_share2_;
     const ShowProgress& show_progress_;
+    TopologyChanges changes_; ///< Those that are allowed.
+    CollapseEffect effect_;   ///< Of the collapse that was looked at last.
     HalfEdge edges_; ///< Greater numbers in the heap are those of shells.
     EdgeHeap heap_;
     std::vector<Known> known_; ///< For each edge.
@@ -122,7 +136,7 @@ void EdgeCollapse::fill() {
 
 void EdgeCollapse::run(const Goal& goal) {
     const std::size_t start = surface_.mesh.face_count();
-    const std::size_t wanted = wanted_faces(goal);
+    wanted_faces_ = wanted_faces(goal);
     std::size_t done = 0;
     fill();
     for (std::uint32_t shell = 0; shells_ != nullptr && shell < shells_->count(); ++shell) {
@@ -143,11 +157,11 @@ void EdgeCollapse::run(const Goal& goal) {
             continue;
         }
         collapse(h);
-        if (++done % 256 == 0 && show_progress_ && start > wanted) {
+        if (++done % 256 == 0 && show_progress_ && start > wanted_faces_) {
             show_progress_(std::min(
                 1.0,
                 static_cast<double>(start - surface_.mesh.face_count()) /
-                    static_cast<double>(start - wanted)));
+                    static_cast<double>(start - wanted_faces_)));
         }
     }
 }
@@ -197,9 +211,10 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     return best != none && heap_.cost(best) <= limit ? best : h;
 }
 
-/// Whether an edge may collapse: the link condition first, then the guard against fold-overs.
+/// Whether an edge may collapse: the topology first, then the guard against fold-overs.
 bool EdgeCollapse::is_allowed(HalfEdge h, const Placement& placement) {
-    if (!surface_.may_collapse(h)) {
+    effect_ = surface_.effect_of(h, changes_);
+    if (effect_.kind == CollapseEffect::Kind::NotAllowed) {
         return false;
     }
     surface_.mesh.ring_of(h, ring_);
@@ -219,8 +234,9 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
         load(edge, placement);
         cost += ways == Known::There ? local_->measured_there() - local_->present_there()
                                      : local_->measured() - local_->present();
-        if (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
-            surface_.is_border_vertex(surface_.mesh.target(edge))) {
+        if (effect_.kind != CollapseEffect::Kind::ClosesHole &&
+            (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
+             surface_.is_border_vertex(surface_.mesh.target(edge)))) {
             cost = std::max(cost, placement.cost); // Samples hardly see where borders are.
         }
     } else {
@@ -262,7 +278,13 @@ double EdgeCollapse::length_cost(HalfEdge edge, const Placement& placement) cons
 void EdgeCollapse::collapse(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
+    const std::uint32_t gone = mesh.target(h);
     const Placement placement = collapsing_.quadrics().placement(surface_, h);
+    effect_ = surface_.effect_of(h, changes_);
+    if (effect_.kind == CollapseEffect::Kind::NotAllowed) { // A handle was cut elsewhere.
+        heap_.remove(h);
+        return;
+    }
     mesh.ring_of(h, ring_);
     if (local_ != nullptr) {
         load(h, placement);
@@ -278,9 +300,14 @@ void EdgeCollapse::collapse(HalfEdge h) {
             heap_.remove(mesh.edge_of(previous_of(side)));
         }
     }
+    for (const HalfEdge joined : {effect_.second, effect_.third}) {
+        if (joined != none) {
+            heap_.remove(mesh.edge_of(joined));
+        }
+    }
     const std::size_t before = mesh.face_count();
     const std::uint32_t shell = shells_ == nullptr ? none : shells_->shell_of(face_of(h));
-    collapsing_.collapse(h, placement, error_);
+    effect_ = collapsing_.collapse(h, placement, error_);
     if (shell != none) {
         shells_->lose(shell, before - mesh.face_count());
         update_shell(shell);
@@ -288,7 +315,43 @@ void EdgeCollapse::collapse(HalfEdge h) {
     if (local_ != nullptr) {
         local_->keep(faces_, ring_faces_, kept);
     }
+    if (effect_.kind == CollapseEffect::Kind::CutsHandle) {
+        const std::uint32_t c = mesh.origin(effect_.third);
+        const std::uint32_t made = effect_.made;
+        local_->copy_vertex(kept, gone);
+        local_->copy_vertex(c, made);
+        for (const std::uint32_t vertex : {kept, gone, c, made}) {
+            part(vertex);
+        }
+        for (const std::uint32_t vertex : {gone, c, made}) {
+            update_around(vertex);
+        }
+    }
     update_around(kept);
+}
+
+/// Moves a vertex of a cut, where both sides lie at the same place, a little towards its
+/// neighbours, so that the sides do not touch.
+void EdgeCollapse::part(std::uint32_t vertex) {
+    constexpr double share = 0.01;
+    if (surface_.is_border_vertex(vertex)) {
+        return;
+    }
+    surface_.mesh.ring_at(vertex, ring_, ring_faces_);
+    glm::dvec3 sum(0.0);
+    for (const RingFace& face : ring_) {
+        sum += surface_.places[surface_.mesh.target(face.half_edge)] - surface_.places[vertex];
+    }
+    const glm::dvec3 place =
+        surface_.places[vertex] + share / static_cast<double>(ring_.size()) * sum;
+    if (may_move(surface_, ring_, place)) {
+        local_->gather(ring_faces_);
+        local_->set_ring(
+            ring_, place, surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0));
+        local_->measured();
+        surface_.places[vertex] = place;
+        local_->keep(ring_faces_, ring_faces_, vertex);
+    }
 }
 
 /// Updates the edges at a vertex. Edges one ring further are marked as unchecked where samples
@@ -312,7 +375,7 @@ void EdgeCollapse::update_around(std::uint32_t vertex) {
     mesh.edges_around(vertex, [&](HalfEdge h) { update(mesh.edge_of(h), first_); });
 }
 
-/// Puts a shell into the heap, with its cost for each two triangles, which a collapse takes.
+/// Puts a shell into the heap, with its cost for each two of its triangles that are too many.
 void EdgeCollapse::update_shell(std::uint32_t shell) {
     // Others have not got so small that they may be dropped soon.
     constexpr std::size_t max_faces = 200;
@@ -324,17 +387,20 @@ void EdgeCollapse::update_shell(std::uint32_t shell) {
     if (!(shell_costs_[shell] > 0.0)) {
         shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
     }
+    const std::size_t too_many =
+        surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
     heap_.set(
         edges_ + shell,
-        static_cast<float>(shell_costs_[shell] * 2.0 / static_cast<double>(faces)));
+        static_cast<float>(
+            shell_costs_[shell] * 2.0 / static_cast<double>(std::min(faces, too_many))));
 }
 
 /// Drops a shell if that still costs as little as was found before.
 void EdgeCollapse::drop(std::uint32_t shell) {
-    const double before = shell_costs_[shell];
+    const float before = heap_.cost(edges_ + shell);
     shell_costs_[shell] = 0.0;
     update_shell(shell);
-    if (shell_costs_[shell] > 1.01 * before || shells_->count_left() < 2) {
+    if (!heap_.holds(edges_ + shell) || heap_.cost(edges_ + shell) > 1.01F * before) {
         return;
     }
     heap_.remove(edges_ + shell);
@@ -360,7 +426,7 @@ std::size_t collapse_by_samples(
     const SimplifyOptions& options) {
     LocalError local(collapsing.surface(), samples, original);
     std::optional<Shells> shells;
-    if (!options.keep_shells) {
+    if (!options.keep_shells && !options.keep_topology && !options.goal.error_m) {
         shells.emplace(collapsing, samples, original);
     }
     EdgeCollapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options)

@@ -14,8 +14,9 @@ void collapse_by_quadrics(
     CollapsingSurface& collapsing, const Goal& goal, const SimplifyOptions& options);
 
 /// The same, the cheapest first by the growth of the error against samples of the original. Each
-/// sample must be in the list of a triangle that is near. Shells are dropped where that is cheaper,
-/// unless the options keep them; returns how many.
+/// sample must be in the list of a triangle that is near. Holes are closed, handles cut and shells
+/// dropped where that is cheaper, unless the options keep them. For a wanted error only holes are
+/// closed, as a record of collapses cannot hold the rest. Returns how many shells were dropped.
 std::size_t collapse_by_samples(
     CollapsingSurface& collapsing,
     SurfaceSamples& samples,

@@ -297,8 +297,8 @@ void LocalError::keep(
     for (std::size_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t first = triangles_[t].vertices[0];
         const Triangle corners = surface_.mesh.corners(faces[t]);
-        std::size_t turn = 0;
-        while (turn < 2 && corners[turn] != (first == none ? vertex : first)) {
+        std::size_t turn = moving_ != none ? turns_[t] : 0;
+        while (moving_ == none && turn < 2 && corners[turn] != (first == none ? vertex : first)) {
             ++turn;
         }
         for (std::size_t i = 0; i < 3; ++i) {

@@ -91,6 +91,11 @@ public:
         std::span<const std::uint32_t> faces,
         std::uint32_t vertex);
 
+    /// Lets the way back from a new vertex start where that from another one at its place ends.
+    void copy_vertex(std::uint32_t from, std::uint32_t to) {
+        samples_.from_vertex(to) = samples_.from_vertex(from);
+    }
+
 private:
     void flatten();
     std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);

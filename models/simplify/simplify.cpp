@@ -184,10 +184,17 @@ public:
         return with_normals(surface_.to_mesh(original_, units_), original_);
     }
 
-    std::size_t shells_gone() const { return shells_gone_; }
+    /// Adds what has changed in the topology.
+    void tell(Simplified& result) const {
+        result.shells_gone = shells_gone_;
+        result.holes_closed = collapsing_.hole_closings().size();
+        result.handles_cut = collapsing_.handles_cut();
+    }
+
+    const std::vector<std::size_t>& hole_closings() const { return collapsing_.hole_closings(); }
 
     CollapseSequence sequence() {
-        if (shells_gone_ > 0) {
+        if (shells_gone_ > 0 || collapsing_.handles_cut() > 0) {
             return {};
         }
         return {std::move(original_), std::move(collapsing_.collapses())};
@@ -209,13 +216,13 @@ private:
 Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
     Simplified result;
     const double start_s = cpu_s();
-    SimplifyOptions keeping = options;
-    keeping.keep_shells = true; // A sequence has only collapses.
+    std::vector<std::size_t> hole_closings;
     {
         Goal goal = options.goal;
         goal.error_m = beyond_goal * *goal.error_m;
-        Simplification work(std::move(original), keeping);
+        Simplification work(std::move(original), options);
         work.collapse(goal);
+        hole_closings = work.hole_closings();
         result.sequence = work.sequence();
     }
     const double collapsed_s = cpu_s();
@@ -225,6 +232,8 @@ Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& opt
                               : optimized(mesh, result.sequence.original, options);
     });
     result.sequence.collapses.resize(kept.collapses);
+    result.holes_closed = static_cast<std::size_t>(
+        std::ranges::lower_bound(hole_closings, kept.collapses) - hole_closings.begin());
     result.mesh = std::move(kept.mesh);
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
@@ -248,7 +257,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     Simplification work(std::move(original), options);
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
-    result.shells_gone = work.shells_gone();
+    work.tell(result);
     result.steps = work.optimize();
     result.mesh = work.mesh();
     result.sequence = work.sequence();
@@ -265,7 +274,9 @@ CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& opt
         surface.lock_border(original, units);
     }
     CollapsingSurface collapsing(surface, units, cost_weights);
-    collapse_by_quadrics(collapsing, options.goal, options);
+    SimplifyOptions keeping = options;
+    keeping.keep_topology = true;
+    collapse_by_quadrics(collapsing, options.goal, keeping);
     return {std::move(original), std::move(collapsing.collapses())};
 }
 

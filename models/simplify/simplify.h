@@ -11,9 +11,12 @@ namespace octant::models::simplify {
 /// The result of a simplification.
 struct Simplified {
     TriangleMesh mesh; ///< After the optimization, with the original's materials and normals.
-    /// The collapses that led to it, before the optimization; none where shells were dropped.
+    /// The collapses that led to it, before the optimization; none where shells were dropped or
+    /// handles cut.
     CollapseSequence sequence;
     std::size_t shells_gone = 0;
+    std::size_t holes_closed = 0;
+    std::size_t handles_cut = 0;
     std::size_t steps = 0; ///< That the optimization tried.
     double collapse_cpu_s = 0.0;
     double optimize_cpu_s = 0.0;
@@ -21,11 +24,13 @@ struct Simplified {
 
 /// Simplifies an oriented manifold (a RepairedMesh; asserted): edge collapses, then an
 /// optimization. The result is an oriented manifold without triangles that fold over. Unless the
-/// options keep them, shells are dropped where that is the cheapest step. The same input gives the
+/// options keep them, shells are dropped, holes closed and handles cut where that is the cheapest
+/// step. The same input gives the
 /// same bytes on any number of threads. Lengths are in metres.
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
 
-/// The collapse sequence by quadrics alone. The goal must not be an error (asserted).
+/// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error
+/// (asserted).
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options);
 
 /// Optimizes a mesh that was simplified before: the last step of simplified().

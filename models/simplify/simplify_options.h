@@ -43,6 +43,8 @@ struct SimplifyOptions {
     double length_share = 0.0;
     /// No shell of a mesh may vanish, also where a goal cannot be reached then.
     bool keep_shells = false;
+    /// No hole is closed and no handle cut either.
+    bool keep_topology = false;
     /// Vertices of boundaries stay where they are, all of them.
     bool lock_border = false;
     int threads = 1;            ///< The number of threads; it does not change the result.

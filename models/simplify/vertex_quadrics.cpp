@@ -111,6 +111,13 @@ void VertexQuadrics::merge(std::uint32_t kept, std::uint32_t gone) {
     }
 }
 
+void VertexQuadrics::copy(std::uint32_t from, std::uint32_t to) {
+    quadrics_[to] = quadrics_[from];
+    if (!colours_.empty()) {
+        colours_[to] = colours_[from];
+    }
+}
+
 void VertexQuadrics::keep(std::span<const std::uint32_t> vertices) {
     keep_slots(quadrics_, vertices);
     if (!colours_.empty()) {

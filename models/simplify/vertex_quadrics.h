@@ -45,6 +45,8 @@ public:
     /// Gives the sum of both vertices' quadrics to `kept`.
     void merge(std::uint32_t kept, std::uint32_t gone);
 
+    void copy(std::uint32_t from, std::uint32_t to);
+
     /// Leaves those of the kept slots, as CollapsibleMesh::compact numbers them.
     void keep(std::span<const std::uint32_t> vertices);
 

@@ -56,9 +56,16 @@ struct WorkingSurface {
         return locks_border() && mesh.is_boundary_vertex(vertex);
     }
 
-    /// Whether an edge may collapse: CollapsibleMesh::may_collapse, and no edge of a locked border.
+    /// What the collapse of an edge does: CollapsibleMesh::effect_of, but an edge of a locked
+    /// border may not collapse.
+    CollapseEffect effect_of(HalfEdge h, TopologyChanges allowed) const {
+        return locks_border() && mesh.twin(h) == none ? CollapseEffect{}
+                                                      : mesh.effect_of(h, allowed);
+    }
+
+    /// Whether an edge may collapse without a change of the topology.
     bool may_collapse(HalfEdge h) const {
-        return !(locks_border() && mesh.twin(h) == none) && mesh.may_collapse(h);
+        return effect_of(h, TopologyChanges::None).kind == CollapseEffect::Kind::SameTopology;
     }
 
     /// In file units; of locked vertices as the file has them, to the bit.

@@ -44,7 +44,7 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
     const TriangleMesh& original = seams.marked();
     constexpr double larger = 1.0 + 1e-9; // errors of a chain rise from level to level
     models::simplify::SimplifyOptions simplify = options.simplify;
-    simplify.keep_shells = true; // the finest level has them all
+    simplify.keep_topology = true; // all levels are states of one sequence of collapses
     simplify.goal = {.vertices = {}, .faces = options.coarsest_faces, .error_m = {}};
     const std::vector<std::size_t> goals =
         face_goals(original.triangles.size(), options.coarsest_faces);

@@ -248,8 +248,14 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
              command.keep_seams_apart),
          flag(
              "--keep-shells",
-             "let none vanish, also where a goal is out of reach then",
+             "let no part vanish, also where a goal is out of reach then",
              command.keep_shells),
+         flag(
+             "--keep-topology",
+             "neither drop shells nor close holes nor cut handles, also where a goal is out of "
+             "reach "
+             "then",
+             command.keep_topology),
          flag(
              "--lock-border",
              "vertices of open borders stay where they are, all of them",
@@ -294,9 +300,11 @@ constexpr const char* simplify_footer =
     "format\n"
     "does not hold is said.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
-    "  vertices, method, steps (that the optimization tried), shells_gone, error,\n"
-    "  error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB 0..1, where there are\n"
-    "  colours), uv_error, uv_rms (of texture coordinates, at samples, where there are some),\n"
+    "  vertices, method, steps (that the optimization tried), shells_gone, holes_closed,\n"
+    "  handles_cut, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB\n"
+    "  0..1, where there are colours), uv_error, uv_rms (of texture coordinates, at samples, "
+    "where\n"
+    "  there are some),\n"
     "  time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
     "  with --shared-border files (in, out, faces, vertices, error and so on each);\n"
     "  with --chart also chart, levels;\n"
@@ -309,6 +317,7 @@ constexpr const char* simplify_footer =
     "  octant simplify bunny.ply small.obj --faces 1000\n"
     "  octant simplify scan.stl part.glb --error 0.1%\n"
     "  octant simplify west.obj east.obj --shared-border --out-dir small --error 0.5\n"
+    "  octant simplify gasket.stl small.stl --faces 500 --keep-topology\n"
     "  octant simplify bunny.ply --chart bunny.html\n"
     "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain";
 

@@ -62,7 +62,8 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
     options.colour_weight = command.colour_weight;
-    options.keep_shells = command.keep_shells || command.lock_border;
+    options.keep_shells = command.keep_shells;
+    options.keep_topology = command.keep_topology || command.lock_border;
     options.lock_border = command.lock_border;
     options.threads = command.threads;
     return options;
@@ -219,7 +220,8 @@ bool keeps_goals(
         refuse(
             command.uv_error > 0.0
                 ? "--uv-error takes more triangles than the goal allows"
-                : "no edge can collapse any more without changing the kind of surface");
+                : "no edge can collapse any more without folding the surface or changing what is "
+                  "to be kept");
     }
     return is_kept;
 }
@@ -389,6 +391,8 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["method"] = command.method;
     figures["steps"] = result.steps;
     figures["shells_gone"] = result.shells_gone;
+    figures["holes_closed"] = result.holes_closed;
+    figures["handles_cut"] = result.handles_cut;
     add_texture_error(figures, seams, result.mesh);
     const double measured_from_s = base::process_cpu_s();
     write_and_measure(

@@ -27,6 +27,7 @@ struct SimplifyCommand {
     bool chain = false;
     bool keep_seams_apart = false;
     bool keep_shells = false;
+    bool keep_topology = false;
     bool lock_border = false;
     bool shared_border = false;
     std::string out_dir;

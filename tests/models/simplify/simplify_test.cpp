@@ -53,7 +53,6 @@ TEST_CASE("a cube of many triangles becomes the cube of 12 without an error") {
 }
 
 TEST_CASE("with a share of their length counted, edges of flat sides stay alike") {
-    const TriangleMesh fine = cube(12);
     const auto longest_m = [](const TriangleMesh& mesh) {
         double most_m = 0.0;
         for (const auto& [a, b, c] : mesh.triangles) {
@@ -65,17 +64,25 @@ TEST_CASE("with a share of their length counted, edges of flat sides stay alike"
         }
         return most_m;
     };
-    const auto coarse = [&fine](double length_share) {
+    const auto coarse = [](const TriangleMesh& fine, double length_share) {
         SimplifyOptions options = to_faces(400, fast_effort);
         options.length_share = length_share;
         const CollapseSequence sequence = fast_sequence(fine, options);
         return mesh_after(sequence, sequence.collapses.size());
     };
-    const TriangleMesh plain = coarse(0.0);
-    const TriangleMesh even = coarse(0.03);
+    const TriangleMesh flat_cube = cube(12);
+    CHECK(longest_m(coarse(flat_cube, 0.03)) < 0.45);
+    CHECK(apart(flat_cube, coarse(flat_cube, 0.03)).most_hausdorff_m() < 2e-4);
+    INFO("on sides that are a little rough, as on flat ones short edges go first anyway");
+    TriangleMesh rough = flat_cube;
+    std::mt19937 random(7);
+    for (glm::dvec3& vertex_m : rough.vertices_m) {
+        vertex_m += 2e-4 * glm::dvec3(random() % 2, random() % 2, random() % 2);
+    }
+    const TriangleMesh plain = coarse(rough, 0.0);
+    const TriangleMesh even = coarse(rough, 0.03);
     CHECK(even.triangles.size() == plain.triangles.size());
-    CHECK(longest_m(even) < 0.45);
-    CHECK(apart(fine, even).most_hausdorff_m() < 2e-4);
+    CHECK(longest_m(even) < 0.7 * longest_m(plain));
 }
 
 TEST_CASE("a flat strip becomes two triangles, its boundary where it was") {
@@ -100,7 +107,9 @@ TEST_CASE("without a goal a ball is collapsed as far as it goes: to a tetrahedro
 
 TEST_CASE("a ring keeps its hole") {
     const auto keeps_it = [](const TriangleMesh& fine, std::size_t faces, int effort) {
-        const TriangleMesh made = simplified(fine, to_faces(faces, effort)).mesh;
+        SimplifyOptions options = to_faces(faces, effort);
+        options.keep_topology = faces == 1;
+        const TriangleMesh made = simplified(fine, options).mesh;
         CHECK(made.triangles.size() < fine.triangles.size());
         CHECK(is_manifold(made));
         CHECK(boundary_edges(made) == 0);
