@@ -32,6 +32,7 @@ glm::dvec3 point_at(const std::array<glm::dvec3, 3>& corners, std::size_t corner
 
 void LocalError::gather(std::span<const std::uint32_t> faces) {
     block_.clear();
+    gathered_.assign(faces.begin(), faces.end());
     present_there_ = 0.0;
     present_back_ = 0.0;
     for (const std::uint32_t face : faces) {
@@ -128,11 +129,12 @@ double LocalError::measured_back(double limit) {
     back_errors_.assign(triangles_.size(), 0.0);
     from_points_.resize(triangles_.size());
     max_back2_ = 0.0;
+    back_points_.clear();
     if (!triangles_.empty() && triangles_[0].vertices[0] == none) {
         const WayBack& near =
             moving_ != none ? samples_.from_vertex(moving_) : samples_.from_face(near_[0])[0];
         from_moving_ = way_back(near.foot, triangles_[0].places[0]);
-        max_back2_ = static_cast<double>(from_moving_.distance2);
+        max_back2_ = is_close_ ? 0.0 : static_cast<double>(from_moving_.distance2);
     }
     double sum = 0.0;
     for (std::size_t t = 0; t < triangles_.size() && sum <= limit; ++t) {
@@ -148,7 +150,7 @@ double LocalError::measured_back(double limit) {
                 from.distance2 += static_cast<float>(area);
             }
             const auto distance2 = static_cast<double>(from.distance2);
-            max_back2_ = std::max(max_back2_, distance2);
+            max_back2_ = std::max(max_back2_, is_close_ ? 0.0 : distance2);
             mean += point_share * penalty.of(distance2);
         }
         for (const std::uint32_t vertex : triangles_[t].vertices) {
@@ -156,10 +158,88 @@ double LocalError::measured_back(double limit) {
                 vertex == none ? from_moving_ : samples_.from_vertex(vertex);
             mean += corner_share * penalty.of(static_cast<double>(from.distance2));
         }
+        if (is_close_) {
+            measure_closely(static_cast<std::uint32_t>(t));
+        }
         back_errors_[t] = area * mean;
         sum += back_errors_[t];
     }
     return sum;
+}
+
+void LocalError::measure_closely() {
+    is_close_ = true;
+    original_tree_ = std::make_unique<const measure::TriangleBvh>(
+        original_.places(), original_.triangles());
+    const CollapsibleMesh& mesh = surface_.mesh;
+    is_changed_.assign(mesh.face_slots(), 0);
+    std::vector<Triangle> triangles;
+    present_faces_.clear();
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (mesh.face_is_there(face)) {
+            triangles.push_back(mesh.corners(face));
+            present_faces_.push_back(face);
+        }
+    }
+    present_tree_ = std::make_unique<const measure::TriangleBvh>(surface_.places, triangles);
+}
+
+/// A way back, or a shorter one if there is one on the whole original.
+WayBack LocalError::checked(const WayBack& from, const glm::dvec3& place) const {
+    if (static_cast<double>(from.distance2) <= trusted2_) {
+        return from;
+    }
+    const measure::NearestOnMesh found = original_tree_->nearest(place);
+    if (found.distance2 >= static_cast<double>(from.distance2)) {
+        return from;
+    }
+    return {{measure::narrow(found.point), found.triangle}, static_cast<float>(found.distance2)};
+}
+
+/// Measures from points of the edges of a new triangle, and collects all points of it.
+void LocalError::measure_closely(std::uint32_t t) {
+    const std::array<glm::dvec3, 3>& corners = triangles_[t].places;
+    const std::array<WayBack, 3>& inside = from_points_[t];
+    const auto add = [&](const WayBack& from, const glm::dvec3& place, double share) {
+        const WayBack shortest = checked(from, place);
+        back_points_.push_back({widen(shortest.foot.place) - place, t, share});
+        max_back2_ = std::max(max_back2_, static_cast<double>(shortest.distance2));
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = triangles_[t].vertices[i];
+        add(vertex == none ? from_moving_ : samples_.from_vertex(vertex), corners[i],
+            i == 0 ? 1.0 : 0.0);
+        add(inside[i], point_at(corners, i), i == 0 ? near_weight : far_weight);
+        const std::size_t next = (i + 1) % 3;
+        for (const double along : {0.25, 0.5, 0.75}) {
+            const glm::dvec3 place = (1.0 - along) * corners[i] + along * corners[next];
+            const double share = i == 0 ? 1.0 - along : next == 0 ? along : 0.0;
+            add(way_back(inside[along > 0.5 ? next : i].foot, place), place, share);
+        }
+    }
+}
+
+glm::dvec3 LocalError::way_to_lower_max() {
+    constexpr double others = 0.02; // So much even the nearest points weigh, of the farthest ones.
+    VertexFit fit;
+    const double max2 = std::max(max_distance2(), 1e-30);
+    const auto weight = [&](double distance2) {
+        return others + (distance2 / max2) * (distance2 / max2);
+    };
+    for (std::size_t i = 0; i < block_.size(); ++i) {
+        const FlatTriangle& triangle = flat_[static_cast<std::size_t>(block_.nearest[i])];
+        const double share = weight(static_cast<double>(block_.distances2[i]));
+        add_sample(fit, block_, i, triangle, share, false);
+    }
+    for (const BackPoint& point : back_points_) {
+        const glm::dvec3 normal = area_vector(triangles_[point.triangle].places);
+        const double length = glm::length(normal);
+        if (length > 0.0) {
+            const double share = weight(glm::dot(point.off, point.off));
+            fit.add(point.off, normal / length, point.share, share);
+        }
+    }
+    return fit.way();
 }
 
 /// A triangle of the original from which to look for the foot of a point on a present triangle:
@@ -234,12 +314,21 @@ double LocalError::measured(double limit) {
     return there > limit ? there : there + measured_back(limit - there);
 }
 
-double LocalError::max_there2() const {
-    float most = 0.0F;
+double LocalError::max_there2() {
+    float max2 = 0.0F;
     for (std::size_t i = 0; i < block_.size(); ++i) {
-        most = std::max(most, block_.distances2[i]);
+        float& distance2 = block_.distances2[i];
+        if (is_close_ && distance2 > max2 && static_cast<double>(distance2) > trusted2_) {
+            const measure::NearestOnMesh found =
+                present_tree_->nearest(glm::dvec3(block_.x[i], block_.y[i], block_.z[i]));
+            const std::uint32_t face = present_faces_[found.triangle];
+            if (is_changed_[face] == 0 && std::ranges::find(gathered_, face) == gathered_.end()) {
+                distance2 = std::min(distance2, static_cast<float>(found.distance2));
+            }
+        }
+        max2 = std::max(max2, distance2);
     }
-    return static_cast<double>(most);
+    return static_cast<double>(max2);
 }
 
 double LocalError::work() const {
@@ -293,6 +382,13 @@ void LocalError::keep(
     std::span<const std::uint32_t> emptied,
     std::span<const std::uint32_t> faces,
     std::uint32_t vertex) {
+    if (is_close_) {
+        for (const std::span<const std::uint32_t> list : {emptied, faces}) {
+            for (const std::uint32_t face : list) {
+                is_changed_[face] = 1;
+            }
+        }
+    }
     samples_.assign(block_, emptied, faces);
     for (std::size_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t first = triangles_[t].vertices[0];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/measure/triangle_bvh.h"
 #include "models/simplify/original_surface.h"
 #include "models/simplify/sample_block.h"
 #include "models/simplify/surface_samples.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -62,9 +64,9 @@ public:
     double measured(double limit = std::numeric_limits<double>::infinity());
 
     /// The largest squared distance that was measured last, in each direction.
-    double max_there2() const;
+    double max_there2();
     double max_back2() const { return max_back2_; }
-    double max_distance2() const { return std::max(max_there2(), max_back2_); }
+    double max_distance2() { return std::max(max_there2(), max_back2_); }
 
     /// The sum of the present errors of the triangles that were loaded.
     double present() const { return present_there_ + present_back_; }
@@ -76,6 +78,18 @@ public:
     /// The least-squares step of corner 0, from what measured_there() saw last; with the present
     /// ways back where the new triangles are still the present ones.
     VertexFit fit(bool with_back) const;
+
+    /// From now on ways back start from points of the edges too, and the largest distance is that
+    /// from the whole of the other surface. The error stays as it is.
+    void measure_closely();
+
+    /// Measured closely, only squared distances above this one are looked up in the whole of the
+    /// other surface.
+    void set_trusted2(double distance2) { trusted2_ = distance2; }
+
+    /// The step of corner 0 that lowers the largest distance, both ways, of what was measured
+    /// closely last: a least-squares fit in which far points weigh most.
+    glm::dvec3 way_to_lower_max();
 
     /// About how many distances to triangles one measurement takes.
     double work() const;
@@ -97,7 +111,16 @@ public:
     }
 
 private:
+    /// A point of a new triangle and its way to the original.
+    struct BackPoint {
+        glm::dvec3 off{0.0};
+        std::uint32_t triangle = 0; ///< The new one.
+        double share = 0.0;         ///< The barycentric weight of corner 0.
+    };
+
     void flatten();
+    WayBack checked(const WayBack& from, const glm::dvec3& place) const;
+    void measure_closely(std::uint32_t triangle);
     std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);
     WayBack way_back(const OriginalPoint& start, const glm::dvec3& place) const;
 
@@ -116,6 +139,16 @@ private:
     /// The vertex that moves, or is merged with another one; none = it is new.
     std::uint32_t moving_ = none;
     double max_back2_ = 0.0;
+    bool is_close_ = false;
+    double trusted2_ = 0.0;
+    std::unique_ptr<const measure::TriangleBvh> original_tree_;
+    /// Of the present triangles when measure_closely() was called, their numbers, and for each
+    /// number whether it changed since.
+    std::unique_ptr<const measure::TriangleBvh> present_tree_;
+    std::vector<std::uint32_t> present_faces_;
+    std::vector<std::uint8_t> is_changed_;
+    std::vector<std::uint32_t> gathered_; ///< The triangles that were loaded.
+    std::vector<BackPoint> back_points_; ///< Empty unless measured closely.
     double work_done_ = 0.0;
     double present_there_ = 0.0;
     double present_back_ = 0.0;

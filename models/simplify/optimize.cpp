@@ -7,7 +7,8 @@
 // lowers the largest distance too. Steps are not tried at random: a queue orders them by the
 // expected reduction per unit of work. What a step achieved is what the next one nearby is expected
 // to achieve, less a part. The number of triangles stays instead of being weighed against the
-// error.
+// error. At the end the same steps are made where the distance is largest, as long as that lowers
+// it.
 #include "models/simplify/optimize.h"
 
 #include "models/simplify/collapse_guard.h"
@@ -19,7 +20,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace octant::models::simplify {
@@ -40,6 +43,13 @@ constexpr double expected_beside = 0.25;
 constexpr double work_of_step = 20'000.0;
 /// A step is made only if it takes away this share of the error around it.
 constexpr double min_share = 1e-3;
+/// A step against the largest distance is made only if less than this share of its square is left,
+/// and all of them may raise the error by a share of it, and of what other steps gained. They end
+/// when so many distances stay.
+constexpr double lowered = 0.985;
+constexpr double spare_share = 0.05;
+constexpr double gain_share = 0.25;
+constexpr int max_failed = 8;
 
 class Optimizer {
 public:
@@ -64,6 +74,10 @@ private:
     Id split_of(HalfEdge edge) const { return static_cast<Id>(vertices_ + edges_) + edge; }
 
     void measure_all();
+    double max_distance2_of(std::uint32_t face, double trusted2);
+    void lower_max(double mean2_before);
+    bool lower_max_at(std::uint32_t face);
+    void move_to_lower_max(std::uint32_t vertex);
     void fill();
     void expect(Id id, double gain, double work);
     void expect_split(HalfEdge edge);
@@ -82,9 +96,15 @@ private:
         double change = 0.0; ///< Of the error; infinite where it is not allowed.
     };
 
+    void lower_max_by_corner(
+        MadeVertex& made,
+        double limit,
+        std::uint32_t vertex,
+        const std::function<bool(const glm::dvec3&)>& may_be_at);
     MadeVertex split_vertex(HalfEdge h);
     MadeVertex collapsed_vertex(HalfEdge h);
     HalfEdge cheapest_collapse();
+    HalfEdge cheapest_collapse_away_from(HalfEdge split);
     bool touch(HalfEdge split, HalfEdge collapsed) const;
     void load_split(HalfEdge h);
     void load_collapse(HalfEdge h);
@@ -99,9 +119,12 @@ private:
     EdgeHeap collapses_; ///< By the growth of the error.
     std::vector<std::uint8_t> collapse_is_checked_;
     std::vector<std::uint8_t> split_is_checked_;
-    double max_distance2_ = 0.0;
+    double max_distance2_ = 0.0; ///< No step leaves a larger one.
+    bool is_lowering_max_ = false;
+    double spare_ = 0.0; ///< By so much steps that lower the largest distance may raise the error.
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
+    std::vector<std::uint32_t> changed_; ///< The triangles of the last step that was made.
     std::vector<std::uint32_t> ring_faces_;
     std::vector<ColouredTriangle> fan_;
     std::vector<std::uint32_t> near_;
@@ -169,6 +192,7 @@ void Optimizer::fill() {
 
 std::size_t Optimizer::run(const OptimizeOptions& options) {
     measure_all();
+    const double mean2_before = samples_.mean2();
     fill();
     std::size_t steps = 0;
     while (steps < options.max_steps && !queue_.empty()) {
@@ -183,7 +207,158 @@ std::size_t Optimizer::run(const OptimizeOptions& options) {
         // Steps among very many triangles or samples count several times.
         steps = std::max(steps + 1, static_cast<std::size_t>(local_.work_done() / work_of_step));
     }
+    if (steps > 0) {
+        lower_max(mean2_before);
+    }
     return steps;
+}
+
+/// The largest squared distance, both ways, of a triangle. Squares above `trusted2` are exact.
+double Optimizer::max_distance2_of(std::uint32_t face, double trusted2) {
+    local_.set_trusted2(trusted2);
+    faces_.assign(1, face);
+    local_.gather(faces_);
+    const ColouredTriangle present{surface_.mesh.corners(face), surface_.corner_places(face), {}};
+    local_.set_triangles(std::span(&present, 1), faces_);
+    local_.measured();
+    return local_.max_distance2();
+}
+
+/// Lowers the largest distance where it is, again and again, until some of the largest ones stay.
+/// All steps together raise the mean square by no more than a small share, and a share of what has
+/// been gained on `mean2_before`.
+void Optimizer::lower_max(double mean2_before) {
+    constexpr double untrusted = std::numeric_limits<double>::max();
+    const CollapsibleMesh& mesh = surface_.mesh;
+    samples_.set_penalty({}); // Now the error is the sum of squares.
+    local_.measure_all_back();
+    local_.measure_closely();
+    EdgeHeap largest(mesh.face_slots());
+    double error = 0.0;
+    for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
+        if (mesh.face_is_there(face)) {
+            error += samples_.error(face);
+            largest.set(face, static_cast<float>(-max_distance2_of(face, untrusted)));
+        }
+    }
+    is_lowering_max_ = true;
+    const double gained = mean2_before / std::max(samples_.mean2(), 1e-30) - 1.0;
+    spare_ = error * std::clamp(gain_share * gained, 0.0, spare_share);
+    const std::size_t max_steps = 32 + mesh.face_count() / 4;
+    int failed = 0;
+    for (std::size_t step = 0; step < max_steps && failed < max_failed && !largest.empty();
+         ++step) {
+        const std::uint32_t face = largest.top();
+        const auto told2 = -static_cast<double>(largest.cost(face));
+        const double max2 = max_distance2_of(face, 0.5 * told2);
+        if (max2 < 0.998 * told2) {
+            largest.set(face, static_cast<float>(-max2));
+            continue;
+        }
+        max_distance2_ = lowered * max2;
+        local_.set_trusted2(max_distance2_);
+        if (!lower_max_at(face)) {
+            largest.remove(face);
+            ++failed;
+            continue;
+        }
+        for (const std::uint32_t changed : changed_) {
+            largest.set(changed, static_cast<float>(-max_distance2_of(changed, untrusted)));
+        }
+    }
+}
+
+/// Makes the first step at a triangle that leaves no distance around it above the largest one
+/// allowed: a vertex moves, an edge flips, or an edge splits. False if there is none.
+bool Optimizer::lower_max_at(std::uint32_t face) {
+    changed_.clear();
+    const CollapsibleMesh& mesh = surface_.mesh;
+    for (const std::uint32_t vertex : Triangle(mesh.corners(face))) {
+        move_to_lower_max(vertex);
+        if (!changed_.empty()) {
+            return true;
+        }
+    }
+    for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) {
+        try_flip(mesh.edge_of(3 * face + side));
+    }
+    for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) {
+        const HalfEdge edge = mesh.edge_of(3 * face + side);
+        const HalfEdge collapse = surface_.is_border(edge) ? none : cheapest_collapse_away_from(edge);
+        if (collapse != none) {
+            relocate(edge, collapse);
+        }
+    }
+    return !changed_.empty();
+}
+
+/// Looks for a place of corner 0 of the new triangles at which no distance is above the largest one
+/// allowed and the error is at most `limit`, from `made.place` on. `vertex` is the one that moves,
+/// or none. The place is the one that was measured last; `made.change` becomes the error there, or
+/// infinite where there is no such place.
+void Optimizer::lower_max_by_corner(
+    MadeVertex& made,
+    double limit,
+    std::uint32_t vertex,
+    const std::function<bool(const glm::dvec3&)>& may_be_at) {
+    constexpr int max_tries = 8;
+    constexpr double min_length = 0.05;
+    constexpr double shorter = 0.4;
+    const auto way_from_here = [&] {
+        const glm::dvec3 way = local_.way_to_lower_max();
+        return vertex == none ? way : surface_.along_borders(vertex, way);
+    };
+    const double start = local_.measured();
+    double max2 = local_.max_distance2();
+    made.change = std::numeric_limits<double>::infinity();
+    if (max2 <= max_distance2_) {
+        made.change = vertex == none && start < limit ? start : made.change;
+        return;
+    }
+    glm::dvec3 way = way_from_here();
+    double length = 1.0;
+    for (int i = 0; i < max_tries && length > min_length; ++i) {
+        const glm::dvec3 there = made.place + length * way;
+        if (!may_be_at(there)) {
+            length *= shorter;
+            continue;
+        }
+        local_.move_corner(there, made.colour);
+        const double after = local_.measured();
+        if (!(after <= limit) || local_.max_distance2() >= max2) {
+            length *= shorter;
+            continue;
+        }
+        made.place = there;
+        max2 = local_.max_distance2();
+        if (max2 <= max_distance2_) {
+            made.change = after;
+            return;
+        }
+        way = way_from_here();
+        length = std::min(1.0, 2.0 * length);
+    }
+}
+
+/// Moves a vertex so that the largest distance around it falls below the largest one allowed.
+void Optimizer::move_to_lower_max(std::uint32_t vertex) {
+    surface_.mesh.ring_at(vertex, ring_, faces_);
+    MadeVertex moved{surface_.places[vertex], {}, 0.0};
+    if (surface_.coloured()) {
+        moved.colour = surface_.colours[vertex];
+    }
+    local_.gather(faces_);
+    local_.set_ring(ring_, moved.place, moved.colour);
+    const double limit = local_.present() + spare_;
+    lower_max_by_corner(moved, limit, vertex, [&](const glm::dvec3& place) {
+        return may_move(surface_, ring_, place);
+    });
+    if (std::isfinite(moved.change)) {
+        surface_.places[vertex] = moved.place;
+        local_.keep(faces_, faces_, vertex);
+        spare_ = limit - moved.change;
+        changed_ = faces_;
+    }
 }
 
 void Optimizer::try_step(Id id) {
@@ -292,13 +467,15 @@ void Optimizer::try_flip(HalfEdge h) {
         return;
     }
     local_.set_triangles(made, faces_);
-    const double limit = 0.99 * before;
+    const double limit = is_lowering_max_ ? before + spare_ : 0.99 * before;
     const double after = local_.measured(limit);
     if (!(after < limit) || local_.max_distance2() > max_distance2_) {
         return;
     }
     mesh.flip(h);
     local_.keep(faces_, faces_, none);
+    changed_ = faces_;
+    spare_ = is_lowering_max_ ? std::max(0.0, spare_ + before - after) : 0.0;
     const double work = local_.work();
     for (const std::uint32_t vertex : {u, w, x, y}) {
         expect(vertex, expected_beside * (before - after), work);
@@ -373,6 +550,13 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
         }
         return true;
     };
+    if (is_lowering_max_) {
+        if (is_allowed(made.place)) {
+            lower_max_by_corner(made, present + spare_, none, is_allowed);
+            made.change -= present;
+        }
+        return made;
+    }
     glm::dvec3 place = made.place;
     glm::dvec3 colour = made.colour;
     for (int fit = 0; fit < 2; ++fit) {
@@ -479,6 +663,23 @@ bool Optimizer::touch(HalfEdge split, HalfEdge collapsed) const {
     return found;
 }
 
+/// The edge whose collapse costs least and does not touch the triangles of one that splits; none
+/// where several of the cheapest ones touch them.
+HalfEdge Optimizer::cheapest_collapse_away_from(HalfEdge split) {
+    constexpr std::size_t max_tries = 8;
+    std::vector<std::pair<HalfEdge, float>> touching;
+    HalfEdge found = cheapest_collapse();
+    while (found != none && touch(split, found)) {
+        touching.emplace_back(found, collapses_.cost(found));
+        collapses_.remove(found);
+        found = touching.size() < max_tries ? cheapest_collapse() : none;
+    }
+    for (const auto& [edge, cost] : touching) {
+        collapses_.set(edge, cost);
+    }
+    return found;
+}
+
 /// Splits an edge if that takes more away than the cheapest collapse elsewhere costs. The first
 /// time only finds out what it is worth.
 void Optimizer::try_split(HalfEdge h) {
@@ -518,7 +719,10 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     const MadeVertex apart = split_vertex(split);
     const MadeVertex merged = collapsed_vertex(collapsed);
     const double gain = -apart.change - merged.change;
-    if (!(gain > 0.0)) {
+    if (!(gain + spare_ > 0.0)) {
+        if (std::isinf(merged.change)) {
+            collapse_is_checked_[collapsed] = 0; // Since then less has been allowed.
+        }
         return;
     }
     // The collapse.
@@ -570,6 +774,9 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
         surface_.colours[gone] = apart.colour;
     }
     local_.keep(faces_, made, gone);
+    spare_ = is_lowering_max_ ? std::max(0.0, spare_ + gain) : 0.0;
+    changed_ = made;
+    mesh.around(kept, [&](HalfEdge h) { changed_.push_back(face_of(h)); });
     changed_around(kept, gain, work, true);
     changed_around(gone, gain, work, true);
 }
