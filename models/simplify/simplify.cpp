@@ -32,7 +32,7 @@ namespace octant::models::simplify {
 namespace {
 
 /// Collapses are chosen by samples where at most so many times the wanted triangles are left.
-constexpr std::size_t sampled_faces = 4;
+constexpr std::size_t sampled_faces = 3;
 constexpr std::size_t min_sampled_faces = 2000;
 /// For a wanted error, once quadrics estimate this share of it.
 constexpr double sampled_error = 0.1;
