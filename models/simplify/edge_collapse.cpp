@@ -87,6 +87,7 @@ private:
     HalfEdge taking_one(HalfEdge h);
     bool is_allowed(HalfEdge h, const Placement& placement);
     void update(HalfEdge edge, Known ways);
+    void measure(HalfEdge h, const Placement& placement, Known ways);
     void load(HalfEdge h, const Placement& placement);
     double length_cost(HalfEdge edge, const Placement& placement) const;
     void collapse(HalfEdge h);
@@ -111,6 +112,10 @@ private:
     Known first_;              ///< What is found out about an edge at first.
     /// For each vertex whether an edge at it was taken out of the heap, as it may not collapse.
     std::vector<std::uint8_t> has_refused_;
+    HalfEdge measured_ = none; ///< The edge whose collapse local_ measured last; none = it changed.
+    Known measured_ways_ = Known::Old;
+    double there_ = 0.0; ///< The error that it measured, from the samples and back to the original.
+    double back_ = 0.0;
     double error_ = 0.0; ///< The estimated error so far, in working units.
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
@@ -231,9 +236,9 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
     } else if (ways == Known::Old) {
         cost += guessed_share * placement.cost;
     } else if (is_allowed(edge, placement)) {
-        load(edge, placement);
-        cost += ways == Known::There ? local_->measured_there() - local_->present_there()
-                                     : local_->measured() - local_->present();
+        measure(edge, placement, ways);
+        cost += ways == Known::There ? there_ - local_->present_there()
+                                     : there_ + back_ - local_->present();
         if (effect_.kind != CollapseEffect::Kind::ClosesHole &&
             (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
              surface_.is_border_vertex(surface_.mesh.target(edge)))) {
@@ -247,6 +252,21 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
         cost *= 2.0; // It takes one triangle instead of two.
     }
     heap_.set(edge, static_cast<float>(cost));
+}
+
+/// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was measured
+/// last stays valid until the mesh changes.
+void EdgeCollapse::measure(HalfEdge h, const Placement& placement, Known ways) {
+    if (measured_ != h) {
+        load(h, placement);
+        there_ = local_->measured_there();
+        measured_ = h;
+        measured_ways_ = Known::There;
+    }
+    if (ways == Known::BothWays && measured_ways_ == Known::There) {
+        back_ = local_->measured_back();
+        measured_ways_ = Known::BothWays;
+    }
 }
 
 /// Loads the samples around an edge, whose ring must be in ring_, and the triangles that its
@@ -287,8 +307,8 @@ void EdgeCollapse::collapse(HalfEdge h) {
     }
     mesh.ring_of(h, ring_);
     if (local_ != nullptr) {
-        load(h, placement);
-        local_->measured();
+        measure(h, placement, Known::BothWays);
+        measured_ = none;
         error_ = std::max(error_, std::sqrt(local_->max_distance2()));
     } else if (placement.weight > 0.0) {
         error_ = std::max(error_, std::sqrt(placement.cost / placement.weight));
@@ -404,6 +424,7 @@ void EdgeCollapse::drop(std::uint32_t shell) {
         return;
     }
     heap_.remove(edges_ + shell);
+    measured_ = none;
     shells_->drop(shell, [&](std::uint32_t face) {
         for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
             heap_.remove(h);

@@ -32,7 +32,7 @@ namespace octant::models::simplify {
 namespace {
 
 /// Collapses are chosen by samples where at most so many times the wanted triangles are left.
-constexpr std::size_t sampled_faces = 4;
+constexpr std::size_t sampled_faces = 3;
 constexpr std::size_t min_sampled_faces = 2000;
 /// For a wanted error, once quadrics estimate this share of it.
 constexpr double sampled_error = 0.1;
@@ -117,13 +117,19 @@ std::vector<std::uint32_t> compacted(CollapsingSurface& collapsing) {
     return slots;
 }
 
-/// Puts each sample into the list of the nearest triangle, found from one near it.
+/// Puts each sample into the list of the nearest triangle, found from one near it. All slots of the
+/// surface must be taken.
 void assign_from(
     const WorkingSurface& surface, SurfaceSamples& samples, std::span<std::uint32_t> faces) {
+    std::vector<FlatTriangle> triangles;
+    triangles.reserve(surface.mesh.face_slots());
+    for (std::uint32_t face = 0; face < surface.mesh.face_slots(); ++face) {
+        triangles.push_back(flat(surface.corner_places(face)));
+    }
     std::vector<float> distances2(samples.size());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         faces[sample] = nearest_face_from(
-            surface, faces[sample], samples[sample].place, distances2[sample]);
+            surface, faces[sample], samples[sample].place, distances2[sample], triangles);
     }
     samples.assign_all(faces, distances2, surface.mesh);
 }

@@ -253,7 +253,8 @@ std::uint32_t nearest_face_from(
     const WorkingSurface& surface,
     std::uint32_t start,
     const std::array<float, 3>& place,
-    float& distance2) {
+    float& distance2,
+    std::span<const FlatTriangle> triangles) {
     const CollapsibleMesh& mesh = surface.mesh;
     std::uint32_t nearest = start;
     distance2 = std::numeric_limits<float>::max();
@@ -262,9 +263,13 @@ std::uint32_t nearest_face_from(
         looked = nearest;
         for (const std::uint32_t corner : mesh.corners(looked)) {
             mesh.around(corner, [&](HalfEdge h) {
-                const FlatTriangle triangle = flat(surface.corner_places(face_of(h)));
                 measure::FramePoints<float> found;
-                measure::find_in_frame<false>(found, place, triangle);
+                if (triangles.empty()) {
+                    measure::find_in_frame<false>(
+                        found, place, flat(surface.corner_places(face_of(h))));
+                } else {
+                    measure::find_in_frame<false>(found, place, triangles[face_of(h)]);
+                }
                 if (found.distance2 < distance2) {
                     distance2 = found.distance2;
                     nearest = face_of(h);

@@ -133,11 +133,13 @@ private:
 };
 
 /// The triangle nearest to a place that is found by going from `start` from neighbour to neighbour
-/// as long as that leads nearer; its squared distance goes to `distance2`.
+/// as long as that leads nearer; its squared distance goes to `distance2`. `triangles` are those of
+/// all slots, or empty: then they are made one by one, which is slower.
 std::uint32_t nearest_face_from(
     const WorkingSurface& surface,
     std::uint32_t start,
     const std::array<float, 3>& place,
-    float& distance2);
+    float& distance2,
+    std::span<const FlatTriangle> triangles = {});
 
 } // namespace octant::models::simplify
