@@ -41,7 +41,7 @@ void refuse_wrong_output(const SimplifyCommand& command, const std::string& name
             "'{}'",
             printable(name)));
     }
-    if (!command.chain && !meshfile::is_mesh_file(out)) {
+    if (!command.chain && !meshfile::is_written_mesh_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
             "'{}'",
@@ -85,7 +85,7 @@ void refuse_wrong_folder(const SimplifyCommand& command) {
             throw Error(fmt::format(
                 "--out-dir: expected another folder than that of '{}'", printable(file)));
         }
-        if (!meshfile::is_mesh_file(name) || name.extension() == ".xml") {
+        if (!meshfile::is_written_mesh_file(name)) {
             throw Error(fmt::format(
                 "--shared-border: expected meshes that can be written again, such as .obj or .ply, "
                 "got '{}'",
@@ -186,7 +186,7 @@ std::vector<Option> goal_options(SimplifyCommand& command) {
             "files",
             "IN OUT",
             "mesh to simplify: " + world::built_in_meshes() +
-                " or a file: .obj, .ply, .stl, .gltf, .glb, .ac, .wrl; and the file to write, "
+                " or a file: .obj, .ply, .stl, .off, .gltf, .glb, .ac, .wrl; and the file to write, "
                 "whose ending says how. With --shared-border meshes alone, with --chart perhaps "
                 "without OUT",
             Takes::SomeWords,
