@@ -26,6 +26,17 @@ CollapsingSurface::CollapsingSurface(
     , first_faces_(surface.mesh.face_slots())
     , first_vertices_(surface.mesh.vertex_slots()) {}
 
+CollapsingSurface::CollapsingSurface(
+    const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units)
+    : surface_(surface)
+    , units_(units)
+    , quadrics_(from.quadrics_)
+    , vertex_numbers_(from.vertex_numbers_)
+    , face_numbers_(from.face_numbers_)
+    , first_faces_(from.first_faces_)
+    , first_vertices_(from.first_vertices_)
+    , collapses_(from.collapses_) {}
+
 void CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);

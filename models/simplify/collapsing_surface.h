@@ -19,6 +19,10 @@ public:
     CollapsingSurface(
         WorkingSurface& surface, const WorkingUnits& units, const EdgeWeights& weights);
 
+    /// A copy that goes on with a copy of the surface.
+    CollapsingSurface(
+        const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units);
+
     WorkingSurface& surface() { return surface_; }
 
     const WorkingSurface& surface() const { return surface_; }

@@ -63,6 +63,9 @@ public:
 
     void run(const Goal& goal);
 
+    /// Drops every shell that may be dropped.
+    void drop_shells();
+
 private:
     /// What is known of the cost of an edge.
     enum class Known : std::uint8_t {
@@ -324,6 +327,10 @@ void EdgeCollapse::update_shell(std::uint32_t shell) {
     if (!(shell_costs_[shell] > 0.0)) {
         shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
     }
+    if (!std::isfinite(shell_costs_[shell])) {
+        heap_.remove(edges_ + shell);
+        return;
+    }
     heap_.set(
         edges_ + shell,
         static_cast<float>(shell_costs_[shell] * 2.0 / static_cast<double>(faces)));
@@ -345,6 +352,17 @@ void EdgeCollapse::drop(std::uint32_t shell) {
     });
 }
 
+void EdgeCollapse::drop_shells() {
+    for (std::uint32_t shell = 0; shell < shell_costs_.size(); ++shell) {
+        if (shells_->face_count(shell) > 0) {
+            shell_costs_[shell] = shells_->cost(shell);
+            if (std::isfinite(shell_costs_[shell])) {
+                drop(shell);
+            }
+        }
+    }
+}
+
 } // namespace
 
 void collapse_by_quadrics(
@@ -361,10 +379,17 @@ std::size_t collapse_by_samples(
     LocalError local(collapsing.surface(), samples, original);
     std::optional<Shells> shells;
     if (!options.keep_shells) {
-        shells.emplace(collapsing, samples, original);
+        // A shell that is dropped must keep a wanted error with what is left of it for other steps.
+        constexpr double share = 0.8;
+        const double error = options.goal.error_m.value_or(1e30) / collapsing.units().diagonal_m;
+        shells.emplace(collapsing, samples, original, std::min(max_shell_distance, share * error));
     }
-    EdgeCollapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options)
-        .run(goal);
+    EdgeCollapse collapse(
+        collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);
+    collapse.run(goal);
+    if (shells && options.goal.error_m) {
+        collapse.drop_shells();
+    }
     return shells ? shells->count() - shells->count_left() : 0;
 }
 

@@ -1,6 +1,6 @@
 // The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error
-// allows (error_search.cpp), then an optimization (optimize.cpp), after which corner normals are
-// taken over (attributes.cpp).
+// allows, then an optimization (optimize.cpp), after which corner normals are taken over
+// (attributes.cpp).
 //
 // It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
 // which the distance to triangles in both directions comes: the reference is the original surface
@@ -9,10 +9,10 @@
 // estimated. The paper's own mode is paper_simplify.cpp.
 #include "models/simplify/simplify.h"
 
+#include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/attributes.h"
 #include "models/simplify/edge_collapse.h"
-#include "models/simplify/error_search.h"
 #include "models/simplify/optimize.h"
 
 #include <glm/geometric.hpp>
@@ -23,6 +23,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -34,10 +35,6 @@ namespace {
 /// Collapses are chosen by samples where at most so many times the wanted triangles are left.
 constexpr std::size_t sampled_faces = 4;
 constexpr std::size_t min_sampled_faces = 2000;
-/// For a wanted error, once quadrics estimate this share of it.
-constexpr double sampled_error = 0.1;
-/// And so far beyond it collapses go by their own estimate: the optimization brings it back.
-constexpr double beyond_goal = 2.0;
 
 double cpu_s() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -136,100 +133,210 @@ TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
     return mesh;
 }
 
-/// Collapses of a mesh, with samples of what it was.
+/// Collapses of a mesh, with samples of what it was. A copy goes on from the same state.
 class Simplification {
 public:
-    Simplification(TriangleMesh original, const SimplifyOptions& options)
+    /// The original must outlive this.
+    Simplification(const TriangleMesh& original, const SimplifyOptions& options)
         : options_(options)
-        , original_(std::move(original))
+        , original_(original)
         , units_(WorkingUnits::of(original_, options.colour_weight))
         , surface_(original_, units_)
-        , target_(surface_)
+        , target_(std::make_shared<const OriginalSurface>(surface_))
         , collapsing_(surface_, units_, EdgeWeights{}) {
         if (options.lock_border) {
             surface_.lock_border(original_, units_);
         }
     }
 
-    /// Collapses to the goal: by quadrics as long as that is far, then by samples.
-    void collapse(const Goal& goal) {
-        const std::size_t before = surface_.mesh.face_count();
-        const std::size_t faces = goal.error_m ? before / 4 : wanted_faces(goal);
-        SurfaceSamples samples(surface_, wanted_samples(before, faces));
+    Simplification(const Simplification& from)
+        : options_(from.options_)
+        , original_(from.original_)
+        , units_(from.units_)
+        , surface_(from.surface_)
+        , target_(from.target_)
+        , collapsing_(from.collapsing_, surface_, units_)
+        , samples_(from.samples_)
+        , shells_gone_(from.shells_gone_) {}
+
+    Simplification& operator=(const Simplification&) = delete;
+
+    /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
+    /// left in the end.
+    void approach(const Goal& near_goal, std::size_t faces) {
+        SurfaceSamples samples(surface_, wanted_samples(surface_.mesh.face_count(), faces));
         std::vector<std::uint32_t> near = anchors_of(surface_, samples);
-        Goal first{{}, std::max(sampled_faces * faces, min_sampled_faces), {}};
-        if (goal.error_m) {
-            first = {{}, {}, sampled_error * *goal.error_m};
-        }
-        collapse_by_quadrics(collapsing_, first, options_);
+        collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
         for (std::uint32_t& anchor : near) {
             anchor = surface_.mesh.face_at(slots[anchor]);
         }
         assign_from(surface_, samples, near);
-        LocalError(surface_, samples, target_).measure_all_back();
-        shells_gone_ = collapse_by_samples(collapsing_, samples, target_, goal, options_);
+        LocalError(surface_, samples, *target_).measure_all_back();
         samples_.emplace(std::move(samples));
     }
 
-    std::size_t optimize() {
+    /// Collapses by samples, after approach(), to the goal.
+    void collapse(const Goal& goal) {
+        shells_gone_ = collapse_by_samples(collapsing_, *samples_, *target_, goal, options_);
+    }
+
+    /// Returns the number of steps.
+    std::size_t optimize(const SimplifyOptions& options) {
         return simplify::optimize(
             surface_,
             *samples_,
-            target_,
-            optimize_options(options_, surface_.mesh.face_count(), original_.triangles.size()));
+            *target_,
+            optimize_options(options, faces(), original_.triangles.size()));
     }
 
     TriangleMesh mesh() const {
         return with_normals(surface_.to_mesh(original_, units_), original_);
     }
 
+    std::size_t faces() const { return surface_.mesh.face_count(); }
+
     std::size_t shells_gone() const { return shells_gone_; }
 
-    CollapseSequence sequence() {
-        if (shells_gone_ > 0) {
-            return {};
-        }
-        return {std::move(original_), std::move(collapsing_.collapses())};
-    }
+    std::vector<Collapse>& collapses() { return collapsing_.collapses(); }
 
 private:
     const SimplifyOptions& options_;
-    TriangleMesh original_;
+    const TriangleMesh& original_;
     WorkingUnits units_;
     WorkingSurface surface_;
-    OriginalSurface target_;
+    std::shared_ptr<const OriginalSurface> target_;
     CollapsingSurface collapsing_;
     std::optional<SurfaceSamples> samples_;
     std::size_t shells_gone_ = 0;
 };
 
-/// Simplifies to a wanted error: one sequence of collapses beyond it, and then a search along the
-/// sequence.
-Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
-    Simplified result;
-    const double start_s = cpu_s();
-    SimplifyOptions keeping = options;
-    keeping.keep_shells = true; // A sequence has only collapses.
-    {
-        Goal goal = options.goal;
-        goal.error_m = beyond_goal * *goal.error_m;
-        Simplification work(std::move(original), keeping);
-        work.collapse(goal);
-        result.sequence = work.sequence();
+/// Searches for the fewest triangles whose finished mesh keeps a wanted error by its certified
+/// distance, so that whoever measures it again with the usual tightness finds it kept. Each try
+/// goes on from the last state that kept the error, is optimized and measured.
+class ErrorSearch {
+public:
+    ErrorSearch(const TriangleMesh& original, const SimplifyOptions& options)
+        : original_(original)
+        , options_(options)
+        , trying_(options)
+        , error_m_(*options.goal.error_m) {
+        result_.mesh = original;
+        if (trying_.max_seconds) {
+            *trying_.max_seconds /= max_tries;
+        }
     }
-    const double collapsed_s = cpu_s();
-    KeptError kept = max_collapses_within(result.sequence, options, [&](std::size_t collapses) {
-        const TriangleMesh mesh = mesh_after(result.sequence, collapses);
-        return collapses == 0 ? with_normals(mesh, result.sequence.original)
-                              : optimized(mesh, result.sequence.original, options);
-    });
-    result.sequence.collapses.resize(kept.collapses);
-    result.mesh = std::move(kept.mesh);
-    result.collapse_cpu_s = collapsed_s - start_s;
-    result.optimize_cpu_s = cpu_s() - collapsed_s;
-    return result;
-}
+
+    Simplified find() {
+        // Quadrics may be far off; then they stop earlier.
+        for (double share = 0.1; share > 1e-4 && !is_found_; share *= 0.1) {
+            search_from(share * error_m_);
+        }
+        return std::move(result_);
+    }
+
+private:
+    static constexpr int max_tries = 6;
+    /// Another try is made only while more than this share of the triangles is in question.
+    static constexpr double close_enough = 0.03;
+    /// Tries aim at this share of the wanted error.
+    static constexpr double aim = 0.97;
+    /// The number of triangles is assumed to grow with this power of 1 / error.
+    static constexpr double steepness = 1.5;
+    /// The first try is where the estimate reaches this many times the wanted error, which the
+    /// optimization lowers.
+    static constexpr double first_try = 1.2;
+
+    void search_from(double quadrics_m) {
+        const double start_s = cpu_s();
+        auto kept = std::make_unique<Simplification>(original_, options_);
+        kept->approach({{}, {}, quadrics_m}, original_.triangles.size() / 4);
+        if (kept->collapses().size() > 1) {
+            kept->collapses().erase(kept->collapses().begin(), kept->collapses().end() - 1);
+        }
+        auto next = std::make_unique<Simplification>(*kept);
+        next->collapse({{}, {}, first_try * error_m_});
+        result_.collapse_cpu_s += cpu_s() - start_s;
+        std::size_t too_few = 0;
+        for (int tries = 0; tries < max_tries; ++tries) {
+            const double likely_faces = attempt(*next);
+            if (is_kept_) {
+                kept = std::move(next);
+            } else {
+                too_few = std::max(too_few, next->faces());
+            }
+            const std::size_t wanted = next_faces(kept->faces(), too_few, likely_faces);
+            if (wanted >= kept->faces()) {
+                return;
+            }
+            const double before_s = cpu_s();
+            next = std::make_unique<Simplification>(*kept);
+            next->collapse({{}, wanted, {}});
+            result_.collapse_cpu_s += cpu_s() - before_s;
+            if (next->faces() >= kept->faces()) {
+                return; // No edge can collapse.
+            }
+        }
+    }
+
+    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns how
+    /// many triangles would just keep it.
+    double attempt(const Simplification& state) {
+        const double start_s = cpu_s();
+        Simplification copy(state);
+        const std::size_t steps = copy.optimize(trying_);
+        TriangleMesh mesh = copy.mesh();
+        result_.optimize_cpu_s += cpu_s() - start_s;
+        if (trying_.max_seconds) {
+            trying_.max_seconds.reset(); // Other tries take as many steps.
+            trying_.steps = steps;
+        }
+        const measure::MeshDistance distance = measure::distance(
+            original_,
+            mesh,
+            {.tightness = 1.03,
+             .negligible_m = 0.9 * error_m_,
+             .samples = 100,
+             .threads = options_.threads,
+             .larger_alone = true});
+        is_kept_ = distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
+        if (is_kept_) {
+            is_found_ = true;
+            result_.mesh = std::move(mesh);
+            result_.steps = trying_.steps.value_or(steps);
+            result_.shells_gone = state.shells_gone();
+        }
+        const double about_m = 0.5 * (distance.least_hausdorff_m() + distance.most_hausdorff_m());
+        return static_cast<double>(state.faces()) *
+               std::clamp(std::pow(about_m / (aim * error_m_), steepness), 0.4, 2.5);
+    }
+
+    /// The number of triangles to try next: what the last try suggests, if that is well inside the
+    /// range; else half of the range in the logarithm. The kept number where the range is narrow
+    /// enough.
+    static std::size_t next_faces(std::size_t kept, std::size_t too_few, double likely) {
+        const auto most = static_cast<double>(kept);
+        const auto least = static_cast<double>(too_few);
+        if (too_few == 0) {
+            return static_cast<std::size_t>(std::min(likely, most / (1.0 + close_enough)));
+        }
+        if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) {
+            return kept;
+        }
+        const double inside = 1.0 + 0.3 * close_enough;
+        const bool is_inside = likely * inside < most && likely > least * inside;
+        const double wanted = is_inside ? likely : std::sqrt(most * least);
+        return std::clamp(static_cast<std::size_t>(wanted), too_few + 1, kept - 1);
+    }
+
+    const TriangleMesh& original_;
+    const SimplifyOptions& options_;
+    SimplifyOptions trying_; ///< The same with the steps that each try takes.
+    double error_m_;
+    bool is_kept_ = false;  ///< by the last try
+    bool is_found_ = false; ///< Some try has kept the error.
+    Simplified result_;
+};
 
 } // namespace
 
@@ -241,19 +348,24 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
         return {.mesh = original, .sequence = {std::move(original), {}}};
     }
     if (options.goal.error_m) {
-        return simplified_to_error(std::move(original), options);
+        return ErrorSearch(original, options).find();
     }
     Simplified result;
     const double start_s = cpu_s();
-    Simplification work(std::move(original), options);
+    Simplification work(original, options);
+    const std::size_t faces = wanted_faces(options.goal);
+    work.approach({{}, std::max(sampled_faces * faces, min_sampled_faces), {}}, faces);
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
     result.shells_gone = work.shells_gone();
-    result.steps = work.optimize();
+    result.steps = work.optimize(options);
     result.mesh = work.mesh();
-    result.sequence = work.sequence();
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
+    if (result.shells_gone == 0) {
+        result.sequence.collapses = std::move(work.collapses());
+        result.sequence.original = std::move(original);
+    }
     return result;
 }
 

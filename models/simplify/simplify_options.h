@@ -31,7 +31,8 @@ struct SimplifyOptions {
     int effort = surface_effort; ///< 0 to 9; 0 = collapses alone. Each one more doubles the steps or so.
     /// The steps of the optimization, instead of those that follow from the effort.
     std::optional<std::size_t> steps;
-    /// The optimization ends after so many seconds. The result then depends on the machine;
+    /// The optimization ends after so many seconds, all those for a wanted error together about.
+    /// The result then depends on the machine;
     /// Simplified::steps repeats it.
     std::optional<double> max_seconds;
     /// What a colour difference of 1 counts as, against a distance, in diagonals of the bounding
