@@ -1,6 +1,5 @@
 // The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error
-// allows, then an optimization (optimize.cpp), after which corner normals are taken over
-// (attributes.cpp).
+// allows, then an optimization (optimize.cpp). Attributes are taken over by AttributeSeams.
 //
 // It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
 // which the distance to triangles in both directions comes: the reference is the original surface
@@ -11,7 +10,6 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/attributes.h"
 #include "models/simplify/edge_collapse.h"
 #include "models/simplify/optimize.h"
 
@@ -125,14 +123,6 @@ void assign_from(
     samples.assign_all(faces, distances2, surface.mesh);
 }
 
-/// The mesh with corner normals taken from the original.
-TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
-    if (!original.corner_normals.empty() && !mesh.triangles.empty()) {
-        take_normals(mesh, original, measure::TriangleBvh(original));
-    }
-    return mesh;
-}
-
 /// Collapses of a mesh, with samples of what it was. A copy goes on from the same state.
 class Simplification {
 public:
@@ -191,7 +181,7 @@ public:
     }
 
     TriangleMesh mesh() const {
-        return with_normals(surface_.to_mesh(original_, units_), original_);
+        return surface_.to_mesh(original_, units_);
     }
 
     std::size_t faces() const { return surface_.mesh.face_count(); }
@@ -236,13 +226,13 @@ public:
     }
 
 private:
-    static constexpr int max_tries = 6;
+    static constexpr int max_tries = 7;
     /// Another try is made only while more than this share of the triangles is in question.
     static constexpr double close_enough = 0.03;
     /// Tries aim at this share of the wanted error.
     static constexpr double aim = 0.97;
-    /// The number of triangles is assumed to grow with this power of 1 / error.
-    static constexpr double steepness = 1.5;
+    /// The error is assumed to fall with this power of the number of triangles.
+    static constexpr double steepness = 1.0;
     /// The first try is where the estimate reaches this many times the wanted error, which the
     /// optimization lowers.
     static constexpr double first_try = 1.2;
@@ -257,15 +247,19 @@ private:
         auto next = std::make_unique<Simplification>(*kept);
         next->collapse({{}, {}, first_try * error_m_});
         result_.collapse_cpu_s += cpu_s() - start_s;
+        double kept_m = quadrics_m;
         std::size_t too_few = 0;
+        double too_far_m = 0.0;
         for (int tries = 0; tries < max_tries; ++tries) {
-            const double likely_faces = attempt(*next);
+            const double tried_m = attempt(*next);
             if (is_kept_) {
                 kept = std::move(next);
-            } else {
-                too_few = std::max(too_few, next->faces());
+                kept_m = tried_m;
+            } else if (next->faces() > too_few) {
+                too_few = next->faces();
+                too_far_m = tried_m;
             }
-            const std::size_t wanted = next_faces(kept->faces(), too_few, likely_faces);
+            const std::size_t wanted = next_faces(kept->faces(), kept_m, too_few, too_far_m);
             if (wanted >= kept->faces()) {
                 return;
             }
@@ -279,8 +273,8 @@ private:
         }
     }
 
-    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns how
-    /// many triangles would just keep it.
+    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns about
+    /// how large its error is.
     double attempt(const Simplification& state) {
         const double start_s = cpu_s();
         Simplification copy(state);
@@ -306,26 +300,27 @@ private:
             result_.steps = trying_.steps.value_or(steps);
             result_.shells_gone = state.shells_gone();
         }
-        const double about_m = 0.5 * (distance.least_hausdorff_m() + distance.most_hausdorff_m());
-        return static_cast<double>(state.faces()) *
-               std::clamp(std::pow(about_m / (aim * error_m_), steepness), 0.4, 2.5);
+        return distance.least_hausdorff_m();
     }
 
-    /// The number of triangles to try next: what the last try suggests, if that is well inside the
-    /// range; else half of the range in the logarithm. The kept number where the range is narrow
-    /// enough.
-    static std::size_t next_faces(std::size_t kept, std::size_t too_few, double likely) {
+    /// The number of triangles to try next, where the error lies between those of two numbers in
+    /// the logarithms. The kept number where that is near enough.
+    std::size_t
+    next_faces(std::size_t kept, double kept_m, std::size_t too_few, double too_far_m) const {
         const auto most = static_cast<double>(kept);
         const auto least = static_cast<double>(too_few);
         if (too_few == 0) {
-            return static_cast<std::size_t>(std::min(likely, most / (1.0 + close_enough)));
+            const double share = std::pow(kept_m / (aim * error_m_), 1.0 / steepness);
+            return static_cast<std::size_t>(
+                most * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
         }
         if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) {
             return kept;
         }
-        const double inside = 1.0 + 0.3 * close_enough;
-        const bool is_inside = likely * inside < most && likely > least * inside;
-        const double wanted = is_inside ? likely : std::sqrt(most * least);
+        const double between =
+            kept_m < too_far_m ? std::log(aim * error_m_ / kept_m) / std::log(too_far_m / kept_m)
+                               : 0.5;
+        const double wanted = most * std::pow(least / most, std::clamp(between, 0.2, 0.8));
         return std::clamp(static_cast<std::size_t>(wanted), too_few + 1, kept - 1);
     }
 
@@ -407,7 +402,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
         samples,
         target,
         optimize_options(options, mesh.triangles.size(), original.triangles.size()));
-    return with_normals(surface.to_mesh(mesh, units), original);
+    return surface.to_mesh(mesh, units);
 }
 
 } // namespace octant::models::simplify

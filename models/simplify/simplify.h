@@ -10,7 +10,7 @@ namespace octant::models::simplify {
 
 /// The result of a simplification.
 struct Simplified {
-    TriangleMesh mesh; ///< After the optimization, with the original's materials and normals.
+    TriangleMesh mesh; ///< After the optimization, with the original's materials.
     /// The collapses that led to it, before the optimization; none where shells were dropped and for
     /// a wanted error.
     CollapseSequence sequence;

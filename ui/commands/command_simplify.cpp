@@ -271,6 +271,16 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
               1e-9,
               1e9},
              command.uv_error),
+         read_option(
+             {"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
+             command.normal_error),
+         read_option(
+             {"colour-error",
+              "SHARE",
+              "colours may be off by so much, of red, green and blue 0..1 [no bound]",
+              1e-4,
+              2},
+             command.colour_error),
          text_option(
              "--chart",
              "FILE.html",

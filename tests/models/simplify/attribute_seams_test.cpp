@@ -215,7 +215,7 @@ TEST_CASE("texture coordinates of a seam that meets itself stay right on both of
     }
     CHECK(has_begin);
     CHECK(has_end);
-    CHECK(seams.texture_error(welded).max < 0.05);
+    CHECK(seams.errors(welded).texture.max < 0.05);
 }
 
 TEST_CASE("unsimplified, each corner has the texture coordinates of the file, darts too") {
@@ -245,7 +245,7 @@ TEST_CASE("unsimplified, each corner has the texture coordinates of the file, da
             CHECK(glm::length(off) < 1e-6F);
         }
     }
-    CHECK(seams.texture_error(seams.marked()).max < 1e-6);
+    CHECK(seams.errors(seams.marked()).texture.max < 1e-6);
 }
 
 TEST_CASE("triangles are divided in their plane until texture coordinates keep their bound") {
@@ -256,9 +256,9 @@ TEST_CASE("triangles are divided in their plane until texture coordinates keep t
     const TriangleMesh welded = simplified(seams.marked(), options).mesh;
     REQUIRE(welded.triangles.size() == 2);
     // Straight from 0 to 1 instead of x * x: off by 1/4 at the middle.
-    CHECK(seams.texture_error(welded).max == Approx(0.25).margin(0.01));
+    CHECK(seams.errors(welded).texture.max == Approx(0.25).margin(0.01));
     constexpr double bound = 0.02;
-    const TriangleMesh divided = seams.divided(welded, bound, 4'000);
+    const TriangleMesh divided = seams.divided(welded, {.texture = bound}, 4'000);
     CHECK(divided.triangles.size() > 8);
     CHECK(divided.triangles.size() < 200);
     CHECK(area_m2(divided) == Approx(area_m2(welded)));
@@ -275,7 +275,7 @@ TEST_CASE("triangles are divided in their plane until texture coordinates keep t
         }
         CHECK(std::abs(u - middle_m.x * middle_m.x) < bound + 1e-3);
     }
-    CHECK(seams.divided(welded, bound, 6).triangles.size() <= 7);
+    CHECK(seams.divided(welded, {.texture = bound}, 6).triangles.size() <= 7);
 }
 
 TEST_CASE("a locked border keeps all its vertices to the bit") {
