@@ -745,7 +745,7 @@ TriangleMesh AttributeSeams::divided(
         return made;
     }
     // Where an attribute breaks within a triangle, dividing it again and again does not help.
-    constexpr double smallest2 = 1.0 / 64.0;
+    constexpr double smallest2 = 1.0 / 1024.0;
     const auto is_large = [&](std::size_t t) {
         const Chart& chart = charts_[chart_at(made, t)];
         const glm::dvec3 middle_m = place_m(made, made.triangles[t], glm::dvec3(1.0 / 3.0));

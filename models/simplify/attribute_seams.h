@@ -69,7 +69,7 @@ public:
 
     /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves
     /// no point of its surface, until no sample of an attribute is farther off than its bound, or
-    /// they are an eighth as large as those of the mesh, or there are `max_faces`. With a bound of colours all vertices get the colours of the
+    /// they are much smaller than those of the mesh, or there are `max_faces`. With a bound of colours all vertices get the colours of the
     /// mesh at the nearest points.
     TriangleMesh
     divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const;

@@ -62,7 +62,10 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     if (!command.error.empty()) {
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
-    options.colour_weight = command.colour_weight;
+    // On a coloured scan the distance is then no larger than without colours by other programs.
+    constexpr double default_colour_weight = 0.015;
+    options.colour_weight =
+        command.colour_weight >= 0.0 ? command.colour_weight : default_colour_weight;
     options.keep_shells = command.keep_shells || command.lock_border;
     options.lock_border = command.lock_border;
     options.threads = command.threads;
@@ -388,7 +391,10 @@ void simplify_as_printed(
     simplify::PaperOptions options;
     options.measure = measure;
     options.goal = options_of(command, diagonal_m).goal;
-    options.colour_weight = original.colours.empty() ? 0.0 : command.colour_weight * diagonal_m;
+    constexpr double printed_colour_weight = 0.1;
+    const double weight =
+        command.colour_weight >= 0.0 ? command.colour_weight : printed_colour_weight;
+    options.colour_weight = original.colours.empty() ? 0.0 : weight * diagonal_m;
     base::Progress progress("contracting edges", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     figures["faces_before"] = original.triangles.size();

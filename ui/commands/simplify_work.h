@@ -22,7 +22,7 @@ struct SimplifyCommand {
     int effort = -1;          ///< That of the method
     int steps = -1;           ///< Those of the effort
     double max_seconds = 0.0; ///< No limit
-    double colour_weight = 0.1;
+    double colour_weight = -1.0; ///< That of the method
     int threads = core_count();
     bool chain = false;
     bool keep_seams_apart = false;
