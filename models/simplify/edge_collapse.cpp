@@ -380,9 +380,12 @@ std::size_t collapse_by_samples(
     std::optional<Shells> shells;
     if (!options.keep_shells) {
         // A shell that is dropped must keep a wanted error with what is left of it for other steps.
-        constexpr double share = 0.8;
         const double error = options.goal.error_m.value_or(1e30) / collapsing.units().diagonal_m;
-        shells.emplace(collapsing, samples, original, std::min(max_shell_distance, share * error));
+        shells.emplace(
+            collapsing,
+            samples,
+            original,
+            std::min(max_shell_distance, options.shell_error_share * error));
     }
     EdgeCollapse collapse(
         collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);

@@ -209,6 +209,7 @@ public:
     ErrorSearch(const TriangleMesh& original, const SimplifyOptions& options)
         : original_(original)
         , options_(options)
+        , collapsing_(options)
         , trying_(options)
         , error_m_(*options.goal.error_m) {
         result_.mesh = original;
@@ -218,9 +219,11 @@ public:
     }
 
     Simplified find() {
-        // Quadrics may be far off; then they stop earlier.
+        // Quadrics may be far off, and shells be dropped too early; then both stop earlier.
         for (double share = 0.1; share > 1e-4 && !is_found_; share *= 0.1) {
             search_from(share * error_m_);
+            collapsing_.shell_error_share *= 0.5;
+            collapsing_.keep_shells = options_.keep_shells || share < 0.05;
         }
         return std::move(result_);
     }
@@ -239,7 +242,7 @@ private:
 
     void search_from(double quadrics_m) {
         const double start_s = cpu_s();
-        auto kept = std::make_unique<Simplification>(original_, options_);
+        auto kept = std::make_unique<Simplification>(original_, collapsing_);
         kept->approach({{}, {}, quadrics_m}, original_.triangles.size() / 4);
         if (kept->collapses().size() > 1) {
             kept->collapses().erase(kept->collapses().begin(), kept->collapses().end() - 1);
@@ -326,6 +329,7 @@ private:
 
     const TriangleMesh& original_;
     const SimplifyOptions& options_;
+    SimplifyOptions collapsing_; ///< The same with what shells may cost.
     SimplifyOptions trying_; ///< The same with the steps that each try takes.
     double error_m_;
     bool is_kept_ = false;  ///< by the last try

@@ -44,6 +44,8 @@ struct SimplifyOptions {
     double length_share = 0.0;
     /// No shell of a mesh may vanish, also where a goal cannot be reached then.
     bool keep_shells = false;
+    /// For a wanted error, shells are dropped that are nearer to others than this share of it.
+    double shell_error_share = 0.8;
     /// Vertices of boundaries stay where they are, all of them.
     bool lock_border = false;
     int threads = 1;            ///< The number of threads; it does not change the result.

@@ -88,3 +88,21 @@ TEST_CASE("of very many shells that cannot collapse the goal's number stays, spr
     CHECK(std::ranges::any_of(
         fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 700.0; }));
 }
+
+TEST_CASE("for a wanted error shells go that lie nearer to others than that, unless they are kept") {
+    TriangleMesh mesh;
+    add_ball(mesh, 1.0, 0.0);
+    add_ball(mesh, 0.97, 0.0); // within the first, 0.03 from it
+    add_ball(mesh, 0.3, 9.0);
+    SimplifyOptions options;
+    options.goal.error_m = 0.12;
+    const Simplified fewer = simplified(mesh, options);
+    CHECK(fewer.shells_gone == 1);
+    CHECK(euler_number(fewer.mesh) == 4);
+    CHECK(fewer.steps > 0);
+    options.goal.error_m = 0.02;
+    CHECK(simplified(mesh, options).shells_gone == 0);
+    options.goal.error_m = 0.12;
+    options.keep_shells = true;
+    CHECK(euler_number(simplified(mesh, options).mesh) == 6);
+}
