@@ -264,15 +264,18 @@ private:
             }
             const std::size_t wanted = next_faces(kept->faces(), kept_m, too_few, too_far_m);
             if (wanted >= kept->faces()) {
-                return;
+                break;
             }
             const double before_s = cpu_s();
             next = std::make_unique<Simplification>(*kept);
             next->collapse({{}, wanted, {}});
             result_.collapse_cpu_s += cpu_s() - before_s;
             if (next->faces() >= kept->faces()) {
-                return; // No edge can collapse.
+                break; // No edge can collapse.
             }
+        }
+        if (!is_found_) {
+            attempt(*kept); // It was not tried so far.
         }
     }
 
