@@ -141,6 +141,13 @@ void EdgeCollapse::run(const Goal& goal) {
         if (h == none) {
             return;
         }
+        if (goal.error_m && local_ == nullptr) {
+            const Placement next = collapsing_.quadrics().placement(surface_, h);
+            const double limit = *goal.error_m / collapsing_.units().diagonal_m;
+            if (next.cost > limit * limit * next.weight) {
+                return; // The collapse would exceed the error.
+            }
+        }
         if (goal.faces && surface_.mesh.face_count() == *goal.faces + 1) {
             collapse(taking_one(h));
             continue;
