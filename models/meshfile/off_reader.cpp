@@ -85,7 +85,9 @@ public:
         }
         if (small_faces_ > 0) {
             mesh_.add_note(fmt::format(
-                "{}: faces of fewer than 3 corners are not read: {}", path_.string(), small_faces_));
+                "{}: faces of fewer than 3 corners are not read: {}",
+                path_.string(),
+                small_faces_));
         }
         if (has_map_colours_) {
             mesh_.add_note(fmt::format(
@@ -141,8 +143,7 @@ private:
         const int line = words_.line();
         const std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         has_map_colours_ = has_map_colours_ || rest.size() == 1;
-        const std::uint32_t material =
-            rest.size() < 2 ? no_index : material_of(colour(rest, line));
+        const std::uint32_t material = rest.size() < 2 ? no_index : material_of(colour(rest, line));
         if (count < 3) {
             ++small_faces_;
         } else {
@@ -156,9 +157,8 @@ private:
         if (words.size() < 3 || words.size() > 4) {
             refuse(line, "a colour of 3 or 4 numbers", words);
         }
-        const bool is_whole = std::ranges::all_of(words, [](std::string_view word) {
-            return word.find_first_of(".eE") == word.npos;
-        });
+        const bool is_whole = std::ranges::all_of(
+            words, [](std::string_view word) { return word.find_first_of(".eE") == word.npos; });
         const double most = is_whole ? 255.0 : 1.0;
         glm::dvec3 parts(0.0);
         for (int part = 0; part < 3; ++part) {
@@ -172,8 +172,7 @@ private:
     }
 
     std::uint32_t material_of(const glm::vec3& colour) {
-        const auto [at, is_new] =
-            materials_.try_emplace({colour.x, colour.y, colour.z}, no_index);
+        const auto [at, is_new] = materials_.try_emplace({colour.x, colour.y, colour.z}, no_index);
         if (is_new) {
             at->second =
                 mesh_.add_material({fmt::format("face colour {}", materials_.size()), colour});

@@ -427,7 +427,9 @@ std::optional<AttributeSeams::Chart>
 AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) const {
     constexpr double jump2 = 0.0625; // of the squared difference between corners
     const Chart& chart = charts_[chart_at(made, triangle)];
-    const auto at = [&](const glm::dvec3& at_m) { return texture_at(chart, chart.bvh.nearest(at_m)); };
+    const auto at = [&](const glm::dvec3& at_m) {
+        return texture_at(chart, chart.bvh.nearest(at_m));
+    };
     const Triangle& corners = made.triangles[triangle];
     std::array<glm::dvec2, 3> places;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -516,9 +518,7 @@ AttributeSeams::colour_at(const Chart& chart, const measure::NearestOnMesh& near
 /// At a crease the nearest point (`known`, if not null) may lie on the wrong side. Where the
 /// triangle there faces another way, points further inside the triangle of the result are asked.
 glm::dvec3 AttributeSeams::normal_at(
-    const Lookup& lookup,
-    const glm::dvec3& at_m,
-    const measure::NearestOnMesh* known) const {
+    const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const {
     constexpr double agreeing_cosine = 0.7;
     constexpr std::array<double, 4> pulls = {0.0, 0.1, 0.4, 1.0}; // shares of the way to the middle
     for (const double pull : pulls) {
@@ -532,8 +532,9 @@ glm::dvec3 AttributeSeams::normal_at(
                                nearest.weights.y * glm::dvec3(normals_[b]) +
                                nearest.weights.z * glm::dvec3(normals_[c]);
         const double length = glm::length(sum);
-        if (length > 0.0 && glm::dot(normal_of(marked_, marked_.triangles[triangle]),
-                                     lookup.facing) >= agreeing_cosine) {
+        if (length > 0.0 &&
+            glm::dot(normal_of(marked_, marked_.triangles[triangle]), lookup.facing) >=
+                agreeing_cosine) {
             return sum / length;
         }
     }
@@ -707,8 +708,7 @@ AttributeErrors AttributeSeams::errors(const TriangleMesh& made) const {
     if (charts_.empty() || is_marked(made)) {
         return {};
     }
-    const std::vector<bool> near =
-        corner_colours_.empty() ? std::vector<bool>() : near_seams(made);
+    const std::vector<bool> near = corner_colours_.empty() ? std::vector<bool>() : near_seams(made);
     std::vector<std::optional<glm::dvec3>> colours(made.colours.size());
     for (std::size_t vertex = 0; vertex < colours.size(); ++vertex) {
         if (near.empty() || !near[vertex]) {

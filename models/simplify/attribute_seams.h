@@ -35,9 +35,9 @@ struct AttributeBounds {
 };
 
 /// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept
-/// through its simplification. Seams part the surface into charts. The simplifier sees them as borders of
-/// materials, which it keeps where they are; its result then takes the attributes of each side of a
-/// seam from the chart on that side.
+/// through its simplification. Seams part the surface into charts. The simplifier sees them as
+/// borders of materials, which it keeps where they are; its result then takes the attributes of
+/// each side of a seam from the chart on that side.
 class AttributeSeams {
 public:
     /// `corner_colours` has one entry a triangle, or none where no colours break. The mesh must be
@@ -69,8 +69,8 @@ public:
 
     /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves
     /// no point of its surface, until no sample of an attribute is farther off than its bound, or
-    /// they are much smaller than those of the mesh, or there are `max_faces`. With a bound of colours all vertices get the colours of the
-    /// mesh at the nearest points.
+    /// they are much smaller than those of the mesh, or there are `max_faces`. With a bound of
+    /// colours all vertices get the colours of the mesh at the nearest points.
     TriangleMesh
     divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const;
 
@@ -115,9 +115,7 @@ private:
     glm::dvec2 texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
     glm::dvec3 colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
     glm::dvec3 normal_at(
-        const Lookup& lookup,
-        const glm::dvec3& at_m,
-        const measure::NearestOnMesh* known) const;
+        const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const;
     Values values_at(const Lookup& lookup, const glm::dvec3& at_m) const;
     Chart chart_of(std::vector<std::uint32_t> triangles) const;
     /// The part of its chart that a triangle of a result lies on, where nearest points in the chart

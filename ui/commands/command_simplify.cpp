@@ -258,7 +258,9 @@ void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
              "weld only vertices that agree to the bit, colours too",
              command.keep_seams_apart),
          flag(
-             "--lock-border", "all vertices of open borders stay where they are", command.lock_border),
+             "--lock-border",
+             "all vertices of open borders stay where they are",
+             command.lock_border),
          flag(
              "--shared-border",
              "simplify several meshes as one, so that no gap opens along their common borders; "
@@ -337,7 +339,8 @@ constexpr const char* simplify_footer =
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
     "  vertices, method, steps (that the optimization tried), shells_gone, error,\n"
     "  error_of_diagonal, rms, rms_of_diagonal, colour_rms, colour_error (lengths in RGB 0..1),\n"
-    "  uv_error, uv_rms, normal_error, normal_rms (degrees; each where there are such attributes),\n"
+    "  uv_error, uv_rms, normal_error, normal_rms (degrees; each where there are such "
+    "attributes),\n"
     "  time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
     "  with --shared-border files (in, out, faces, vertices, error and so on each);\n"
     "  with --chart also chart, levels;\n"

@@ -197,8 +197,8 @@ std::array<AttributeBound, 3> bounds_of(const SimplifyCommand& command) {
          {"colours", "--colour-error", "colour_error", command.colour_error}}};
 }
 
-/// Whether the figures of a written mesh keep the wanted error and the bounds of attributes, and its
-/// faces and vertices are few enough; else says why not.
+/// Whether the figures of a written mesh keep the wanted error and the bounds of attributes, and
+/// its faces and vertices are few enough; else says why not.
 bool keeps_goals(
     const SimplifyCommand& command,
     const simplify::Goal& goal,
@@ -239,8 +239,7 @@ bool keeps_goals(
     }
     if ((goal.faces && figure("faces") > static_cast<double>(*goal.faces)) ||
         (goal.vertices && figure("vertices") > static_cast<double>(*goal.vertices))) {
-        refuse(
-            "no edge can collapse any more without changing the kind of surface");
+        refuse("no edge can collapse any more without changing the kind of surface");
     }
     return is_kept;
 }

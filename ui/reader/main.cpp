@@ -1,6 +1,6 @@
-// octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as OBJ,
-// which holds all of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside octant, so that a file which makes the library crash, hang or eat memory
-// ends this program alone.
+// octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as
+// OBJ, which holds all of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside
+// octant, so that a file which makes the library crash, hang or eat memory ends this program alone.
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
@@ -70,7 +70,8 @@ void read(
 
 int main(int count, char** words) {
     if (count != 6) {
-        std::fputs("octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n",
+        std::fputs(
+            "octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n",
             stderr);
         return wrong_input;
     }

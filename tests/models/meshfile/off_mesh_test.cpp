@@ -58,8 +58,7 @@ TEST_CASE("OFF files give vertices normals, colours and texture coordinates, and
 }
 
 TEST_CASE("what an OFF file has that is not read is noted once") {
-    const TriangleMesh mesh =
-        read_off("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7\n2 0 1\n1 2\n");
+    const TriangleMesh mesh = read_off("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7\n2 0 1\n1 2\n");
     CHECK(mesh.triangles.size() == 1);
     REQUIRE(mesh.notes.size() == 2);
     CHECK_THAT(mesh.notes[0], Catch::EndsWith("faces of fewer than 3 corners are not read: 2"));
@@ -75,8 +74,7 @@ TEST_CASE("a faulty OFF file is refused in one line that says where") {
         refused_off("OFF\n99999 1 0\n0 0 0\n"),
         Catch::StartsWith("part.off:2: expected the number of vertices of 0 to "));
     CHECK(
-        refused_off("OFF\n3 1 0\n0 0 0\n1 x 0\n") ==
-        "part.off:4: expected a coordinate, got 'x'");
+        refused_off("OFF\n3 1 0\n0 0 0\n1 x 0\n") == "part.off:4: expected a coordinate, got 'x'");
     CHECK(
         refused_off("OFF\n3 1 0\n0 0 0\n1 0 0 1\n") ==
         "part.off:4: expected a colour of 3 or 4 numbers, got '1'");
