@@ -59,7 +59,7 @@ void Ac3dMaterials::take_line(WordScanner& words) {
     }
     const auto trans = std::ranges::find(parts, "trans");
     const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
-    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F});
+    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
 }
 
 /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
@@ -76,18 +76,21 @@ void Ac3dMaterials::take_block(WordScanner& words) {
             opacity = opacity_of(rest_words[0]);
         }
     }
-    materials_.push_back({std::move(material), opacity});
+    materials_.push_back({std::move(material), opacity, {}});
 }
 
-std::uint32_t Ac3dMaterials::used(std::uint32_t number, MeshBuilder& mesh) {
+std::uint32_t
+Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
     if (number == no_index) {
         return no_index;
     }
     FileMaterial& material = materials_[number];
-    if (material.used_as == no_index) {
-        material.used_as = mesh.add_material(material.material, material.opacity);
+    const auto [at, is_new] = material.used_as.try_emplace(picture, no_index);
+    if (is_new) {
+        material.material.picture = picture;
+        at->second = mesh.add_material(material.material, material.opacity);
     }
-    return material.used_as;
+    return at->second;
 }
 
 } // namespace octant::models::meshfile

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,15 +22,15 @@ public:
 
     std::size_t count() const { return materials_.size(); }
 
-    /// The mesh's number of a material, below count(), or of none (no_index). Materials come into
-    /// the mesh in the order of their first polygon.
-    std::uint32_t used(std::uint32_t number, MeshBuilder& mesh);
+    /// The mesh's number of a material, below count(), or of none (no_index), with a picture's file
+    /// or without (empty). Materials come into the mesh in the order of their first polygon.
+    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh);
 
 private:
     struct FileMaterial {
         Material material;
         float opacity = 1.0F;
-        std::uint32_t used_as = no_index;
+        std::map<std::string, std::uint32_t> used_as = {}; ///< by pictures
     };
 
     void take_line(WordScanner& words);

@@ -117,6 +117,7 @@ private:
     /// How an object's picture lies on its surfaces.
     struct ObjectPicture {
         std::uint32_t number = BakedPictures::none;
+        std::string file = {}; ///< named by materials; empty where pictures are baked
         bool is_named = false;
         glm::vec2 repeat{1.0F};
         glm::vec2 shift{0.0F};
@@ -126,7 +127,9 @@ private:
         std::string_view rest = words_.rest_of_line();
         const std::string name = taken_ac3d_name(rest, words_);
         picture.is_named = !name.empty() && name != "empty_texture_no_mapping";
-        if (mesh_.takes_pictures() && picture.is_named) {
+        if (picture.is_named && !mesh_.takes_pictures()) {
+            picture.file = picture_file(path_, name);
+        } else if (picture.is_named) {
             picture.number = mesh_.pictures().picture(name);
         }
     }
@@ -250,7 +253,7 @@ private:
         if (mirrored) {
             std::ranges::reverse(corners_);
         }
-        mesh_.add_polygon(corners_, materials_.used(material, mesh_), picture.number);
+        mesh_.add_polygon(corners_, materials_.used(material, picture.file, mesh_), picture.number);
     }
 
     void add_notes() {

@@ -5,12 +5,16 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/placement.h"
+#include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace octant::models::meshfile {
@@ -41,6 +45,10 @@ public:
         if (skipped_ > 0) {
             mesh_.add_note(fmt::format(
                 "{}: {} primitives of points and lines are not read", path_.string(), skipped_));
+        }
+        if (!not_read_.empty()) {
+            mesh_.add_note(fmt::format(
+                "{}: attributes that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
         return std::move(mesh_);
     }
@@ -101,6 +109,12 @@ private:
                                           ? baked_picture(data_, *material, mesh_.pictures())
                                           : BakedPictures::none;
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
+        const auto texture = texture_accessor(data_, material, *attributes);
+        for (const auto& [name, number] : attributes->items()) {
+            if (name != "POSITION" && name != "COLOR_0" && name != "NORMAL" && number != texture) {
+                not_read_.insert(printable(name));
+            }
+        }
         const auto add = [&,
                           first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const auto corner = [&](std::uint32_t vertex) {
@@ -324,6 +338,7 @@ private:
     std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> texture_coordinates_;
     std::size_t numbers_ = 0;
     std::size_t skipped_ = 0;
+    std::set<std::string> not_read_; ///< attributes
 };
 
 } // namespace

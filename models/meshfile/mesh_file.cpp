@@ -104,17 +104,13 @@ struct Format {
     std::string_view ending;
     TriangleMesh (*read)(const std::filesystem::path&, const ReadOptions&);
     MeshParts (*parts)(const std::filesystem::path&, const ReadOptions&); ///< null: all is body
-    void (*write)(const std::filesystem::path&, const TriangleMesh&);
+    void (*write)(const std::filesystem::path&, const TriangleMesh&); ///< null: it is only read
     /// What a written file leaves out, of "normals", "colours of vertices", "materials" and
     /// "texture coordinates".
     std::string_view left_out = {};
     bool places_in_float = false; ///< As written.
     bool has_origin = false;      ///< Written places count from gltf_origin_m.
 };
-
-void refuse_to_write(const std::filesystem::path& path, const TriangleMesh& /*mesh*/) {
-    error_in(path, "expected another format to write than FlightGear's models, got .xml");
-}
 
 constexpr std::array formats{
     Format{".obj", read_obj_mesh, read_obj_parts, write_obj_mesh},
@@ -126,6 +122,7 @@ constexpr std::array formats{
         write_one_file<stl_bytes>,
         "normals, colours of vertices, materials, texture coordinates",
         true},
+    Format{".off", read_plainly<read_off_mesh>, nullptr, nullptr},
     Format{".gltf", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<gltf_text>, "", true, true},
     Format{".glb", read_gltf_mesh, read_gltf_parts, write_gltf_mesh<glb_bytes>, "", true, true},
     Format{".ac", read_ac3d_mesh, read_ac3d_parts, write_ac3d_mesh, "normals, colours of vertices"},
@@ -135,7 +132,7 @@ constexpr std::array formats{
         nullptr,
         write_one_file<vrml_text>,
         "texture coordinates"},
-    Format{".xml", read_flightgear_model, nullptr, refuse_to_write}};
+    Format{".xml", read_flightgear_model, nullptr, nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
@@ -176,7 +173,11 @@ MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& optio
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-    format_of(path).write(path, mesh);
+    const Format& format = format_of(path);
+    if (format.write == nullptr) {
+        error_in(path, fmt::format("expected a format that is written, got {}", format.ending));
+    }
+    format.write(path, mesh);
 }
 
 std::vector<std::string>
@@ -196,6 +197,11 @@ notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
     if (!left_out.empty()) {
         notes.push_back(
             fmt::format("{}: the format holds no {}; they are left out", path.string(), left_out));
+    }
+    if (format.ending == ".ply" && !mesh.corner_normals.empty() && !has_vertex_normals(mesh)) {
+        notes.push_back(fmt::format(
+            "{}: normals are left out, as some vertices have several and the format holds one",
+            path.string()));
     }
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
     if (has_textures && format.ending == ".ac" && only_picture(mesh).empty()) {
@@ -237,6 +243,11 @@ double rounding_m(const std::filesystem::path& path, const Bounds& bounds) {
 
 bool is_mesh_file(const std::filesystem::path& path) {
     return find_format(path) != nullptr;
+}
+
+bool is_written_mesh_file(const std::filesystem::path& path) {
+    const Format* format = find_format(path);
+    return format != nullptr && format->write != nullptr;
 }
 
 } // namespace octant::models::meshfile

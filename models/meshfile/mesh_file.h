@@ -10,7 +10,7 @@
 namespace octant::models::meshfile {
 
 /// Reads a triangle mesh; the file's ending says its format: .obj (with vertex colours), .ply
-/// (ascii, binary of both byte orders), .stl (ascii, binary), .gltf and .glb, .ac (AC3D), .wrl
+/// (ascii, binary of both byte orders), .stl (ascii, binary), .off (ascii, read only), .gltf and .glb, .ac (AC3D), .wrl
 /// (VRML 2.0 IndexedFaceSet), .xml (FlightGear's model with its sub-models, or an aircraft's
 /// -set.xml, which names its model; read only). Polygons are cut into triangles; nothing else is
 /// changed: see repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round
@@ -18,11 +18,11 @@ namespace octant::models::meshfile {
 /// Whole-number colours stand for 0..1. Colours are display values (models/display_colour.h); those
 /// of glTF, linear in its files, are converted.
 ///
-/// Texture coordinates and the names of materials' pictures are read from .obj, glTF, .ply and
-/// (without the pictures' names) .ac files; pictures themselves only as `options` say.
-/// Left out, where a file has it: lines and points, face colours of
-/// PLY, normals of STL, inner nodes of unknown kinds; of two-sided surfaces the back but for
-/// `options`. TriangleMesh::notes says what may be missed. A normal without a length becomes its
+/// Texture coordinates and the names of materials' pictures are read from .obj, .ac and
+/// glTF files, texture coordinates alone from .ply and .off; pictures themselves only as `options` say.
+/// Left out, where a file has it: lines and points, attributes that a mesh does not have, texture
+/// coordinates of VRML, normals of STL, inner nodes of unknown kinds; of two-sided surfaces the back
+/// but for `options`. TriangleMesh::notes says what may be missed. A normal without a length becomes its
 /// triangle's own.
 ///
 /// Throws Error "file:line: expected ..., got ..." (binary files "file: at byte N: ...", glTF
@@ -59,5 +59,8 @@ double rounding_m(const std::filesystem::path& path, const Bounds& bounds);
 
 /// Whether read_mesh knows the ending.
 bool is_mesh_file(const std::filesystem::path& path);
+
+/// Whether write_mesh knows it, too.
+bool is_written_mesh_file(const std::filesystem::path& path);
 
 } // namespace octant::models::meshfile

@@ -14,6 +14,7 @@ namespace octant::models::meshfile {
 TriangleMesh read_obj_mesh(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_ply_mesh(const std::filesystem::path& path);
 TriangleMesh read_stl_mesh(const std::filesystem::path& path);
+TriangleMesh read_off_mesh(const std::filesystem::path& path);
 TriangleMesh read_gltf_mesh(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_ac3d_mesh(const std::filesystem::path& path, const ReadOptions& options);
 TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
@@ -38,6 +39,9 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name);
 /// one only; texture coordinates of vertices (s, t) where each has one only, else of faces (list
 /// texcoord); no materials.
 std::string ply_bytes(const TriangleMesh& mesh);
+
+/// Whether each vertex has one normal only, so that a PLY file holds the normals.
+bool has_vertex_normals(const TriangleMesh& mesh);
 
 /// A binary STL file: coordinates in float, one normal a triangle, nothing else.
 std::string stl_bytes(const TriangleMesh& mesh);

@@ -3,11 +3,13 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/ply_header.h"
 #include "models/meshfile/word_scanner.h"
+#include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 
 namespace octant::models::meshfile {
@@ -117,6 +119,7 @@ class BodyReading {
 public:
     BodyReading(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
         : header_(header)
+        , path_(path)
         , source_(path, bytes, header)
         , mesh_(path) {}
 
@@ -133,6 +136,10 @@ public:
             } else {
                 skip(element);
             }
+        }
+        if (!not_read_.empty()) {
+            mesh_.add_note(fmt::format(
+                "{}: properties that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
         return mesh_.finish();
     }
@@ -190,6 +197,8 @@ private:
             slots.push_back(slot_of(property));
             if (slots.back()) {
                 has[*slots.back()] = true;
+            } else {
+                note_not_read(element, property);
             }
         }
         if (!has[0] || !has[1] || !has[2]) {
@@ -242,6 +251,9 @@ private:
         bool has_corners = false;
         for (const PlyProperty& property : element.properties) {
             has_corners = has_corners || is_corners(property);
+            if (!is_corners(property) && !has_places(element, property)) {
+                note_not_read(element, property);
+            }
         }
         if (!has_corners) {
             source_.refuse("the list vertex_indices of a " + element.name, "none");
@@ -249,7 +261,7 @@ private:
         for (std::size_t i = 0; i < element.count; ++i) {
             places_.clear();
             for (const PlyProperty& property : element.properties) {
-                if (property.is_list && property.name == "texcoord" && element.name == "face") {
+                if (has_places(element, property)) {
                     take_places(property);
                 } else if (!is_corners(property)) {
                     skip_one(property);
@@ -280,6 +292,10 @@ private:
             }
         }
         mesh_.add_polygon(corners_);
+    }
+
+    static bool has_places(const PlyElement& element, const PlyProperty& property) {
+        return property.is_list && property.name == "texcoord" && element.name == "face";
     }
 
     static bool is_corners(const PlyProperty& property) {
@@ -337,7 +353,13 @@ private:
         }
     }
 
+    void note_not_read(const PlyElement& element, const PlyProperty& property) {
+        not_read_.push_back(printable(fmt::format("{} of {}", property.name, element.name)));
+    }
+
     const PlyHeader& header_;
+    std::filesystem::path path_;
+    std::vector<std::string> not_read_; ///< properties
     Source source_;
     MeshBuilder mesh_;
     bool has_vertices_ = false;

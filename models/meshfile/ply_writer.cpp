@@ -98,6 +98,10 @@ void append_vector(std::string& bytes, const glm::dvec3& vector) {
 
 } // namespace
 
+bool has_vertex_normals(const TriangleMesh& mesh) {
+    return !vertex_normals(mesh).empty();
+}
+
 std::string ply_bytes(const TriangleMesh& mesh) {
     const bool is_float = fits_float(mesh);
     const bool has_colours = !mesh.colours.empty();

@@ -62,6 +62,10 @@ public:
         if (file_.has_prototypes) {
             mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string()));
         }
+        if (has_textures_) {
+            mesh_.add_note(fmt::format(
+                "{}: texture coordinates and pictures are not read", path_.string()));
+        }
         return mesh_.finish();
     }
 
@@ -123,6 +127,7 @@ private:
         if (coord == nullptr || set->type != "IndexedFaceSet") {
             return;
         }
+        has_textures_ = has_textures_ || set->field("texCoord") != nullptr;
         FaceSet faces;
         faces.corners = fields_.indices(*set, "coordIndex");
         count_numbers(faces.corners.size(), set->line);
@@ -335,6 +340,7 @@ private:
     std::vector<Corner> polygon_;
     std::size_t visits_ = 0;
     std::size_t numbers_ = 0; ///< met so far
+    bool has_textures_ = false;
 };
 
 } // namespace

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -43,6 +44,8 @@ bool is_alike(const Vector& a, const Vector& b, float within) {
     }
     return true;
 }
+
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// What the corners of a mesh have; either may be empty.
 struct Attributes {
@@ -281,16 +284,14 @@ glm::dvec3 place_m(const TriangleMesh& mesh, const Triangle& triangle, const glm
            weights.z * mesh.vertices_m[triangle[2]];
 }
 
-/// The longest side of a triangle: its corner and the next one.
-std::size_t longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
-    std::size_t longest = 0;
-    double longest2 = -1.0;
+/// The longest side of a triangle: its corner before the next one, and its squared length.
+std::pair<std::size_t, double> longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
+    std::pair<std::size_t, double> longest(0, -1.0);
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3 side =
             mesh.vertices_m[triangle[(k + 1) % 3]] - mesh.vertices_m[triangle[k]];
-        if (glm::dot(side, side) > longest2) {
-            longest2 = glm::dot(side, side);
-            longest = k;
+        if (glm::dot(side, side) > longest.second) {
+            longest = {k, glm::dot(side, side)};
         }
     }
     return longest;
@@ -350,17 +351,6 @@ private:
         if (!mesh_.triangle_materials.empty()) {
             mesh_.triangle_materials.push_back(std::uint32_t{mesh_.triangle_materials[t]});
         }
-        if (!mesh_.corner_normals.empty()) {
-            Triangle normals = mesh_.corner_normals[t];
-            const glm::vec3 sum = mesh_.normals[normals[side]] + mesh_.normals[normals[next]];
-            const float length = glm::length(sum);
-            if (length > 0.0F) {
-                mesh_.normals.push_back(sum / length);
-                normals[side] = static_cast<std::uint32_t>(mesh_.normals.size() - 1);
-            }
-            mesh_.corner_normals[t][next] = normals[side];
-            mesh_.corner_normals.push_back(normals);
-        }
     }
 
     TriangleMesh& mesh_;
@@ -374,26 +364,24 @@ AttributeSeams::AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> cor
     : marked_(std::move(mesh))
     , corner_colours_(std::move(corner_colours))
     , textures_(std::exchange(marked_.texture_coordinates, {}))
-    , corner_textures_(std::exchange(marked_.corner_texture_coordinates, {})) {
-    if (corner_colours_.empty() && corner_textures_.empty()) {
-        return;
-    }
-    const std::vector<Neighbours> neighbours =
-        neighbours_of(marked_, {corner_colours_, textures_, corner_textures_});
-    const std::vector<std::uint32_t> charts =
-        ChartCuts(neighbours, marked_.triangles.size()).charts();
-    mark(charts);
-    if (has_texture_coordinates()) {
+    , corner_textures_(std::exchange(marked_.corner_texture_coordinates, {}))
+    , normals_(std::exchange(marked_.normals, {}))
+    , corner_normals_(std::exchange(marked_.corner_normals, {})) {
+    if (!corner_colours_.empty() || has_texture_coordinates()) {
+        const std::vector<Neighbours> neighbours =
+            neighbours_of(marked_, {corner_colours_, textures_, corner_textures_});
+        const std::vector<std::uint32_t> charts =
+            ChartCuts(neighbours, marked_.triangles.size()).charts();
+        mark(charts);
         next_to_.assign(marked_.triangles.size(), {no_index, no_index, no_index});
-        const auto join = [&](std::uint32_t triangle, std::uint32_t other) {
-            *std::ranges::find(next_to_[triangle], no_index) = other;
-        };
         for (const Neighbours& pair : neighbours) {
             if (charts[pair.first] == charts[pair.second]) {
-                join(pair.first, pair.second);
-                join(pair.second, pair.first);
+                *std::ranges::find(next_to_[pair.first], no_index) = pair.second;
+                *std::ranges::find(next_to_[pair.second], no_index) = pair.first;
             }
         }
+    } else if (has_normals() || has_colours()) {
+        mark(std::vector<std::uint32_t>(marked_.triangles.size(), 0));
     }
 }
 
@@ -418,6 +406,10 @@ void AttributeSeams::mark(const std::vector<std::uint32_t>& charts) {
     for (std::vector<std::uint32_t>& of_chart : triangles) {
         charts_.push_back(chart_of(std::move(of_chart)));
     }
+    if (charts_.size() == 1 && materials_.empty()) {
+        marked_.materials.clear();
+        marked_.triangle_materials.clear();
+    }
 }
 
 AttributeSeams::Chart AttributeSeams::chart_of(std::vector<std::uint32_t> triangles) const {
@@ -434,11 +426,14 @@ AttributeSeams::Chart AttributeSeams::chart_of(std::vector<std::uint32_t> triang
 std::optional<AttributeSeams::Chart>
 AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) const {
     constexpr double jump2 = 0.0625; // of the squared difference between corners
-    const Chart& chart = charts_[made.triangle_materials[triangle]];
+    const Chart& chart = charts_[chart_at(made, triangle)];
+    const auto at = [&](const glm::dvec3& at_m) {
+        return texture_at(chart, chart.bvh.nearest(at_m));
+    };
     const Triangle& corners = made.triangles[triangle];
     std::array<glm::dvec2, 3> places;
     for (std::size_t k = 0; k < 3; ++k) {
-        places.at(k) = texture_at(chart, made.vertices_m[corners[k]]);
+        places.at(k) = at(made.vertices_m[corners[k]]);
     }
     double largest2 = 0.0;
     double off2 = 0.0;
@@ -447,8 +442,7 @@ AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) con
         const glm::dvec2 side = places.at(next) - places.at(k);
         const glm::dvec3 middle_m =
             0.5 * (made.vertices_m[corners[k]] + made.vertices_m[corners[next]]);
-        const glm::dvec2 off =
-            0.5 * (places.at(next) + places.at(k)) - glm::dvec2(texture_at(chart, middle_m));
+        const glm::dvec2 off = 0.5 * (places.at(next) + places.at(k)) - at(middle_m);
         largest2 = std::max(largest2, glm::dot(side, side));
         off2 = std::max(off2, glm::dot(off, off));
     }
@@ -479,37 +473,116 @@ AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) con
     return chart_of(std::move(part));
 }
 
-bool AttributeSeams::is_textured(std::uint32_t chart) const {
-    return !corner_textures_.empty() &&
-           corner_textures_[charts_[chart].triangles.front()][0] != no_index;
+std::uint32_t AttributeSeams::chart_at(const TriangleMesh& made, std::size_t triangle) {
+    return made.triangle_materials.empty() ? 0 : made.triangle_materials[triangle];
 }
 
-glm::vec3 AttributeSeams::colour_at(const Chart& chart, const glm::dvec3& at_m) const {
-    const measure::NearestOnMesh nearest = chart.bvh.nearest(at_m);
-    const CornerColours& colours = corner_colours_[chart.triangles[nearest.triangle]];
-    const glm::vec3 weights(nearest.weights);
-    return weights.x * colours[0] + weights.y * colours[1] + weights.z * colours[2];
+bool AttributeSeams::is_textured(const Chart& chart) const {
+    return has_texture_coordinates() && corner_textures_[chart.triangles.front()][0] != no_index;
 }
 
-glm::vec2 AttributeSeams::texture_at(const Chart& chart, const glm::dvec3& at_m) const {
-    const measure::NearestOnMesh nearest = chart.bvh.nearest(at_m);
-    const auto [a, b, c] = corner_textures_[chart.triangles[nearest.triangle]];
-    return glm::vec2(
-        nearest.weights.x * glm::dvec2(textures_[a]) +
-        nearest.weights.y * glm::dvec2(textures_[b]) +
-        nearest.weights.z * glm::dvec2(textures_[c]));
-}
-
-TriangleMesh AttributeSeams::with_attributes(TriangleMesh made) const {
-    if (charts_.empty()) {
-        return made;
+AttributeSeams::Lookup
+AttributeSeams::lookup(const TriangleMesh& made, std::size_t triangle) const {
+    Lookup found;
+    found.chart = &charts_[chart_at(made, triangle)];
+    found.is_textured = is_textured(*found.chart);
+    if (found.is_textured) {
+        found.part = jumping_part(made, triangle);
     }
-    take_texture_coordinates(made);
+    found.facing = normal_of(made, made.triangles[triangle]);
+    found.middle_m = place_m(made, made.triangles[triangle], glm::dvec3(1.0 / 3.0));
+    return found;
+}
+
+glm::dvec2
+AttributeSeams::texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
+    const auto [a, b, c] = corner_textures_[chart.triangles[nearest.triangle]];
+    return nearest.weights.x * glm::dvec2(textures_[a]) +
+           nearest.weights.y * glm::dvec2(textures_[b]) +
+           nearest.weights.z * glm::dvec2(textures_[c]);
+}
+
+glm::dvec3
+AttributeSeams::colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const {
+    const std::uint32_t triangle = chart.triangles[nearest.triangle];
+    glm::dvec3 sum(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3& colour = corner_colours_.empty()
+                                      ? marked_.colours[marked_.triangles[triangle][k]]
+                                      : corner_colours_[triangle][k];
+        sum += nearest.weights[static_cast<int>(k)] * glm::dvec3(colour);
+    }
+    return sum;
+}
+
+/// At a crease the nearest point (`known`, if not null) may lie on the wrong side. Where the
+/// triangle there faces another way, points further inside the triangle of the result are asked.
+glm::dvec3 AttributeSeams::normal_at(
+    const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const {
+    constexpr double agreeing_cosine = 0.7;
+    constexpr std::array<double, 4> pulls = {0.0, 0.1, 0.4, 1.0}; // shares of the way to the middle
+    for (const double pull : pulls) {
+        const measure::NearestOnMesh nearest =
+            known != nullptr && pull == 0.0
+                ? *known
+                : lookup.chart->bvh.nearest(at_m + pull * (lookup.middle_m - at_m));
+        const std::uint32_t triangle = lookup.chart->triangles[nearest.triangle];
+        const auto [a, b, c] = corner_normals_[triangle];
+        const glm::dvec3 sum = nearest.weights.x * glm::dvec3(normals_[a]) +
+                               nearest.weights.y * glm::dvec3(normals_[b]) +
+                               nearest.weights.z * glm::dvec3(normals_[c]);
+        const double length = glm::length(sum);
+        if (length > 0.0 &&
+            glm::dot(normal_of(marked_, marked_.triangles[triangle]), lookup.facing) >=
+                agreeing_cosine) {
+            return sum / length;
+        }
+    }
+    return lookup.facing;
+}
+
+AttributeSeams::Values
+AttributeSeams::values_at(const Lookup& lookup, const glm::dvec3& at_m) const {
+    const Chart& own = lookup.own();
+    const measure::NearestOnMesh nearest = own.bvh.nearest(at_m);
+    Values values;
+    if (lookup.is_textured) {
+        values.texture = texture_at(own, nearest);
+    }
+    if (has_normals()) {
+        values.normal = normal_at(lookup, at_m, lookup.part ? nullptr : &nearest);
+    }
+    if (has_colours()) {
+        values.colour = colour_at(own, nearest);
+    }
+    return values;
+}
+
+TriangleMesh AttributeSeams::with_colours(TriangleMesh made) const {
     if (!corner_colours_.empty()) {
         take_colours(made);
     }
-    take_materials(made);
+    if (!charts_.empty()) {
+        take_materials(made);
+    }
     return made;
+}
+
+TriangleMesh AttributeSeams::with_attributes(TriangleMesh made) const {
+    if (is_marked(made)) {
+        made.texture_coordinates = textures_;
+        made.corner_texture_coordinates = corner_textures_;
+        made.normals = normals_;
+        made.corner_normals = corner_normals_;
+    } else {
+        take_corners(made);
+    }
+    return with_colours(std::move(made));
+}
+
+/// Whether nothing was simplified.
+bool AttributeSeams::is_marked(const TriangleMesh& made) const {
+    return made.triangles == marked_.triangles && made.vertices_m == marked_.vertices_m;
 }
 
 /// Gives wedges near seams the colour of their chart: the vertex itself for the first chart, a copy
@@ -532,34 +605,50 @@ void AttributeSeams::take_colours(TriangleMesh& made) const {
             }
             if (is_new) {
                 is_taken[vertex] = true;
-                made.colours[at->second] = colour_at(charts_[chart], made.vertices_m[vertex]);
+                const Chart& own = charts_[chart];
+                made.colours[at->second] =
+                    glm::vec3(colour_at(own, own.bvh.nearest(made.vertices_m[vertex])));
             }
             vertex = at->second;
         }
     }
 }
 
-void AttributeSeams::take_texture_coordinates(TriangleMesh& made) const {
-    if (!has_texture_coordinates()) {
-        return;
-    }
+/// Gives corners texture coordinates and normals.
+void AttributeSeams::take_corners(TriangleMesh& made) const {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedges;
-    for (std::size_t t = 0; t < made.triangles.size(); ++t) {
-        const std::uint32_t chart = made.triangle_materials[t];
-        Triangle corners{no_index, no_index, no_index};
-        const std::optional<Chart> part = is_textured(chart) ? jumping_part(made, t) : std::nullopt;
-        for (std::size_t k = 0; k < 3 && is_textured(chart); ++k) {
+    std::map<std::array<float, 3>, std::uint32_t> known_normals;
+    made.corner_texture_coordinates.assign(
+        has_texture_coordinates() ? made.triangles.size() : 0, {no_index, no_index, no_index});
+    made.corner_normals.resize(has_normals() ? made.triangles.size() : 0);
+    const bool has_corners = has_texture_coordinates() || has_normals();
+    for (std::size_t t = 0; t < made.triangles.size() && has_corners; ++t) {
+        const Lookup from = lookup(made, t);
+        for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = made.triangles[t][k];
-            const auto next = static_cast<std::uint32_t>(made.texture_coordinates.size());
-            const auto [at, is_new] =
-                part ? std::pair(wedges.end(), true) : wedges.try_emplace({chart, vertex}, next);
-            if (is_new) {
-                made.texture_coordinates.push_back(
-                    texture_at(part ? *part : charts_[chart], made.vertices_m[vertex]));
+            const glm::dvec3& at_m = made.vertices_m[vertex];
+            if (from.is_textured) {
+                const auto next = static_cast<std::uint32_t>(made.texture_coordinates.size());
+                const auto [at, is_new] =
+                    from.part ? std::pair(wedges.end(), true)
+                              : wedges.try_emplace({chart_at(made, t), vertex}, next);
+                if (is_new) {
+                    made.texture_coordinates.push_back(
+                        glm::vec2(texture_at(from.own(), from.own().bvh.nearest(at_m))));
+                }
+                made.corner_texture_coordinates[t][k] = from.part ? next : at->second;
             }
-            corners[k] = part ? next : at->second;
+            if (has_normals()) {
+                const glm::vec3 normal(normal_at(from, at_m, nullptr));
+                const auto [at, is_new] = known_normals.try_emplace(
+                    {normal.x, normal.y, normal.z},
+                    static_cast<std::uint32_t>(made.normals.size()));
+                if (is_new) {
+                    made.normals.push_back(normal);
+                }
+                made.corner_normals[t][k] = at->second;
+            }
         }
-        made.corner_texture_coordinates.push_back(corners);
     }
 }
 
@@ -573,61 +662,109 @@ void AttributeSeams::take_materials(TriangleMesh& made) const {
     }
 }
 
-AttributeSeams::Squares
-AttributeSeams::texture_squares(const TriangleMesh& made, std::size_t triangle) const {
+std::array<AttributeSeams::Squares, 3> AttributeSeams::squares(
+    const TriangleMesh& made,
+    std::size_t triangle,
+    const std::vector<std::optional<glm::dvec3>>& vertex_colours) const {
     static const std::vector<glm::dvec3> samples = sample_weights();
-    const std::uint32_t chart = made.triangle_materials[triangle];
-    Squares squares;
-    if (!is_textured(chart)) {
-        return squares;
-    }
-    const std::optional<Chart> part = jumping_part(made, triangle);
-    const Chart& own = part ? *part : charts_[chart];
     const Triangle& corners = made.triangles[triangle];
-    std::array<glm::dvec2, 3> places;
+    const Lookup from = lookup(made, triangle);
+    std::array<Values, 3> at_corners;
     for (std::size_t k = 0; k < 3; ++k) {
-        places.at(k) = texture_at(own, made.vertices_m[corners[k]]);
+        at_corners.at(k) = values_at(from, made.vertices_m[corners[k]]);
+        if (!vertex_colours.empty() && vertex_colours[corners[k]]) {
+            at_corners.at(k).colour = *vertex_colours[corners[k]];
+        }
     }
+    std::array<Squares, 3> squares;
     for (const glm::dvec3& weights : samples) {
-        const glm::dvec2 right(texture_at(own, place_m(made, corners, weights)));
-        const glm::dvec2 off =
-            weights.x * places[0] + weights.y * places[1] + weights.z * places[2] - right;
-        squares.max = std::max(squares.max, glm::dot(off, off));
-        squares.mean += glm::dot(off, off) / static_cast<double>(samples.size());
+        Values off = values_at(from, place_m(made, corners, weights));
+        const glm::dvec3 right_normal = off.normal;
+        off.normal = glm::dvec3(0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double weight = weights[static_cast<int>(k)];
+            off.texture -= weight * at_corners.at(k).texture;
+            off.normal += weight * at_corners.at(k).normal;
+            off.colour -= weight * at_corners.at(k).colour;
+        }
+        const double angle_deg =
+            degrees_per_radian * std::atan2(
+                                     glm::length(glm::cross(right_normal, off.normal)),
+                                     glm::dot(right_normal, off.normal));
+        const std::array<double, 3> squared = {
+            glm::dot(off.texture, off.texture),
+            angle_deg * angle_deg,
+            glm::dot(off.colour, off.colour)};
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            squares.at(kind).max = std::max(squares.at(kind).max, squared.at(kind));
+            squares.at(kind).mean += squared.at(kind) / static_cast<double>(samples.size());
+        }
     }
     return squares;
 }
 
-TextureError AttributeSeams::texture_error(const TriangleMesh& made) const {
+AttributeErrors AttributeSeams::errors(const TriangleMesh& made) const {
     constexpr std::size_t enough = 8'000;
-    const std::size_t stride = std::max<std::size_t>(1, made.triangles.size() / enough);
-    TextureError error;
-    double area = 0.0;
-    for (std::size_t t = 0; t < made.triangles.size() && has_texture_coordinates(); t += stride) {
-        if (!is_textured(made.triangle_materials[t])) {
-            continue;
-        }
-        const Squares squares = texture_squares(made, t);
-        const double own = glm::length(area_vector(made, made.triangles[t]));
-        error.max = std::max(error.max, std::sqrt(squares.max));
-        error.rms += own * squares.mean;
-        area += own;
+    if (charts_.empty() || is_marked(made)) {
+        return {};
     }
-    error.rms = area > 0.0 ? std::sqrt(error.rms / area) : 0.0;
-    return error;
+    const std::vector<bool> near = corner_colours_.empty() ? std::vector<bool>() : near_seams(made);
+    std::vector<std::optional<glm::dvec3>> colours(made.colours.size());
+    for (std::size_t vertex = 0; vertex < colours.size(); ++vertex) {
+        if (near.empty() || !near[vertex]) {
+            colours[vertex] = glm::dvec3(made.colours[vertex]);
+        }
+    }
+    const std::size_t stride = std::max<std::size_t>(1, made.triangles.size() / enough);
+    AttributeErrors errors;
+    const std::array<AttributeError*, 3> kinds = {
+        &errors.texture, &errors.normal_deg, &errors.colour};
+    std::array<double, 3> areas{};
+    for (std::size_t t = 0; t < made.triangles.size(); t += stride) {
+        const std::array<Squares, 3> found = squares(made, t, colours);
+        const double area = glm::length(area_vector(made, made.triangles[t]));
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            if (kind == 0 && !is_textured(charts_[chart_at(made, t)])) {
+                continue;
+            }
+            kinds.at(kind)->max = std::max(kinds.at(kind)->max, std::sqrt(found.at(kind).max));
+            kinds.at(kind)->rms += area * found.at(kind).mean;
+            areas.at(kind) += area;
+        }
+    }
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+        double& rms = kinds.at(kind)->rms;
+        rms = areas.at(kind) > 0.0 ? std::sqrt(rms / areas.at(kind)) : 0.0;
+    }
+    return errors;
 }
 
-TriangleMesh
-AttributeSeams::divided(TriangleMesh made, double max_error, std::size_t max_faces) const {
-    if (!has_texture_coordinates()) {
+TriangleMesh AttributeSeams::divided(
+    TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const {
+    if (charts_.empty() || is_marked(made)) {
         return made;
     }
+    // Where an attribute breaks within a triangle, dividing it again and again does not help.
+    constexpr double smallest2 = 1.0 / 1024.0;
+    const auto is_large = [&](std::size_t t) {
+        const Chart& chart = charts_[chart_at(made, t)];
+        const glm::dvec3 middle_m = place_m(made, made.triangles[t], glm::dvec3(1.0 / 3.0));
+        const std::uint32_t original = chart.triangles[chart.bvh.nearest(middle_m).triangle];
+        return longest_side(made, made.triangles[t]).second >
+               smallest2 * longest_side(marked_, marked_.triangles[original]).second;
+    };
+    const auto is_off = [&](std::size_t t) {
+        const std::array<Squares, 3> found = squares(made, t, {});
+        return found[0].max > bounds.texture * bounds.texture ||
+               found[1].max > bounds.normal_deg * bounds.normal_deg ||
+               (std::isfinite(bounds.colour) && found[2].max > bounds.colour * bounds.colour);
+    };
     std::vector<std::uint32_t> waiting(made.triangles.size()); // Triangles that may be off.
     std::iota(waiting.begin(), waiting.end(), 0U);
     while (made.triangles.size() < max_faces) {
         std::vector<std::uint32_t> off;
         for (const std::uint32_t t : waiting) {
-            if (texture_squares(made, t).max > max_error * max_error) {
+            if (is_off(t) && is_large(t)) {
                 off.push_back(t);
             }
         }
@@ -637,7 +774,7 @@ AttributeSeams::divided(TriangleMesh made, double max_error, std::size_t max_fac
         EdgeDivision division(made);
         for (const std::uint32_t t : off) {
             if (made.triangles.size() < max_faces) {
-                division.divide(t, longest_side(made, made.triangles[t]));
+                division.divide(t, longest_side(made, made.triangles[t]).first);
             }
         }
         waiting = division.changed();
@@ -645,6 +782,13 @@ AttributeSeams::divided(TriangleMesh made, double max_error, std::size_t max_fac
         std::ranges::sort(waiting);
         const auto [first, last] = std::ranges::unique(waiting);
         waiting.erase(first, last);
+    }
+    for (std::size_t t = 0; t < made.triangles.size() && std::isfinite(bounds.colour); ++t) {
+        const Chart& chart = charts_[chart_at(made, t)];
+        for (const std::uint32_t vertex : made.triangles[t]) {
+            made.colours[vertex] =
+                glm::vec3(colour_at(chart, chart.bvh.nearest(made.vertices_m[vertex])));
+        }
     }
     return made;
 }

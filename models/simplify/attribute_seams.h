@@ -5,49 +5,74 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 namespace octant::models::simplify {
 
-/// How far texture coordinates of a mesh are from those of its original at the nearest points, as
-/// lengths in a picture whose sides are 1.
-struct TextureError {
+/// How far one kind of attributes of a mesh is from that of its original at the nearest points.
+struct AttributeError {
     double max = 0.0;
-    double rms = 0.0; ///< over the area of the triangles that have texture coordinates
+    double rms = 0.0; ///< over the area of the triangles that have the attribute
 };
 
-/// Seams along which a mesh's colours or texture coordinates break, kept through its
-/// simplification. Seams part the surface into charts. The simplifier sees them as borders of
-/// materials, which it keeps where they are; its result then takes the attributes of each side of a
-/// seam from the chart on that side.
+/// Of all kinds.
+struct AttributeErrors {
+    AttributeError texture;    ///< lengths in a picture whose sides are 1
+    AttributeError normal_deg; ///< angles
+    AttributeError colour;     ///< lengths in red, green and blue, each 0..1
+};
+
+/// The largest errors that are wanted.
+struct AttributeBounds {
+    double texture = std::numeric_limits<double>::infinity();
+    double normal_deg = std::numeric_limits<double>::infinity();
+    double colour = std::numeric_limits<double>::infinity();
+};
+
+/// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept
+/// through its simplification. Seams part the surface into charts. The simplifier sees them as
+/// borders of materials, which it keeps where they are; its result then takes the attributes of
+/// each side of a seam from the chart on that side.
 class AttributeSeams {
 public:
     /// `corner_colours` has one entry a triangle, or none where no colours break. The mesh must be
     /// a manifold with colours where there are corner colours.
     AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> corner_colours);
 
-    /// The mesh to be simplified: its materials tell charts apart as well, and it has no texture
-    /// coordinates.
+    /// The mesh to be simplified: its materials tell charts apart as well, and it has neither
+    /// texture coordinates nor normals.
     const TriangleMesh& marked() const { return marked_; }
 
     bool has_texture_coordinates() const { return !corner_textures_.empty(); }
 
-    /// A result of simplifying marked() with the materials and texture coordinates of the mesh.
-    /// Where charts meet and colours break, it has a vertex for each chart, at the same place to
-    /// the bit and in the colour of its side.
+    bool has_normals() const { return !corner_normals_.empty(); }
+
+    bool has_colours() const { return !marked_.colours.empty(); }
+
+    /// A result of simplifying marked() with the materials and colours of the mesh. Where charts
+    /// meet and colours break, it has a vertex for each chart, at the same place to the bit and in
+    /// the colour of its side.
+    TriangleMesh with_colours(TriangleMesh made) const;
+
+    /// The same with texture coordinates and normals, too. Normals come from triangles that face as
+    /// those of the result do, so that sharp edges stay sharp.
     TriangleMesh with_attributes(TriangleMesh made) const;
 
-    /// The error of the texture coordinates that with_attributes gives to a result of simplifying
-    /// marked(). Samples of at least 1,000 triangles are looked at, of all where there are fewer.
-    TextureError texture_error(const TriangleMesh& made) const;
+    /// The errors of the attributes that with_attributes gives to a result of simplifying marked().
+    /// Samples of at least 1,000 triangles are looked at, of all where there are fewer.
+    AttributeErrors errors(const TriangleMesh& made) const;
 
     /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves
-    /// no point of its surface, until no sample of the texture coordinates is farther off than
-    /// `max_error` or there are `max_faces` triangles.
-    TriangleMesh divided(TriangleMesh made, double max_error, std::size_t max_faces) const;
+    /// no point of its surface, until no sample of an attribute is farther off than its bound, or
+    /// they are much smaller than those of the mesh, or there are `max_faces`. With a bound of
+    /// colours all vertices get the colours of the mesh at the nearest points.
+    TriangleMesh
+    divided(TriangleMesh made, const AttributeBounds& bounds, std::size_t max_faces) const;
 
 private:
     /// The triangles of one material of marked().
@@ -56,17 +81,22 @@ private:
         measure::TriangleBvh bvh;
     };
 
-    void mark(const std::vector<std::uint32_t>& charts);
-    void take_colours(TriangleMesh& made) const;
-    void take_texture_coordinates(TriangleMesh& made) const;
-    void take_materials(TriangleMesh& made) const;
-    bool is_textured(std::uint32_t chart) const;
-    glm::vec3 colour_at(const Chart& chart, const glm::dvec3& place_m) const;
-    glm::vec2 texture_at(const Chart& chart, const glm::dvec3& place_m) const;
-    Chart chart_of(std::vector<std::uint32_t> triangles) const;
-    /// The part of its chart that a triangle of a result lies on, where nearest points in the chart
-    /// jump from one end of it to another.
-    std::optional<Chart> jumping_part(const TriangleMesh& made, std::size_t triangle) const;
+    /// A triangle of a result, and the part of the mesh that its attributes come from.
+    struct Lookup {
+        const Chart* chart = nullptr;
+        std::optional<Chart> part; ///< instead of the chart
+        bool is_textured = false;
+        glm::dvec3 facing{0.0}; ///< the triangle's normal
+        glm::dvec3 middle_m{0.0};
+
+        const Chart& own() const { return part ? *part : *chart; }
+    };
+
+    struct Values {
+        glm::dvec2 texture{0.0};
+        glm::dvec3 normal{0.0};
+        glm::dvec3 colour{0.0};
+    };
 
     /// The squared error at samples of a triangle, the largest one and their mean.
     struct Squares {
@@ -74,12 +104,37 @@ private:
         double mean = 0.0;
     };
 
-    Squares texture_squares(const TriangleMesh& made, std::size_t triangle) const;
+    void mark(const std::vector<std::uint32_t>& charts);
+    void take_colours(TriangleMesh& made) const;
+    void take_corners(TriangleMesh& made) const;
+    void take_materials(TriangleMesh& made) const;
+    bool is_marked(const TriangleMesh& made) const;
+    static std::uint32_t chart_at(const TriangleMesh& made, std::size_t triangle);
+    bool is_textured(const Chart& chart) const;
+    Lookup lookup(const TriangleMesh& made, std::size_t triangle) const;
+    glm::dvec2 texture_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
+    glm::dvec3 colour_at(const Chart& chart, const measure::NearestOnMesh& nearest) const;
+    glm::dvec3 normal_at(
+        const Lookup& lookup, const glm::dvec3& at_m, const measure::NearestOnMesh* known) const;
+    Values values_at(const Lookup& lookup, const glm::dvec3& at_m) const;
+    Chart chart_of(std::vector<std::uint32_t> triangles) const;
+    /// The part of its chart that a triangle of a result lies on, where nearest points in the chart
+    /// jump from one end of it to another.
+    std::optional<Chart> jumping_part(const TriangleMesh& made, std::size_t triangle) const;
+
+    /// Of texture coordinates, normals and colours. Corners take the colours of vertices in
+    /// `vertex_colours`, or of the mesh where it is empty.
+    std::array<Squares, 3> squares(
+        const TriangleMesh& made,
+        std::size_t triangle,
+        const std::vector<std::optional<glm::dvec3>>& vertex_colours) const;
 
     TriangleMesh marked_;
     std::vector<CornerColours> corner_colours_;
     std::vector<glm::vec2> textures_;               ///< the mesh's texture coordinates
     std::vector<Triangle> corner_textures_;         ///< one a triangle of marked(), or none
+    std::vector<glm::vec3> normals_;                ///< the mesh's
+    std::vector<Triangle> corner_normals_;          ///< one a triangle of marked(), or none
     std::vector<Material> materials_;               ///< the mesh's own
     std::vector<std::uint32_t> materials_of_marks_; ///< for each material of marked()
     std::vector<Chart> charts_;                     ///< likewise; empty without attributes

@@ -26,6 +26,19 @@ CollapsingSurface::CollapsingSurface(
     , first_faces_(surface.mesh.face_slots())
     , first_vertices_(surface.mesh.vertex_slots()) {}
 
+CollapsingSurface::CollapsingSurface(
+    const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units)
+    : surface_(surface)
+    , units_(units)
+    , quadrics_(from.quadrics_)
+    , vertex_numbers_(from.vertex_numbers_)
+    , face_numbers_(from.face_numbers_)
+    , first_faces_(from.first_faces_)
+    , first_vertices_(from.first_vertices_)
+    , collapses_(from.collapses_)
+    , holes_closed_(from.holes_closed_)
+    , handles_cut_(from.handles_cut_) {}
+
 CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
@@ -47,7 +60,7 @@ CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placemen
     }
     vertex_numbers_[kept] = static_cast<std::uint32_t>(first_vertices_ + collapses_.size());
     if (effect.kind == CollapseEffect::Kind::ClosesHole) {
-        hole_closings_.push_back(collapses_.size());
+        ++holes_closed_;
     }
     collapses_.push_back(made);
     if (effect.kind == CollapseEffect::Kind::CutsHandle) {

@@ -19,6 +19,10 @@ public:
     CollapsingSurface(
         WorkingSurface& surface, const WorkingUnits& units, const EdgeWeights& weights);
 
+    /// A copy that goes on with a copy of the surface.
+    CollapsingSurface(
+        const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units);
+
     WorkingSurface& surface() { return surface_; }
 
     const WorkingSurface& surface() const { return surface_; }
@@ -32,8 +36,8 @@ public:
     /// sequence of collapses any more.
     CollapseEffect collapse(HalfEdge h, const Placement& placement, double error);
 
-    /// The collapses that closed a hole each, by their indices, and the number of handles cut.
-    const std::vector<std::size_t>& hole_closings() const { return hole_closings_; }
+    /// The number of holes closed and of handles cut so far.
+    std::size_t holes_closed() const { return holes_closed_; }
 
     std::size_t handles_cut() const { return handles_cut_; }
 
@@ -68,7 +72,7 @@ private:
     std::size_t first_faces_;
     std::size_t first_vertices_;
     std::vector<Collapse> collapses_;
-    std::vector<std::size_t> hole_closings_;
+    std::size_t holes_closed_ = 0;
     std::size_t handles_cut_ = 0;
 };
 

@@ -23,7 +23,6 @@
 #include <optional>
 #include <vector>
 
-
 namespace octant::models::simplify {
 
 namespace {
@@ -63,15 +62,17 @@ public:
 
     void run(const Goal& goal);
 
+    /// Drops every shell that may be dropped.
+    void drop_shells();
+
 private:
-    /// A record of collapses, which an error is searched along, holds no cut handles.
+    /// Handles are cut only where samples tell what that costs.
     static TopologyChanges
     allowed_changes(const LocalError* local, const SimplifyOptions& options) {
         if (options.keep_topology) {
             return TopologyChanges::None;
         }
-        return local == nullptr || options.goal.error_m ? TopologyChanges::Holes
-                                                        : TopologyChanges::HolesAndHandles;
+        return local == nullptr ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
     }
 
     /// What is known of the cost of an edge.
@@ -106,7 +107,7 @@ private:
     const ShowProgress& show_progress_;
     TopologyChanges changes_; ///< Those that are allowed.
     CollapseEffect effect_;   ///< Of the collapse that was looked at last.
-    HalfEdge edges_; ///< Greater numbers in the heap are those of shells.
+    HalfEdge edges_;          ///< Greater numbers in the heap are those of shells.
     EdgeHeap heap_;
     std::vector<Known> known_; ///< For each edge.
     Known first_;              ///< What is found out about an edge at first.
@@ -156,6 +157,13 @@ void EdgeCollapse::run(const Goal& goal) {
         }
         if (h == none) {
             return;
+        }
+        if (goal.error_m && local_ == nullptr) {
+            const Placement next = collapsing_.quadrics().placement(surface_, h);
+            const double limit = *goal.error_m / collapsing_.units().diagonal_m;
+            if (next.cost > limit * limit * next.weight) {
+                return; // The collapse would exceed the error.
+            }
         }
         if (goal.faces && surface_.mesh.face_count() == *goal.faces + 1) {
             collapse(taking_one(h));
@@ -254,8 +262,8 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
     heap_.set(edge, static_cast<float>(cost));
 }
 
-/// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was measured
-/// last stays valid until the mesh changes.
+/// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was
+/// measured last stays valid until the mesh changes.
 void EdgeCollapse::measure(HalfEdge h, const Placement& placement, Known ways) {
     if (measured_ != h) {
         load(h, placement);
@@ -407,6 +415,10 @@ void EdgeCollapse::update_shell(std::uint32_t shell) {
     if (!(shell_costs_[shell] > 0.0)) {
         shell_costs_[shell] = std::max(shells_->cost(shell), 1e-30);
     }
+    if (!std::isfinite(shell_costs_[shell])) {
+        heap_.remove(edges_ + shell);
+        return;
+    }
     const std::size_t too_many =
         surface_.mesh.face_count() - std::min(surface_.mesh.face_count() - 1, wanted_faces_);
     heap_.set(
@@ -432,6 +444,17 @@ void EdgeCollapse::drop(std::uint32_t shell) {
     });
 }
 
+void EdgeCollapse::drop_shells() {
+    for (std::uint32_t shell = 0; shell < shell_costs_.size(); ++shell) {
+        if (shells_->face_count(shell) > 0) {
+            shell_costs_[shell] = shells_->cost(shell);
+            if (std::isfinite(shell_costs_[shell])) {
+                drop(shell);
+            }
+        }
+    }
+}
+
 } // namespace
 
 void collapse_by_quadrics(
@@ -447,11 +470,21 @@ std::size_t collapse_by_samples(
     const SimplifyOptions& options) {
     LocalError local(collapsing.surface(), samples, original);
     std::optional<Shells> shells;
-    if (!options.keep_shells && !options.keep_topology && !options.goal.error_m) {
-        shells.emplace(collapsing, samples, original);
+    if (!options.keep_shells && !options.keep_topology) {
+        // A shell that is dropped must keep a wanted error with what is left of it for other steps.
+        const double error = options.goal.error_m.value_or(1e30) / collapsing.units().diagonal_m;
+        shells.emplace(
+            collapsing,
+            samples,
+            original,
+            std::min(max_shell_distance, options.shell_error_share * error));
     }
-    EdgeCollapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options)
-        .run(goal);
+    EdgeCollapse collapse(
+        collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);
+    collapse.run(goal);
+    if (shells && options.goal.error_m) {
+        collapse.drop_shells();
+    }
     return shells ? shells->count() - shells->count_left() : 0;
 }
 

@@ -3,14 +3,13 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace octant::models::simplify {
 
 namespace {
 
-/// A shell that is farther from the others than this is not dropped, in working units.
-constexpr double max_distance = 0.5;
 /// The cost is estimated from about so many samples.
 constexpr std::size_t asked_samples = 48;
 
@@ -19,10 +18,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 } // namespace
 
 Shells::Shells(
-    CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original)
+    CollapsingSurface& collapsing,
+    SurfaceSamples& samples,
+    const OriginalSurface& original,
+    double max_distance)
     : surface_(collapsing.surface())
     , samples_(samples)
     , original_(original)
+    , max_distance_(max_distance)
     , of_face_(surface_.mesh.face_slots(), none)
     , of_original_(original.triangles().size(), none) {
     std::vector<std::uint32_t> waiting;
@@ -53,7 +56,7 @@ Shells::Shells(
             ++face_counts_[of_face_[face]];
         }
     }
-    count_left_ = faces_.size();
+    count_left_ = faces_.size() - static_cast<std::size_t>(std::ranges::count(face_counts_, 0U));
     if (count_left_ < 2) {
         return;
     }
@@ -80,7 +83,9 @@ Shells::Shells(
 measure::NearestOnMesh
 Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place) const {
     measure::NearestOnMesh found;
-    for (double within = 1e-3; found.triangle == none && within < 4.0 * max_distance; within *= 4.0) {
+    for (double within = std::min(1e-3, max_distance_);
+         found.triangle == none && within < 4.0 * max_distance_;
+         within *= 4.0) {
         found.distance2 = within * within;
         bvh_->for_each_near(place, within, [&](std::uint32_t triangle) {
             const std::uint32_t other = of_original_[triangle];
@@ -110,7 +115,7 @@ double Shells::cost(std::uint32_t shell) const {
             present += samples_.error(face) - samples_.back_error(face);
         }
     }
-    const std::size_t stride = all / asked_samples + 1;
+    const std::size_t stride = max_distance_ < max_shell_distance ? 1 : all / asked_samples + 1;
     double weights = 0.0;
     double asked_weights = 0.0;
     double sum = 0.0;
@@ -127,7 +132,7 @@ double Shells::cost(std::uint32_t shell) const {
                 const measure::NearestOnMesh other = nearest_other(shell, at);
                 asked_weights += static_cast<double>(sample.weight);
                 sum += static_cast<double>(sample.weight) *
-                       (other.triangle == none || other.distance2 > max_distance * max_distance
+                       (other.triangle == none || other.distance2 > max_distance_ * max_distance_
                             ? infinite
                             : samples_.penalty().of(other.distance2));
             }

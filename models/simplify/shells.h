@@ -13,12 +13,20 @@
 
 namespace octant::models::simplify {
 
+/// Shells that are farther from the others than this are not dropped, in working units.
+inline constexpr double max_shell_distance = 0.5;
+
 /// The connected pieces of a surface that collapses, and what it costs to drop one.
 class Shells {
 public:
+    /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the
+    /// usual max_shell_distance, for which only some samples are looked at, or less.
     /// The samples must be in lists. All must outlive this.
     Shells(
-        CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original);
+        CollapsingSurface& collapsing,
+        SurfaceSamples& samples,
+        const OriginalSurface& original,
+        double max_distance);
 
     std::size_t count() const { return faces_.size(); }
 
@@ -62,6 +70,7 @@ private:
     WorkingSurface& surface_;
     SurfaceSamples& samples_;
     const OriginalSurface& original_;
+    double max_distance_;
     std::vector<std::uint32_t> of_face_; ///< For each triangle slot.
     std::vector<std::vector<std::uint32_t>> faces_; ///< Of each shell at first.
     std::vector<std::size_t> face_counts_;

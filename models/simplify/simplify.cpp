@@ -1,6 +1,5 @@
 // The product's simplification: edge collapses (edge_collapse.cpp), as many as a wanted error
-// allows (error_search.cpp), then an optimization (optimize.cpp), after which corner normals are
-// taken over (attributes.cpp).
+// allows, then an optimization (optimize.cpp). Attributes are taken over by AttributeSeams.
 //
 // It goes further than Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, from
 // which the distance to triangles in both directions comes: the reference is the original surface
@@ -9,10 +8,9 @@
 // estimated. The paper's own mode is paper_simplify.cpp.
 #include "models/simplify/simplify.h"
 
+#include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/attributes.h"
 #include "models/simplify/edge_collapse.h"
-#include "models/simplify/error_search.h"
 #include "models/simplify/optimize.h"
 
 #include <glm/geometric.hpp>
@@ -23,6 +21,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -34,10 +33,6 @@ namespace {
 /// Collapses are chosen by samples where at most so many times the wanted triangles are left.
 constexpr std::size_t sampled_faces = 3;
 constexpr std::size_t min_sampled_faces = 2000;
-/// For a wanted error, once quadrics estimate this share of it.
-constexpr double sampled_error = 0.1;
-/// And so far beyond it collapses go by their own estimate: the optimization brings it back.
-constexpr double beyond_goal = 2.0;
 
 double cpu_s() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -66,8 +61,8 @@ std::size_t steps_of(const SimplifyOptions& options, std::size_t faces, std::siz
         share * std::sqrt(static_cast<double>(faces) * static_cast<double>(original)));
 }
 
-OptimizeOptions optimize_options(
-    const SimplifyOptions& options, std::size_t faces, std::size_t original) {
+OptimizeOptions
+optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
     OptimizeOptions how;
     how.max_steps = steps_of(options, faces, original);
     if (options.max_seconds) {
@@ -134,141 +129,254 @@ void assign_from(
     samples.assign_all(faces, distances2, surface.mesh);
 }
 
-/// The mesh with corner normals taken from the original.
-TriangleMesh with_normals(TriangleMesh mesh, const TriangleMesh& original) {
-    if (!original.corner_normals.empty() && !mesh.triangles.empty()) {
-        take_normals(mesh, original, measure::TriangleBvh(original));
-    }
-    return mesh;
-}
-
-/// Collapses of a mesh, with samples of what it was.
+/// Collapses of a mesh, with samples of what it was. A copy goes on from the same state.
 class Simplification {
 public:
-    Simplification(TriangleMesh original, const SimplifyOptions& options)
+    /// The original must outlive this.
+    Simplification(const TriangleMesh& original, const SimplifyOptions& options)
         : options_(options)
-        , original_(std::move(original))
+        , original_(original)
         , units_(WorkingUnits::of(original_, options.colour_weight))
         , surface_(original_, units_)
-        , target_(surface_)
+        , target_(std::make_shared<const OriginalSurface>(surface_))
         , collapsing_(surface_, units_, EdgeWeights{}) {
         if (options.lock_border) {
             surface_.lock_border(original_, units_);
         }
     }
 
-    /// Collapses to the goal: by quadrics as long as that is far, then by samples.
-    void collapse(const Goal& goal) {
-        const std::size_t before = surface_.mesh.face_count();
-        const std::size_t faces = goal.error_m ? before / 4 : wanted_faces(goal);
-        SurfaceSamples samples(surface_, wanted_samples(before, faces));
+    Simplification(const Simplification& from)
+        : options_(from.options_)
+        , original_(from.original_)
+        , units_(from.units_)
+        , surface_(from.surface_)
+        , target_(from.target_)
+        , collapsing_(from.collapsing_, surface_, units_)
+        , samples_(from.samples_)
+        , shells_gone_(from.shells_gone_) {}
+
+    Simplification& operator=(const Simplification&) = delete;
+
+    /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
+    /// left in the end.
+    void approach(const Goal& near_goal, std::size_t faces) {
+        SurfaceSamples samples(surface_, wanted_samples(surface_.mesh.face_count(), faces));
         std::vector<std::uint32_t> near = anchors_of(surface_, samples);
-        Goal first{{}, std::max(sampled_faces * faces, min_sampled_faces), {}};
-        if (goal.error_m) {
-            first = {{}, {}, sampled_error * *goal.error_m};
-        }
-        collapse_by_quadrics(collapsing_, first, options_);
+        collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
         for (std::uint32_t& anchor : near) {
             anchor = surface_.mesh.face_at(slots[anchor]);
         }
         assign_from(surface_, samples, near);
-        LocalError(surface_, samples, target_).measure_all_back();
-        shells_gone_ = collapse_by_samples(collapsing_, samples, target_, goal, options_);
+        LocalError(surface_, samples, *target_).measure_all_back();
         samples_.emplace(std::move(samples));
     }
 
-    std::size_t optimize() {
+    /// Collapses by samples, after approach(), to the goal.
+    void collapse(const Goal& goal) {
+        shells_gone_ = collapse_by_samples(collapsing_, *samples_, *target_, goal, options_);
+    }
+
+    /// Returns the number of steps.
+    std::size_t optimize(const SimplifyOptions& options) {
         return simplify::optimize(
             surface_,
             *samples_,
-            target_,
-            optimize_options(options_, surface_.mesh.face_count(), original_.triangles.size()));
+            *target_,
+            optimize_options(options, faces(), original_.triangles.size()));
     }
 
-    TriangleMesh mesh() const {
-        return with_normals(surface_.to_mesh(original_, units_), original_);
-    }
+    TriangleMesh mesh() const { return surface_.to_mesh(original_, units_); }
 
     /// Adds what has changed in the topology.
     void tell(Simplified& result) const {
         result.shells_gone = shells_gone_;
-        result.holes_closed = collapsing_.hole_closings().size();
+        result.holes_closed = collapsing_.holes_closed();
         result.handles_cut = collapsing_.handles_cut();
     }
 
-    const std::vector<std::size_t>& hole_closings() const { return collapsing_.hole_closings(); }
+    std::size_t faces() const { return surface_.mesh.face_count(); }
 
-    CollapseSequence sequence() {
-        if (shells_gone_ > 0 || collapsing_.handles_cut() > 0) {
-            return {};
-        }
-        return {std::move(original_), std::move(collapsing_.collapses())};
-    }
+    std::vector<Collapse>& collapses() { return collapsing_.collapses(); }
 
 private:
     const SimplifyOptions& options_;
-    TriangleMesh original_;
+    const TriangleMesh& original_;
     WorkingUnits units_;
     WorkingSurface surface_;
-    OriginalSurface target_;
+    std::shared_ptr<const OriginalSurface> target_;
     CollapsingSurface collapsing_;
     std::optional<SurfaceSamples> samples_;
     std::size_t shells_gone_ = 0;
 };
 
-/// Simplifies to a wanted error: one sequence of collapses beyond it, and then a search along the
-/// sequence.
-Simplified simplified_to_error(TriangleMesh original, const SimplifyOptions& options) {
-    Simplified result;
-    const double start_s = cpu_s();
-    std::vector<std::size_t> hole_closings;
-    {
-        Goal goal = options.goal;
-        goal.error_m = beyond_goal * *goal.error_m;
-        Simplification work(std::move(original), options);
-        work.collapse(goal);
-        hole_closings = work.hole_closings();
-        result.sequence = work.sequence();
+/// Searches for the fewest triangles whose finished mesh keeps a wanted error by its certified
+/// distance, so that whoever measures it again with the usual tightness finds it kept. Each try
+/// goes on from the last state that kept the error, is optimized and measured.
+class ErrorSearch {
+public:
+    ErrorSearch(const TriangleMesh& original, const SimplifyOptions& options)
+        : original_(original)
+        , options_(options)
+        , collapsing_(options)
+        , trying_(options)
+        , error_m_(*options.goal.error_m) {
+        result_.mesh = original;
+        if (trying_.max_seconds) {
+            *trying_.max_seconds /= max_tries;
+        }
     }
-    const double collapsed_s = cpu_s();
-    KeptError kept = max_collapses_within(result.sequence, options, [&](std::size_t collapses) {
-        const TriangleMesh mesh = mesh_after(result.sequence, collapses);
-        return collapses == 0 ? with_normals(mesh, result.sequence.original)
-                              : optimized(mesh, result.sequence.original, options);
-    });
-    result.sequence.collapses.resize(kept.collapses);
-    result.holes_closed = static_cast<std::size_t>(
-        std::ranges::lower_bound(hole_closings, kept.collapses) - hole_closings.begin());
-    result.mesh = std::move(kept.mesh);
-    result.collapse_cpu_s = collapsed_s - start_s;
-    result.optimize_cpu_s = cpu_s() - collapsed_s;
-    return result;
-}
+
+    Simplified find() {
+        // Quadrics may be far off, and shells be dropped too early; then both stop earlier.
+        for (double share = 0.1; share > 1e-4 && !is_found_; share *= 0.1) {
+            search_from(share * error_m_);
+            collapsing_.shell_error_share *= 0.5;
+            collapsing_.keep_shells = options_.keep_shells || share < 0.05;
+        }
+        return std::move(result_);
+    }
+
+private:
+    static constexpr int max_tries = 7;
+    /// Another try is made only while more than this share of the triangles is in question.
+    static constexpr double close_enough = 0.03;
+    /// Tries aim at this share of the wanted error.
+    static constexpr double aim = 0.97;
+    /// The error is assumed to fall with this power of the number of triangles.
+    static constexpr double steepness = 1.0;
+    /// The first try is where the estimate reaches this many times the wanted error, which the
+    /// optimization lowers.
+    static constexpr double first_try = 1.2;
+
+    void search_from(double quadrics_m) {
+        const double start_s = cpu_s();
+        auto kept = std::make_unique<Simplification>(original_, collapsing_);
+        kept->approach({{}, {}, quadrics_m}, original_.triangles.size() / 4);
+        if (kept->collapses().size() > 1) {
+            kept->collapses().erase(kept->collapses().begin(), kept->collapses().end() - 1);
+        }
+        auto next = std::make_unique<Simplification>(*kept);
+        next->collapse({{}, {}, first_try * error_m_});
+        result_.collapse_cpu_s += cpu_s() - start_s;
+        double kept_m = quadrics_m;
+        std::size_t too_few = 0;
+        double too_far_m = 0.0;
+        for (int tries = 0; tries < max_tries; ++tries) {
+            const double tried_m = attempt(*next);
+            if (is_kept_) {
+                kept = std::move(next);
+                kept_m = tried_m;
+            } else if (next->faces() > too_few) {
+                too_few = next->faces();
+                too_far_m = tried_m;
+            }
+            const std::size_t wanted = next_faces(kept->faces(), kept_m, too_few, too_far_m);
+            if (wanted >= kept->faces()) {
+                break;
+            }
+            const double before_s = cpu_s();
+            next = std::make_unique<Simplification>(*kept);
+            next->collapse({{}, wanted, {}});
+            result_.collapse_cpu_s += cpu_s() - before_s;
+            if (next->faces() >= kept->faces()) {
+                break; // No edge can collapse.
+            }
+        }
+        if (!is_found_) {
+            attempt(*kept); // It was not tried so far.
+        }
+    }
+
+    /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns about
+    /// how large its error is.
+    double attempt(const Simplification& state) {
+        const double start_s = cpu_s();
+        Simplification copy(state);
+        const std::size_t steps = copy.optimize(trying_);
+        TriangleMesh mesh = copy.mesh();
+        result_.optimize_cpu_s += cpu_s() - start_s;
+        if (trying_.max_seconds) {
+            trying_.max_seconds.reset(); // Other tries take as many steps.
+            trying_.steps = steps;
+        }
+        const measure::MeshDistance distance = measure::distance(
+            original_,
+            mesh,
+            {.tightness = 1.03,
+             .negligible_m = 0.9 * error_m_,
+             .samples = 100,
+             .threads = options_.threads,
+             .larger_alone = true});
+        is_kept_ = distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
+        if (is_kept_) {
+            is_found_ = true;
+            result_.mesh = std::move(mesh);
+            result_.steps = trying_.steps.value_or(steps);
+            state.tell(result_);
+        }
+        return distance.least_hausdorff_m();
+    }
+
+    /// The number of triangles to try next, where the error lies between those of two numbers in
+    /// the logarithms. The kept number where that is near enough.
+    std::size_t
+    next_faces(std::size_t kept, double kept_m, std::size_t too_few, double too_far_m) const {
+        const auto most = static_cast<double>(kept);
+        const auto least = static_cast<double>(too_few);
+        if (too_few == 0) {
+            const double share = std::pow(kept_m / (aim * error_m_), 1.0 / steepness);
+            return static_cast<std::size_t>(
+                most * std::clamp(share, 0.3, 1.0 / (1.0 + close_enough)));
+        }
+        if (most <= least * (1.0 + close_enough) || kept <= too_few + 1) {
+            return kept;
+        }
+        const double between =
+            kept_m < too_far_m ? std::log(aim * error_m_ / kept_m) / std::log(too_far_m / kept_m)
+                               : 0.5;
+        const double wanted = most * std::pow(least / most, std::clamp(between, 0.2, 0.8));
+        return std::clamp(static_cast<std::size_t>(wanted), too_few + 1, kept - 1);
+    }
+
+    const TriangleMesh& original_;
+    const SimplifyOptions& options_;
+    SimplifyOptions collapsing_; ///< The same with what shells may cost.
+    SimplifyOptions trying_;     ///< The same with the steps that each try takes.
+    double error_m_;
+    bool is_kept_ = false;  ///< by the last try
+    bool is_found_ = false; ///< Some try has kept the error.
+    Simplified result_;
+};
 
 } // namespace
 
 Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
-    const bool is_met = (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
-                        (options.goal.vertices &&
-                         original.vertices_m.size() <= *options.goal.vertices);
+    const bool is_met =
+        (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
+        (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
     if (original.triangles.empty() || is_met) {
         return {.mesh = original, .sequence = {std::move(original), {}}};
     }
     if (options.goal.error_m) {
-        return simplified_to_error(std::move(original), options);
+        return ErrorSearch(original, options).find();
     }
     Simplified result;
     const double start_s = cpu_s();
-    Simplification work(std::move(original), options);
+    Simplification work(original, options);
+    const std::size_t faces = wanted_faces(options.goal);
+    work.approach({{}, std::max(sampled_faces * faces, min_sampled_faces), {}}, faces);
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
     work.tell(result);
-    result.steps = work.optimize();
+    result.steps = work.optimize(options);
     result.mesh = work.mesh();
-    result.sequence = work.sequence();
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
+    if (result.shells_gone == 0 && result.handles_cut == 0) {
+        result.sequence.collapses = std::move(work.collapses());
+        result.sequence.original = std::move(original);
+    }
     return result;
 }
 
@@ -294,8 +402,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface fine(original, units);
     const OriginalSurface target(fine);
-    SurfaceSamples samples(
-        fine, wanted_samples(original.triangles.size(), mesh.triangles.size()));
+    SurfaceSamples samples(fine, wanted_samples(original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface(mesh, units);
     if (options.lock_border) {
         surface.lock_border(mesh, units);
@@ -312,7 +419,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
         samples,
         target,
         optimize_options(options, mesh.triangles.size(), original.triangles.size()));
-    return with_normals(surface.to_mesh(mesh, units), original);
+    return surface.to_mesh(mesh, units);
 }
 
 } // namespace octant::models::simplify

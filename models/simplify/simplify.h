@@ -10,14 +10,14 @@ namespace octant::models::simplify {
 
 /// The result of a simplification.
 struct Simplified {
-    TriangleMesh mesh; ///< After the optimization, with the original's materials and normals.
+    TriangleMesh mesh; ///< After the optimization, with the original's materials.
     /// The collapses that led to it, before the optimization; none where shells were dropped or
-    /// handles cut.
+    /// handles cut, and for a wanted error.
     CollapseSequence sequence;
     std::size_t shells_gone = 0;
     std::size_t holes_closed = 0;
     std::size_t handles_cut = 0;
-    std::size_t steps = 0; ///< That the optimization tried.
+    std::size_t steps = 0; ///< That the optimization tried; of a wanted error the last one of several.
     double collapse_cpu_s = 0.0;
     double optimize_cpu_s = 0.0;
 };

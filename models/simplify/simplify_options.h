@@ -31,7 +31,8 @@ struct SimplifyOptions {
     int effort = surface_effort; ///< 0 to 9; 0 = collapses alone. Each one more doubles the steps or so.
     /// The steps of the optimization, instead of those that follow from the effort.
     std::optional<std::size_t> steps;
-    /// The optimization ends after so many seconds. The result then depends on the machine;
+    /// The optimization ends after so many seconds, all those for a wanted error together about.
+    /// The result then depends on the machine;
     /// Simplified::steps repeats it.
     std::optional<double> max_seconds;
     /// What a colour difference of 1 counts as, against a distance, in diagonals of the bounding
@@ -45,6 +46,8 @@ struct SimplifyOptions {
     bool keep_shells = false;
     /// No hole is closed and no handle cut either.
     bool keep_topology = false;
+    /// For a wanted error, shells are dropped that are nearer to others than this share of it.
+    double shell_error_share = 0.8;
     /// Vertices of boundaries stay where they are, all of them.
     bool lock_border = false;
     int threads = 1;            ///< The number of threads; it does not change the result.

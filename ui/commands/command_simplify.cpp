@@ -15,6 +15,8 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::commands {
@@ -41,7 +43,7 @@ void refuse_wrong_output(const SimplifyCommand& command, const std::string& name
             "'{}'",
             printable(name)));
     }
-    if (!command.chain && !meshfile::is_mesh_file(out)) {
+    if (!command.chain && !meshfile::is_written_mesh_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
             "'{}'",
@@ -85,7 +87,7 @@ void refuse_wrong_folder(const SimplifyCommand& command) {
             throw Error(fmt::format(
                 "--out-dir: expected another folder than that of '{}'", printable(file)));
         }
-        if (!meshfile::is_mesh_file(name) || name.extension() == ".xml") {
+        if (!meshfile::is_written_mesh_file(name)) {
             throw Error(fmt::format(
                 "--shared-border: expected meshes that can be written again, such as .obj or .ply, "
                 "got '{}'",
@@ -180,45 +182,108 @@ void run(SimplifyCommand command) {
     }
 }
 
-std::vector<Option> goal_options(SimplifyCommand& command) {
-    return {
-        required(list_option(
-            "files",
-            "IN OUT",
-            "mesh to simplify: " + world::built_in_meshes() +
-                " or a file: .obj, .ply, .stl, .gltf, .glb, .ac, .wrl; and the file to write, "
-                "whose ending says how. With --shared-border meshes alone, with --chart perhaps "
-                "without OUT",
-            Takes::SomeWords,
-            command.files)),
-        read_option(
-            {"vertices", "N", "go down to so many vertices [no goal]", 1, 2e9}, command.vertices),
-        read_option(
-            {"faces",
-             "N",
-             "go down to so many triangles; with --chain of the coarsest level [no goal]",
-             1,
-             2e9},
-            command.faces),
-        text_option(
-            "--error",
-            "E|P%",
-            "go as far as the certified two-sided distance stays below, in file units or, as 0.1%, "
-            "of the diagonal of the bounding box",
-            command.error)};
+/// Options of one group, with its heading in help.
+void add_group(std::vector<Option>& table, std::string_view heading, std::vector<Option> options) {
+    for (Option& option : options) {
+        option.heading = heading;
+        table.push_back(std::move(option));
+    }
 }
 
-void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
-    table.insert(
-        table.end(),
-        {choice_option(
-             "--method",
-             "KIND",
-             "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
-             "triangle or bidirectional",
-             {"surface", "fast", "plane", "triangle", "bidirectional"},
-             command.method),
+std::vector<Option> goal_options(SimplifyCommand& command) {
+    std::vector<Option> table{required(list_option(
+        "files",
+        "IN OUT",
+        "mesh to simplify: " + world::built_in_meshes() +
+            " or a file: .obj, .ply, .stl, .off, .gltf, .glb, .ac, .wrl; and the file to write, "
+            "whose ending says how. With --shared-border meshes alone, with --chart perhaps "
+            "without OUT",
+        Takes::SomeWords,
+        command.files))};
+    add_group(
+        table,
+        "How far (one of them)",
+        {read_option(
+             {"faces",
+              "N",
+              "down to so many triangles; with --chain of the coarsest level [no goal]",
+              1,
+              2e9},
+             command.faces),
          read_option(
+             {"vertices", "N", "down to so many vertices [no goal]", 1, 2e9}, command.vertices),
+         text_option(
+             "--error",
+             "E|P%",
+             "to as few triangles as possible no farther off than this, both ways: in units of the "
+             "file, or as 0.1% of the diagonal of its bounding box",
+             command.error)});
+    return table;
+}
+
+void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
+    add_group(
+        table,
+        "What stays",
+        {read_option(
+             {"uv-error",
+              "U",
+              "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
+              1e-9,
+              1e9},
+             command.uv_error),
+         read_option(
+             {"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
+             command.normal_error),
+         read_option(
+             {"colour-error",
+              "SHARE",
+              "colours may be off by so much: a length in red, green and blue 0..1 [no bound]",
+              1e-4,
+              2},
+             command.colour_error),
+         read_option(
+             {"colour-weight",
+              "W",
+              "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]",
+              0,
+              1000},
+             command.colour_weight),
+         flag(
+             "--keep-shells",
+             "no part of the mesh vanishes, even if the goal is then out of reach",
+             command.keep_shells),
+         flag(
+             "--keep-topology",
+             "no part vanishes, no hole is closed and no handle cut, even if the goal is then out "
+             "of "
+             "reach",
+             command.keep_topology),
+         flag(
+             "--keep-seams-apart",
+             "weld only vertices that agree to the bit, colours too",
+             command.keep_seams_apart),
+         flag(
+             "--lock-border",
+             "all vertices of open borders stay where they are",
+             command.lock_border),
+         flag(
+             "--shared-border",
+             "simplify several meshes as one, so that no gap opens along their common borders; "
+             "goals count for all together",
+             command.shared_border),
+         text_option(
+             "--out-dir",
+             "DIR",
+             "with --shared-border: the folder for the results, named as the inputs are",
+             command.out_dir)});
+}
+
+void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
+    add_group(
+        table,
+        "How much work",
+        {read_option(
              {"effort",
               "0..9",
               "how long to optimize; each one more doubles the steps, 0 makes none [4]",
@@ -226,62 +291,35 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
               9},
              command.effort),
          read_option(
-             {"steps", "N", "so many steps of the optimization [those of --effort]", 0, 2e9},
-             command.steps),
-         read_option(
              {"max-seconds",
               "S",
-              "end the optimization after this time; --steps then repeats the result [no limit]",
+              "end the optimization after this time; a note says which --steps repeat the result "
+              "[no limit]",
               0,
               1e6},
              command.max_seconds),
          read_option(
-             {"colour-weight", "W", "what a colour difference of 1 counts, in diagonals", 0, 1000},
-             command.colour_weight),
+             {"steps", "N", "so many steps of the optimization [those of --effort]", 0, 2e9},
+             command.steps),
+         choice_option(
+             "--method",
+             "KIND",
+             "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
+             "triangle or bidirectional",
+             {"surface", "fast", "plane", "triangle", "bidirectional"},
+             command.method),
          read_option(
              {"threads", "N", "that work; change no result [all processors]", 1, 1024},
-             command.threads),
-         flag("--chain", "write levels of detail, halving, into OUT.chain", command.chain),
-         flag(
-             "--keep-seams-apart",
-             "weld only vertices that agree to the bit, colours too",
-             command.keep_seams_apart),
-         flag(
-             "--keep-shells",
-             "let no part vanish, also where a goal is out of reach then",
-             command.keep_shells),
-         flag(
-             "--keep-topology",
-             "neither drop shells nor close holes nor cut handles, also where a goal is out of "
-             "reach "
-             "then",
-             command.keep_topology),
-         flag(
-             "--lock-border",
-             "vertices of open borders stay where they are, all of them",
-             command.lock_border),
-         flag(
-             "--shared-border",
-             "simplify several meshes as one, so that borders in common stay so; goals count for "
-             "all together",
-             command.shared_border),
-         text_option(
-             "--out-dir",
-             "DIR",
-             "with --shared-border: where the results go, called as the inputs are",
-             command.out_dir),
-         read_option(
-             {"uv-error",
-              "U",
-              "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
-              1e-9,
-              1e9},
-             command.uv_error),
-         text_option(
+             command.threads)});
+    add_group(
+        table,
+        "What is written",
+        {text_option(
              "--chart",
              "FILE.html",
-             "write a page that plots errors of levels of the mesh against their faces",
+             "a page that plots errors of levels of the mesh against their faces",
              command.chart),
+         flag("--chain", "levels of detail, halving, into OUT.chain", command.chain),
          text_option(
              "--polygons",
              "FILE.obj",
@@ -292,19 +330,25 @@ void add_other_options(std::vector<Option>& table, SimplifyCommand& command) {
 }
 
 constexpr const char* simplify_footer =
-    "error: certified two-sided distance (Hausdorff) of the written file, rms: root mean square, "
-    "in\n"
-    "file units and as fractions of the diagonal.\n"
-    "Exit code 1: the mesh is written, but the goal was out of reach.\n"
-    "Texture coordinates, normals, colours and materials stay, also along seams; what OUT's "
-    "format\n"
-    "does not hold is said.\n"
+    "Examples:\n"
+    "  octant simplify bunny.ply small.obj --faces 1000\n"
+    "  octant simplify scan.stl part.glb --error 0.1%\n"
+    "  octant simplify house.obj far.obj --error 0.05 --uv-error 0.01\n"
+    "  octant simplify west.obj east.obj --shared-border --out-dir small --error 0.5\n"
+    "  octant simplify gasket.stl small.stl --faces 500 --keep-topology\n"
+    "  octant simplify bunny.ply --chart bunny.html\n"
+    "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain\n"
+    "Texture coordinates, normals, colours and materials stay, also along seams. Notes say what a\n"
+    "file has that is not read, and what OUT's format does not hold.\n"
+    "Exit code 1: the mesh is written, but a goal or a bound was out of reach.\n"
+    "Results: error is the largest distance between the surfaces, both ways, certified for the\n"
+    "written file; rms the root mean square; in file units and as fractions of the diagonal.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
     "  vertices, method, steps (that the optimization tried), shells_gone, holes_closed,\n"
-    "  handles_cut, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms (length in RGB\n"
-    "  0..1, where there are colours), uv_error, uv_rms (of texture coordinates, at samples, "
-    "where\n"
-    "  there are some),\n"
+    "  handles_cut, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms, colour_error "
+    "(lengths in RGB 0..1),\n"
+    "  uv_error, uv_rms, normal_error, normal_rms (degrees; each where there are such "
+    "attributes),\n"
     "  time_s, cpu_s (collapse, optimizer, certificate: processor time);\n"
     "  with --shared-border files (in, out, faces, vertices, error and so on each);\n"
     "  with --chart also chart, levels;\n"
@@ -312,14 +356,7 @@ constexpr const char* simplify_footer =
     "  polygons_error;\n"
     "  as printed also reading, contractions, counted_vertices, feet, feet_outside,\n"
     "  share_outside, error_sum_plane, error_sum_triangle, error_sum_bidirectional,\n"
-    "  duplicate_faces, non_manifold_edges.\n"
-    "Examples:\n"
-    "  octant simplify bunny.ply small.obj --faces 1000\n"
-    "  octant simplify scan.stl part.glb --error 0.1%\n"
-    "  octant simplify west.obj east.obj --shared-border --out-dir small --error 0.5\n"
-    "  octant simplify gasket.stl small.stl --faces 500 --keep-topology\n"
-    "  octant simplify bunny.ply --chart bunny.html\n"
-    "  octant simplify scan.ply jet.chain --chain && octant fly turn --aircraft jet.chain";
+    "  duplicate_faces, non_manifold_edges.";
 
 } // namespace
 
@@ -331,7 +368,8 @@ Command simplify_command() {
         .options = goal_options(*work),
         .footer = simplify_footer,
         .run = [work] { run(*work); }};
-    add_other_options(command.options, *work);
+    add_keeping_options(command.options, *work);
+    add_work_options(command.options, *work);
     return command;
 }
 

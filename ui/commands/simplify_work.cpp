@@ -29,6 +29,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 
 namespace octant::ui::commands {
 
@@ -61,8 +62,11 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     if (!command.error.empty()) {
         options.goal.error_m = error_m_from(command.error, diagonal_m);
     }
-    options.colour_weight = command.colour_weight;
-    options.keep_shells = command.keep_shells;
+    // On a coloured scan the distance is then no larger than without colours by other programs.
+    constexpr double default_colour_weight = 0.015;
+    options.colour_weight =
+        command.colour_weight >= 0.0 ? command.colour_weight : default_colour_weight;
+    options.keep_shells = command.keep_shells || command.lock_border;
     options.keep_topology = command.keep_topology || command.lock_border;
     options.lock_border = command.lock_border;
     options.threads = command.threads;
@@ -179,8 +183,23 @@ void leave_out_rounding(
     *error_m -= rounding_m;
 }
 
-/// Whether the figures of a written mesh keep the wanted error and the bound of texture
-/// coordinates, and its faces and vertices are few enough; else says why not.
+/// A kind of attributes with its bound (0: none) and the figure that keeps it.
+struct AttributeBound {
+    std::string_view name;
+    std::string_view option;
+    std::string_view figure;
+    double wanted;
+};
+
+std::array<AttributeBound, 3> bounds_of(const SimplifyCommand& command) {
+    return {
+        {{"texture coordinates", "--uv-error", "uv_error", command.uv_error},
+         {"normals", "--normal-error", "normal_error", command.normal_error},
+         {"colours", "--colour-error", "colour_error", command.colour_error}}};
+}
+
+/// Whether the figures of a written mesh keep the wanted error and the bounds of attributes, and
+/// its faces and vertices are few enough; else says why not.
 bool keeps_goals(
     const SimplifyCommand& command,
     const simplify::Goal& goal,
@@ -209,56 +228,70 @@ bool keeps_goals(
             figure("error"),
             wanted_error_m));
     }
-    if (command.uv_error > 0.0 && figure("uv_error") > command.uv_error) {
-        refuse(fmt::format(
-            "texture coordinates are off by {:.4g}, more than --uv-error {:.4g}",
-            figure("uv_error"),
-            command.uv_error));
+    for (const AttributeBound& bound : bounds_of(command)) {
+        if (bound.wanted > 0.0 && figure(bound.figure) > bound.wanted) {
+            refuse(fmt::format(
+                "{} are off by {:.4g}, more than {} {:.4g}",
+                bound.name,
+                figure(bound.figure),
+                bound.option,
+                bound.wanted));
+        }
     }
     if ((goal.faces && figure("faces") > static_cast<double>(*goal.faces)) ||
         (goal.vertices && figure("vertices") > static_cast<double>(*goal.vertices))) {
-        refuse(
-            command.uv_error > 0.0
-                ? "--uv-error takes more triangles than the goal allows"
-                : "no edge can collapse any more without folding the surface or changing what is "
-                  "to be kept");
+        refuse("no edge can collapse any more without folding the surface or changing what is to "
+               "be kept");
     }
     return is_kept;
 }
 
-/// A simplified mesh whose texture coordinates keep their bound: triangles are divided until they
-/// do, and fewer are left for that before, where their number is the goal.
-simplify::Simplified simplified_with_textures(
+/// A simplified mesh whose attributes keep their bounds: triangles are divided until they do, and
+/// fewer are left for that before, where their number is the goal.
+simplify::Simplified simplified_with_bounds(
     const SimplifyCommand& command,
     const simplify::AttributeSeams& seams,
     simplify::SimplifyOptions options) {
     constexpr int max_tries = 5;
     constexpr double enough = 0.98; // of the goal
+    simplify::AttributeBounds bounds;
+    bool is_bounded = false;
+    for (const auto& [bound, wanted, is_there] :
+         {std::tuple(&bounds.texture, command.uv_error, seams.has_texture_coordinates()),
+          std::tuple(&bounds.normal_deg, command.normal_error, seams.has_normals()),
+          std::tuple(&bounds.colour, command.colour_error, seams.has_colours())}) {
+        if (wanted > 0.0 && is_there) {
+            *bound = wanted;
+            is_bounded = true;
+        }
+    }
     const std::size_t most = seams.marked().triangles.size();
     const std::size_t goal = simplify::wanted_faces(options.goal);
     std::optional<simplify::Simplified> best;
+    bool is_kept = false;
     double collapse_cpu_s = 0.0;
     double optimize_cpu_s = 0.0;
     for (int tries = 0; tries < max_tries; ++tries) {
         simplify::Simplified result = simplify::simplified(seams.marked(), options);
-        if (command.uv_error == 0.0 || !seams.has_texture_coordinates()) {
+        if (!is_bounded) {
             return result;
         }
         collapse_cpu_s += result.collapse_cpu_s;
         optimize_cpu_s += result.optimize_cpu_s;
-        if (options.max_seconds && !options.goal.error_m) {
-            // Further tries take as many steps, so that their number repeats all of them.
+        if (options.max_seconds) { // Further tries take as many steps.
             options.steps = result.steps;
             options.max_seconds.reset();
         }
         const auto before = static_cast<double>(result.mesh.triangles.size());
-        result.mesh = seams.divided(std::move(result.mesh), command.uv_error, most);
-        const auto after = static_cast<double>(result.mesh.triangles.size());
-        const bool fits = goal == 0 || result.mesh.triangles.size() <= goal;
-        if (!best || (fits && result.mesh.triangles.size() > best->mesh.triangles.size()) ||
-            (best->mesh.triangles.size() > goal &&
-             result.mesh.triangles.size() < best->mesh.triangles.size())) {
+        models::TriangleMesh divided = seams.divided(result.mesh, bounds, most);
+        const auto after = static_cast<double>(divided.triangles.size());
+        const bool fits = goal == 0 || divided.triangles.size() <= goal;
+        if (fits && (!is_kept || divided.triangles.size() > best->mesh.triangles.size())) {
+            is_kept = true;
+            result.mesh = std::move(divided);
             best = std::move(result);
+        } else if (!best) {
+            best = std::move(result); // Undivided, unless a later try fits.
         }
         const double share = static_cast<double>(goal) / after;
         if (goal == 0 || (fits && enough * static_cast<double>(goal) <= after) || before < 8.0) {
@@ -282,13 +315,20 @@ void tell_steps(const SimplifyCommand& command, const simplify::Simplified& resu
     }
 }
 
-/// Adds how far texture coordinates are off.
-void add_texture_error(
+/// Adds how far attributes are off. The RMS of colours comes with the distance.
+void add_attribute_errors(
     Figures& figures, const simplify::AttributeSeams& seams, const models::TriangleMesh& made) {
+    const simplify::AttributeErrors errors = seams.errors(made);
     if (seams.has_texture_coordinates()) {
-        const simplify::TextureError error = seams.texture_error(made);
-        figures["uv_error"] = error.max;
-        figures["uv_rms"] = error.rms;
+        figures["uv_error"] = errors.texture.max;
+        figures["uv_rms"] = errors.texture.rms;
+    }
+    if (seams.has_normals()) {
+        figures["normal_error"] = errors.normal_deg.max;
+        figures["normal_rms"] = errors.normal_deg.rms;
+    }
+    if (seams.has_colours()) {
+        figures["colour_error"] = errors.colour.max;
     }
 }
 
@@ -317,6 +357,10 @@ models::polygons::PolygonModel polygons_in_file_axes(const std::filesystem::path
 }
 
 } // namespace
+
+bool has_attribute_bound(const SimplifyCommand& command) {
+    return command.uv_error > 0.0 || command.normal_error > 0.0 || command.colour_error > 0.0;
+}
 
 double error_m_from(const std::string& text, double diagonal_m) {
     const bool share = text.ends_with('%');
@@ -348,7 +392,10 @@ void simplify_as_printed(
     simplify::PaperOptions options;
     options.measure = measure;
     options.goal = options_of(command, diagonal_m).goal;
-    options.colour_weight = original.colours.empty() ? 0.0 : command.colour_weight * diagonal_m;
+    constexpr double printed_colour_weight = 0.1;
+    const double weight =
+        command.colour_weight >= 0.0 ? command.colour_weight : printed_colour_weight;
+    options.colour_weight = original.colours.empty() ? 0.0 : weight * diagonal_m;
     base::Progress progress("contracting edges", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     figures["faces_before"] = original.triangles.size();
@@ -382,7 +429,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     base::Progress progress("simplifying", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     const base::Stopwatch watch;
-    simplify::Simplified result = simplified_with_textures(command, seams, options);
+    simplify::Simplified result = simplified_with_bounds(command, seams, options);
     const double time_s = watch.s();
     progress.finish();
     result.sequence = {}; // It is as large as the mesh, and so is what measuring needs.
@@ -393,13 +440,13 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     figures["shells_gone"] = result.shells_gone;
     figures["holes_closed"] = result.holes_closed;
     figures["handles_cut"] = result.handles_cut;
-    add_texture_error(figures, seams, result.mesh);
+    add_attribute_errors(figures, seams, result.mesh);
     const double measured_from_s = base::process_cpu_s();
     write_and_measure(
         command,
         command.out,
         seams.with_attributes(std::move(result.mesh)),
-        original.colours.empty() ? original : seams.with_attributes(original),
+        original.colours.empty() ? original : seams.with_colours(original),
         figures);
     figures["time_s"] = time_s;
     if (command.json) {
@@ -527,16 +574,16 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     };
     leave_out_rounding(
         command, out_of(command.files.front()), models::bounds_of(marked), options.goal.error_m);
-    const models::TriangleMesh original = seams.with_attributes(marked);
+    const models::TriangleMesh original = seams.with_colours(marked);
     const base::Stopwatch watch;
-    simplify::Simplified result = simplified_with_textures(command, seams, options);
+    simplify::Simplified result = simplified_with_bounds(command, seams, options);
     const double time_s = watch.s();
     figures["faces_before"] = marked.triangles.size();
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["steps"] = result.steps;
     tell_steps(command, result);
-    add_texture_error(figures, seams, result.mesh);
+    add_attribute_errors(figures, seams, result.mesh);
     bool is_reached =
         keeps_goals(command, {options.goal.vertices, options.goal.faces, {}}, 0.0, figures);
     std::vector<std::uint32_t> first_materials;
@@ -550,7 +597,7 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     straighten_borders(
         result.mesh,
         shared_vertices(
-            result.mesh, seams.with_attributes(result.mesh).triangle_materials, first_materials),
+            result.mesh, seams.with_colours(result.mesh).triangle_materials, first_materials),
         marked,
         shared);
     const models::TriangleMesh made = seams.with_attributes(std::move(result.mesh));

@@ -22,7 +22,7 @@ struct SimplifyCommand {
     int effort = -1;          ///< That of the method
     int steps = -1;           ///< Those of the effort
     double max_seconds = 0.0; ///< No limit
-    double colour_weight = 0.1;
+    double colour_weight = -1.0; ///< That of the method
     int threads = core_count();
     bool chain = false;
     bool keep_seams_apart = false;
@@ -31,12 +31,17 @@ struct SimplifyCommand {
     bool lock_border = false;
     bool shared_border = false;
     std::string out_dir;
-    double uv_error = 0.0; ///< 0: no bound
+    double uv_error = 0.0;     ///< 0: no bound
+    double normal_error = 0.0; ///< degrees; 0: no bound
+    double colour_error = 0.0; ///< 0: no bound
     std::string chart;
     std::string polygons;
     bool json = false;
     bool quiet = false;
 };
+
+/// Whether an attribute has a bound.
+bool has_attribute_bound(const SimplifyCommand& command);
 
 /// A largest error of `octant simplify` from text: "0.5" in the file's units or "0.1%" of the
 /// diagonal. Throws Error for anything else.

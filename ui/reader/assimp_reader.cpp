@@ -47,19 +47,28 @@ std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuild
         std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
 }
 
-/// Whether a file of this kind says which of its surfaces are two-sided. Of OFF files Assimp says
-/// so of all.
-bool tells_two_sided(const std::filesystem::path& file) {
-    return ending_of(file) != ".off";
+/// The file of a picture beside the mesh; empty where it has none or the picture stands in the
+/// mesh's file.
+std::string picture_file_of(
+    const aiScene& scene, const aiMaterial& from, const std::filesystem::path& mesh_file) {
+    aiString name;
+    if ((from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
+         from.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS) ||
+        scene.GetEmbeddedTexture(name.C_Str()) != nullptr) {
+        return {};
+    }
+    return (std::filesystem::absolute(mesh_file).parent_path() / name.C_Str()).string();
 }
 
-std::vector<Surface> surfaces_of(const aiScene& scene, bool with_backs, MeshBuilder& mesh) {
+std::vector<Surface>
+surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder& mesh) {
     std::vector<Surface> surfaces;
     for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
         const aiMaterial& from = *scene.mMaterials[i];
         aiString name;
         from.Get(AI_MATKEY_NAME, name);
-        models::Material material{.name = name.C_Str()};
+        models::Material material{
+            .name = name.C_Str(), .picture = picture_file_of(scene, from, file)};
         aiColor3D colour;
         if (from.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS) {
             const auto part = [](float value) {
@@ -74,7 +83,7 @@ std::vector<Surface> surfaces_of(const aiScene& scene, bool with_backs, MeshBuil
         }
         int two_sided = 0;
         surface.two_sided =
-            with_backs && from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
+            from.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
         surface.material = mesh.add_material(std::move(material));
         surfaces.push_back(surface);
     }
@@ -140,7 +149,7 @@ void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
             fmt::format(
                 "expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
     }
-    const std::vector<Surface> surfaces = surfaces_of(*scene, tells_two_sided(file), mesh);
+    const std::vector<Surface> surfaces = surfaces_of(*scene, file, mesh);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const aiMesh& from = *scene->mMeshes[i];
         add_mesh(

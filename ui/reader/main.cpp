@@ -1,7 +1,7 @@
-// octant-read-mesh LIBRARY IN OUT.chain: reads a mesh by a library and writes it as a chain of one
-// level. It runs beside octant, so that a file which makes the library crash, hang or eat memory
-// ends this program alone.
-#include "models/meshfile/level_chain.h"
+// octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as
+// OBJ, which holds all of it. PICTURES is "pictures" or "-", BACKS "backs" or "-". It runs beside
+// octant, so that a file which makes the library crash, hang or eat memory ends this program alone.
+#include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
 
@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
@@ -51,33 +52,41 @@ void limit() {
     alarm(most_s);
 }
 
-void read(const std::string& library, const std::string& in, const std::string& out) {
-    models::meshfile::MeshBuilder mesh(in, {.pictures = true, .backs = true});
+void read(
+    const std::string& library,
+    const models::meshfile::ReadOptions& options,
+    const std::string& in,
+    const std::string& out) {
+    models::meshfile::MeshBuilder mesh(in, options);
     if (library == "assimp") {
         ui::reader::read_by_assimp(in, mesh);
     } else {
         ui::reader::read_by_osg(in, mesh);
     }
-    models::meshfile::LevelChain chain;
-    chain.levels.push_back({mesh.finish(), 0.0});
-    chain.name = chain.levels.front().mesh.name;
-    models::meshfile::write_chain(out, chain);
+    models::meshfile::write_mesh(out, mesh.finish());
 }
 
 } // namespace
 
 int main(int count, char** words) {
-    if (count != 4) {
-        std::fputs("octant-read-mesh assimp|osg IN OUT.chain: started by octant\n", stderr);
+    if (count != 6) {
+        std::fputs(
+            "octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n",
+            stderr);
         return wrong_input;
     }
     limit();
     try {
-        read(words[1], words[2], words[3]);
+        read(
+            words[1],
+            {.pictures = std::string_view(words[2]) == "pictures",
+             .backs = std::string_view(words[3]) == "backs"},
+            words[4],
+            words[5]);
         return 0;
     } catch (const std::bad_alloc&) {
         std::fprintf(
-            stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[2]);
+            stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[4]);
     } catch (const std::exception& fault) {
         std::fprintf(stderr, "%s\n", fault.what());
     }

@@ -1,6 +1,6 @@
 #include "ui/world/library_mesh.h"
 
-#include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/utf8.h"
@@ -36,7 +36,7 @@ constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 30U;
 
 constexpr std::array libraries{
     Library{
-        "assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .off .x"},
+        "assimp", "Assimp", ".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .x"},
     Library{"osg", "OpenSceneGraph", ".flt .ive .osg .osgb .osgt"}};
 
 const Library* library_of(const fs::path& file) {
@@ -105,7 +105,8 @@ bool is_library_file(const fs::path& file) {
     return library_of(file) != nullptr;
 }
 
-models::TriangleMesh read_library_mesh(const fs::path& file) {
+models::TriangleMesh
+read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
     const Library& library = *library_of(file);
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
@@ -124,9 +125,14 @@ models::TriangleMesh read_library_mesh(const fs::path& file) {
                 ending_of(file)));
     }
     const ShortFolder folder;
-    const fs::path out = folder.path() / "mesh.chain";
+    const fs::path out = folder.path() / "mesh.obj";
     auto child = report::ChildProgram::start(
-        {program.string(), std::string(library.word), file.string(), out.string()});
+        {program.string(),
+         std::string(library.word),
+         options.pictures ? "pictures" : "-",
+         options.backs ? "backs" : "-",
+         file.string(),
+         out.string()});
     if (!child) {
         error_in(program, "expected a program that can be run, got another file");
     }
@@ -134,7 +140,7 @@ models::TriangleMesh read_library_mesh(const fs::path& file) {
     if (!ending.succeeded) {
         refuse(file, library, ending.last_complaint);
     }
-    models::TriangleMesh mesh = std::move(models::meshfile::read_chain(out).levels.front().mesh);
+    models::TriangleMesh mesh = models::meshfile::read_mesh(out);
     mesh.name = file.stem().string();
     return mesh;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/meshfile/read_options.h"
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
@@ -11,9 +12,10 @@ namespace octant::ui::world {
 bool is_library_file(const std::filesystem::path& file);
 
 /// Reads a mesh by a library in a process of its own, with limits of time (25 s) and memory
-/// (4 GiB), pictures baked into its colours. Throws Error "file: ..." in one line, also where the
-/// library crashes and where the program was built without it.
-models::TriangleMesh read_library_mesh(const std::filesystem::path& file);
+/// (4 GiB). Of the options `pictures` and `backs` count. Throws Error "file: ..." in one line, also
+/// where the library crashes and where the program was built without it.
+models::TriangleMesh read_library_mesh(
+    const std::filesystem::path& file, const models::meshfile::ReadOptions& options = {});
 
 /// The endings that this build reads by libraries, a line each; said by octant --version.
 std::string library_formats();

@@ -36,7 +36,7 @@ read_mesh_input(const std::string& name_or_file, const models::meshfile::ReadOpt
             return models::meshfile::read_mesh(base::aircraft_file(name_or_file), options);
         }
     }
-    return is_library_file(name_or_file) ? read_library_mesh(name_or_file)
+    return is_library_file(name_or_file) ? read_library_mesh(name_or_file, options)
                                          : models::meshfile::read_mesh(name_or_file, options);
 }
 

@@ -215,7 +215,7 @@ TEST_CASE("texture coordinates of a seam that meets itself stay right on both of
     }
     CHECK(has_begin);
     CHECK(has_end);
-    CHECK(seams.texture_error(welded).max < 0.05);
+    CHECK(seams.errors(welded).texture.max < 0.05);
 }
 
 TEST_CASE("unsimplified, each corner has the texture coordinates of the file, darts too") {
@@ -245,7 +245,7 @@ TEST_CASE("unsimplified, each corner has the texture coordinates of the file, da
             CHECK(glm::length(off) < 1e-6F);
         }
     }
-    CHECK(seams.texture_error(seams.marked()).max < 1e-6);
+    CHECK(seams.errors(seams.marked()).texture.max < 1e-6);
 }
 
 TEST_CASE("triangles are divided in their plane until texture coordinates keep their bound") {
@@ -256,9 +256,9 @@ TEST_CASE("triangles are divided in their plane until texture coordinates keep t
     const TriangleMesh welded = simplified(seams.marked(), options).mesh;
     REQUIRE(welded.triangles.size() == 2);
     // Straight from 0 to 1 instead of x * x: off by 1/4 at the middle.
-    CHECK(seams.texture_error(welded).max == Approx(0.25).margin(0.01));
+    CHECK(seams.errors(welded).texture.max == Approx(0.25).margin(0.01));
     constexpr double bound = 0.02;
-    const TriangleMesh divided = seams.divided(welded, bound, 4'000);
+    const TriangleMesh divided = seams.divided(welded, {.texture = bound}, 4'000);
     CHECK(divided.triangles.size() > 8);
     CHECK(divided.triangles.size() < 200);
     CHECK(area_m2(divided) == Approx(area_m2(welded)));
@@ -275,7 +275,39 @@ TEST_CASE("triangles are divided in their plane until texture coordinates keep t
         }
         CHECK(std::abs(u - middle_m.x * middle_m.x) < bound + 1e-3);
     }
-    CHECK(seams.divided(welded, bound, 6).triangles.size() <= 7);
+    CHECK(seams.divided(welded, {.texture = bound}, 6).triangles.size() <= 7);
+}
+
+TEST_CASE("triangles are divided until normals and colours keep their bounds") {
+    TriangleMesh mesh = bent_picture(32);
+    mesh.corner_normals = mesh.triangles;
+    for (const glm::vec2& place : mesh.texture_coordinates) { // Its u is x * x.
+        mesh.normals.emplace_back(std::sin(place.x), 0.0F, std::cos(place.x));
+        mesh.colours.emplace_back(place.x, 0.5F, 0.5F);
+    }
+    mesh.texture_coordinates.clear();
+    mesh.corner_texture_coordinates.clear();
+    const AttributeSeams seams(mesh, {});
+    SimplifyOptions options;
+    options.effort = fast_effort;
+    options.goal.faces = 2;
+    options.colour_weight = 0.0;
+    const TriangleMesh welded = simplified(seams.marked(), options).mesh;
+    REQUIRE(welded.triangles.size() == 2);
+    // At the middle 0.5 rad instead of 0.25 rad.
+    CHECK(seams.errors(welded).normal_deg.max == Approx(14.3).margin(0.6));
+    const TriangleMesh by_normals = seams.divided(welded, {.normal_deg = 2.0}, 4'000);
+    CHECK(seams.errors(by_normals).normal_deg.max <= 2.0);
+    CHECK(by_normals.triangles.size() < 100);
+    CHECK(seams.with_attributes(by_normals).corner_normals.size() == by_normals.triangles.size());
+    const TriangleMesh by_colours = seams.divided(welded, {.colour = 0.02}, 4'000);
+    CHECK(seams.errors(by_colours).colour.max <= 0.02);
+    CHECK(by_colours.triangles.size() > 8);
+    const TriangleMesh made = seams.with_attributes(by_colours);
+    for (std::size_t v = 0; v < made.vertices_m.size(); ++v) {
+        const double x = made.vertices_m[v].x;
+        CHECK(std::abs(static_cast<double>(made.colours[v].x) - x * x) < 1e-3);
+    }
 }
 
 TEST_CASE("a locked border keeps all its vertices to the bit") {

@@ -206,3 +206,21 @@ TEST_CASE("meshes with random holes, handles and parts stay manifolds, and close
         CHECK(same_bytes(simplified(fine, options).mesh, made));
     }
 }
+
+TEST_CASE("for a wanted error shells go that lie nearer to others than that, unless they are kept") {
+    TriangleMesh mesh;
+    add_ball(mesh, 1.0, 0.0);
+    add_ball(mesh, 0.97, 0.0); // within the first, 0.03 from it
+    add_ball(mesh, 0.3, 9.0);
+    SimplifyOptions options;
+    options.goal.error_m = 0.12;
+    const Simplified fewer = simplified(mesh, options);
+    CHECK(fewer.shells_gone == 1);
+    CHECK(euler_number(fewer.mesh) == 4);
+    CHECK(fewer.steps > 0);
+    options.goal.error_m = 0.02;
+    CHECK(simplified(mesh, options).shells_gone == 0);
+    options.goal.error_m = 0.12;
+    options.keep_shells = true;
+    CHECK(euler_number(simplified(mesh, options).mesh) == 6);
+}

@@ -1,6 +1,7 @@
 #include "models/measure/flipped_area.h"
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
+#include "models/simplify/attribute_seams.h"
 #include "models/simplify/simplify.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
@@ -211,7 +212,9 @@ TEST_CASE("corner normals come from the original, on both sides of a sharp edge"
         fine.normals.emplace_back(n);
         fine.corner_normals.push_back({number, number, number});
     }
-    const TriangleMesh mesh = simplified(fine, to_faces(12)).mesh;
+    const AttributeSeams seams(fine, {});
+    const TriangleMesh mesh =
+        seams.with_attributes(simplified(seams.marked(), to_faces(12)).mesh);
     REQUIRE(mesh.corner_normals.size() == 12);
     CHECK(mesh.normals.size() == 6);
     for (std::size_t t = 0; t < 12; ++t) {
