@@ -104,7 +104,7 @@ MeshView widened(const MeshView& view, const glm::dquat& turn) {
 
 /// How far the ground reaches at least in directions that the picture may show, level.
 double least_reach_m(const MeshView& view, const glm::dvec2& half_m) {
-    const double corner_rad = std::acos(view.corner_cos);
+    const double corner_rad = std::acos(std::min(view.corner_cos, 1.0));
     double least_m = std::numeric_limits<double>::infinity();
     for (const double aside_rad : {-corner_rad, 0.0, corner_rad}) {
         const double azimuth_rad = std::atan2(view.ahead.y, view.ahead.x) + aside_rad;
