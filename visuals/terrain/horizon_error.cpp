@@ -6,13 +6,19 @@
 // the picture within a few degrees, and the error that keeps the budget is five times larger a few
 // frames later. Vertices move S pixels for a pixel of that change (tile_builder_errors.cpp).
 //
-// So the error of such a view is kept at or above that of the same view turned to the horizon, less
-// a share of how far the picture moves in that turn. The first degrees of the turn are not counted:
-// the horizon comes in there, and the error that keeps the budget changes fastest. So what a turn
-// does to a vertex stays below S times that share of what it does to the picture.
+// So the error of such a view is kept at or above that of the same view turned until its border
+// reaches the band of far ground, less a share of how far the picture moves in that turn. The band
+// is not turned to but added: the frustum of the turned view is widened until it contains all of
+// the band. A larger frustum never needs a smaller error, so this error is no less than that of any
+// view on the way through the band, where the error that keeps the budget has its peak at a place
+// that only the ground knows. It becomes the view's own error, without a step, where the band is in
+// the picture. What a turn does to a vertex stays below S times that share of what it does to the
+// picture.
 #include "visuals/terrain/horizon_error.h"
 
 #include "sim/base/units.h"
+#include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/tile_builder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -20,21 +26,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace octant::visuals::terrain {
 
 namespace {
 
-/// How far from the picture's border the horizon is turned.
+/// How far inside the picture's border the band's far end is in the widened view.
 constexpr double border_rad = rad_from_deg(1.0);
-/// Far ground lies within this angle below its end: it comes into the picture or leaves it while
-/// the view turns by as much.
+/// Ground that is seen this much lower than the map's end counts as far where the view looks above
+/// the horizon.
 constexpr double far_ground_rad = rad_from_deg(4.0);
-/// How much the error may change in a turn, as a share of how far that moves the picture.
-constexpr double share_of_turn = 0.006;
+/// The band's elevations are limited to these: where the map's end is near, it is near ground.
+constexpr double lowest_band_rad = rad_from_deg(-30.0);
+constexpr double highest_band_rad = rad_from_deg(15.0);
+/// How far vertices may move in a turn, as a share of how far that moves the picture.
+constexpr double vertex_share_of_turn = 0.056;
 
-/// The angle from `ahead` to the frustum's border in a direction square to it.
+/// The angle from the view's middle to the frustum's border in a direction square to `ahead`.
 double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
     double least_rad = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& normal : view.frustum_normals) {
@@ -46,8 +56,7 @@ double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
     return least_rad;
 }
 
-MeshView turned(const MeshView& view, double angle_rad, const glm::dvec3& axis) {
-    const glm::dquat turn = glm::angleAxis(angle_rad, axis);
+MeshView turned(const MeshView& view, const glm::dquat& turn) {
     MeshView there = view;
     there.ahead = turn * view.ahead;
     for (glm::dvec3& normal : there.frustum_normals) {
@@ -56,67 +65,127 @@ MeshView turned(const MeshView& view, double angle_rad, const glm::dvec3& axis) 
     return there;
 }
 
+/// Calls take(direction) for each corner of a frustum.
+template <typename Take>
+void for_each_corner(const std::array<glm::dvec3, 4>& normals, const Take& take) {
+    for (std::size_t a = 0; a < normals.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            for (const double sign : {1.0, -1.0}) {
+                const glm::dvec3 corner = sign * glm::cross(normals[a], normals[b]);
+                bool is_corner = true;
+                for (std::size_t k = 0; k < normals.size(); ++k) {
+                    is_corner &= k == a || k == b || glm::dot(normals[k], corner) > 0.0;
+                }
+                if (is_corner) {
+                    take(corner);
+                }
+            }
+        }
+    }
+}
+
+/// The view with each plane of its frustum tilted outwards by as little as makes it contain the
+/// frustum turned by `turn`, at most until it is square to `ahead`.
+MeshView widened(const MeshView& view, const glm::dquat& turn) {
+    MeshView wide = view;
+    for (glm::dvec3& normal : wide.frustum_normals) {
+        double tilt_rad = 0.0;
+        for_each_corner(view.frustum_normals, [&](const glm::dvec3& corner) {
+            const glm::dvec3 there = turn * corner;
+            const double deep = std::max(glm::dot(view.ahead, there), 0.0);
+            tilt_rad = std::max(tilt_rad, std::atan2(-glm::dot(normal, there), deep));
+        });
+        if (tilt_rad > 0.0) {
+            normal = glm::normalize(std::cos(tilt_rad) * normal + std::sin(tilt_rad) * view.ahead);
+        }
+    }
+    return wide;
+}
+
+/// How far the ground reaches at least in directions that the picture may show, level.
+double least_reach_m(const MeshView& view, const glm::dvec2& half_m) {
+    const double corner_rad = std::acos(std::min(view.corner_cos, 1.0));
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const double aside_rad : {-corner_rad, 0.0, corner_rad}) {
+        const double azimuth_rad = std::atan2(view.ahead.y, view.ahead.x) + aside_rad;
+        const glm::dvec2 along(std::cos(azimuth_rad), std::sin(azimuth_rad));
+        for (const int axis : {0, 1}) {
+            const double to_end_m = std::copysign(half_m[axis], along[axis]) - view.eye_m[axis];
+            if (along[axis] != 0.0) {
+                least_m = std::min(least_m, to_end_m / along[axis]);
+            }
+        }
+    }
+    return least_m;
+}
+
 } // namespace
 
-std::optional<TurnedView> turned_to(const MeshView& view, double elevation_rad) {
+std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& band) {
     const glm::dvec3 level_axis = glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0));
     const double level = glm::length(level_axis);
     if (level < 1e-6) {
         return std::nullopt;
     }
     const glm::dvec3 axis = level_axis / level;
-    const double up_rad = elevation_rad - std::atan2(view.ahead.z, level);
-    const double way = up_rad < 0.0 ? -1.0 : 1.0;
+    const double own_rad = std::atan2(view.ahead.z, level);
+    const double middle_rad = 0.5 * (band.low_rad + band.high_rad);
+    const double way = own_rad < middle_rad ? 1.0 : -1.0;
     const double to_border_rad = angle_to_border(view, way * glm::cross(axis, view.ahead));
-    const double to_horizon_rad =
-        std::abs(up_rad) - to_border_rad + std::min(border_rad, 0.5 * to_border_rad);
-    if (!(to_horizon_rad > 0.0)) {
+    const double margin_rad = std::min(border_rad, 0.5 * to_border_rad);
+    // A picture with the band's middle in its own middle shows all that counts of the band.
+    const double half_rad = std::min(
+        way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
+        to_border_rad - margin_rad);
+    const double whole_rad = way * (middle_rad - own_rad) + half_rad - to_border_rad + margin_rad;
+    if (!(whole_rad > 0.0)) {
         return std::nullopt;
     }
-    return TurnedView{turned(view, way * to_horizon_rad, axis), to_horizon_rad};
+    const double near_half_rad =
+        std::min(way > 0.0 ? middle_rad - band.low_rad : band.high_rad - middle_rad, half_rad);
+    const double wide_rad = std::min(whole_rad, half_rad + near_half_rad + margin_rad);
+    const double moved_rad = whole_rad - wide_rad;
+    const MeshView there = turned(view, glm::angleAxis(way * moved_rad, axis));
+    return TurnedView{widened(there, glm::angleAxis(way * wide_rad, axis)), moved_rad};
 }
 
 HorizonError::HorizonError(const GroundTiles& ground)
     : rule_(ground)
-    , survey_(rule_) {}
+    , survey_(rule_)
+    , share_of_turn_(
+          vertex_share_of_turn /
+          static_cast<double>(far_move_on(ground.facts().highest_m - ground.facts().lowest_m))) {}
 
 ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target) {
     if (!target.geomorphs || target.most_triangles >= any_triangles) {
         return target;
     }
-    const auto there = turned_to(view, missing_rad(view));
+    const auto there = turned_to(view, far_ground(view));
     if (!there) {
         return target;
     }
     rule_.look_from(there->view);
     const double there_px = rule_.error_px_of(survey_.limit_for(target));
-    const double moved_px = view.focal_px * std::max(there->turned_rad - far_ground_rad, 0.0);
+    const double moved_px = view.focal_px * there->turned_rad;
     ErrorTarget eased = target;
-    eased.error_px = std::max(target.error_px, there_px - share_of_turn * moved_px);
+    eased.error_px = std::max(target.error_px, there_px - share_of_turn_ * moved_px);
     return eased;
 }
 
-/// The elevation of that border of far ground that leaves the picture first: of the highest ground
-/// at its end when the view turns down, so that mountains there count, else of where it begins,
-/// below its end at the ground's mean height but not above level.
-double HorizonError::missing_rad(const MeshView& view) const {
+/// Between which elevations ground at the map's end may be seen.
+ElevationBand HorizonError::far_ground(const MeshView& view) const {
     const GroundTiles& ground = rule_.ground();
-    const glm::dvec2 half_m = ground.half_extent_m();
-    double end = std::numeric_limits<double>::infinity(); // in lengths of `ahead`
-    for (const int axis : {0, 1}) {
-        const double ahead = view.ahead[axis];
-        if (ahead != 0.0) {
-            end = std::min(end, (std::copysign(half_m[axis], ahead) - view.eye_m[axis]) / ahead);
-        }
-    }
-    const double level = glm::length(glm::dvec2(view.ahead));
-    const double away_m = std::max(end * level, ground.spacing_m());
-    const auto over_m = [&view](float height_m) {
-        return view.eye_m.z - static_cast<double>(height_m);
+    const double away_m = std::max(least_reach_m(view, ground.half_extent_m()), ground.spacing_m());
+    const double lowered_m = earth_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
+    const auto elevation_rad = [&](float height_m) {
+        return std::clamp(
+            std::atan2(static_cast<double>(height_m) - lowered_m, away_m),
+            lowest_band_rad,
+            highest_band_rad);
     };
-    const double end_rad = -std::atan2(std::max(over_m(ground.facts().mean_m), 0.0), away_m);
-    const bool above = std::atan2(view.ahead.z, level) > end_rad;
-    return above ? end_rad - far_ground_rad : -std::atan2(over_m(ground.facts().highest_m), away_m);
+    // A degree more, because the picture's corners may show ends that are nearer.
+    const double low_rad = std::min(elevation_rad(ground.facts().lowest_m), 0.0) - border_rad;
+    return {low_rad, std::max(elevation_rad(ground.facts().highest_m), low_rad + border_rad)};
 }
 
 } // namespace octant::visuals::terrain

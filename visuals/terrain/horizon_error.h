@@ -9,16 +9,23 @@
 
 namespace octant::visuals::terrain {
 
-/// A view that was turned about a level axis.
-struct TurnedView {
-    MeshView view;
-    double turned_rad = 0.0; ///< Above zero.
+/// Elevations, in radians above level.
+struct ElevationBand {
+    double low_rad = 0.0;
+    double high_rad = 0.0; ///< At or above the low one.
 };
 
-/// The view, turned up or down by as little as brings a line at this elevation (radians above
-/// level) into the picture on the way of the turn. Nothing where it is there already, and where the
-/// view has no direction or frustum or looks straight up or down.
-std::optional<TurnedView> turned_to(const MeshView& view, double elevation_rad);
+/// A view that was turned about a level axis and then widened.
+struct TurnedView {
+    MeshView view;
+    double turned_rad = 0.0; ///< Without the widening; at or above zero.
+};
+
+/// The view, turned up or down until its border reaches a band, and widened until it contains the
+/// band on the way of the turn. Looking above the band, what lies 4 degrees below it belongs to it.
+/// A view whose border is in the band is only widened. Nothing where the band is in the picture
+/// already, and where the view has no direction or frustum or looks straight up or down.
+std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& band);
 
 /// Finds the error below which a mesh within a budget is not to be refined, so that vertices do not
 /// jump when the view turns to the horizon (horizon_error.cpp).
@@ -37,10 +44,11 @@ public:
     ErrorTarget eased(const MeshView& view, const ErrorTarget& target);
 
 private:
-    double missing_rad(const MeshView& view) const;
+    ElevationBand far_ground(const MeshView& view) const;
 
     ErrorRule rule_;
     ErrorSurvey survey_;
+    double share_of_turn_; ///< How much the error may change in a turn, in pixels that it moves.
 };
 
 } // namespace octant::visuals::terrain

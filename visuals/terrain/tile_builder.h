@@ -20,6 +20,10 @@ struct TilePlace {
     int row = 0;
 };
 
+/// How far a vertex may move at most, in wanted errors, while the wanted error changes by a small
+/// share of itself, divided by that share: S of ground with this relief (tile_builder_errors.cpp).
+float far_move_on(float relief_m);
+
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
 /// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
 class TileBuilder {

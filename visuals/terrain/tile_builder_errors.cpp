@@ -49,6 +49,11 @@ std::size_t index_of(int column, int row, int columns) {
            static_cast<std::size_t>(column);
 }
 
+/// How many times larger S is than on rugged ground.
+float ease_of(float relief_m) {
+    return std::clamp(rugged_m / relief_m, 1.0F, most_ease);
+}
+
 /// Raises a row of codes to others.
 void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
     for (std::size_t i = 0; i < least.size(); ++i) {
@@ -57,6 +62,10 @@ void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
 }
 
 } // namespace
+
+float far_move_on(float relief_m) {
+    return far_move * ease_of(relief_m);
+}
 
 /// Finds out what a lattice of more than one sample's step does not see.
 void TileBuilder::fetch_unseen() {
@@ -109,9 +118,8 @@ void TileBuilder::measure_relief() {
     const int stored = whole.highest - whole.lowest;
     const float relief = static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
     const float relief_m = relief * static_cast<float>(heights_.number_unit_m);
-    const float ease = std::clamp(rugged_m / relief_m, 1.0F, most_ease);
-    near_move_ = near_move * ease;
-    far_move_ = far_move * ease;
+    near_move_ = near_move * ease_of(relief_m);
+    far_move_ = far_move_on(relief_m);
     slowest_share_ = 1.0F / far_move_;
     move_by_error_ = near_move_ / (near_error * relief);
 }
