@@ -9,6 +9,7 @@
 #include "models/simplify/simplify.h"
 
 #include "models/measure/mesh_distance.h"
+#include "models/measure/sampled_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/edge_collapse.h"
 #include "models/simplify/optimize.h"
@@ -129,6 +130,25 @@ void assign_from(
     samples.assign_all(faces, distances2, surface.mesh);
 }
 
+/// An optimized mesh, or the one before where that is nearer to the original by the quadratic mean.
+/// The points for that are not those that the optimization has seen. Colours, where there are any,
+/// may have got better at the expense of places, so that they have no such bound.
+TriangleMesh better_of(const TriangleMesh& original, TriangleMesh before, TriangleMesh optimized) {
+    if (!original.colours.empty()) {
+        return optimized;
+    }
+    constexpr std::size_t samples = 4'000;
+    const measure::TargetSurface target(original);
+    const auto rms_m = [&](const TriangleMesh& mesh) {
+        const measure::SampleOptions how{.samples = samples};
+        const measure::TargetSurface made(mesh);
+        return std::max(
+            measure::sampled_distance(original, made, how).rms_m,
+            measure::sampled_distance(mesh, target, how).rms_m);
+    };
+    return rms_m(before) < rms_m(optimized) ? std::move(before) : std::move(optimized);
+}
+
 /// Collapses of a mesh, with samples of what it was. A copy goes on from the same state.
 class Simplification {
 public:
@@ -177,16 +197,19 @@ public:
         shells_gone_ = collapse_by_samples(collapsing_, *samples_, *target_, goal, options_);
     }
 
-    /// Returns the number of steps.
-    std::size_t optimize(const SimplifyOptions& options) {
-        return simplify::optimize(
+    /// Optimizes the mesh where that makes it better. Returns the number of steps.
+    std::size_t optimize(const SimplifyOptions& options, TriangleMesh& mesh) {
+        mesh = surface_.to_mesh(original_, units_);
+        const std::size_t steps = simplify::optimize(
             surface_,
             *samples_,
             *target_,
             optimize_options(options, faces(), original_.triangles.size()));
+        if (steps > 0) {
+            mesh = better_of(original_, std::move(mesh), surface_.to_mesh(original_, units_));
+        }
+        return steps;
     }
-
-    TriangleMesh mesh() const { return surface_.to_mesh(original_, units_); }
 
     /// Adds what has changed in the topology.
     void tell(Simplified& result) const {
@@ -293,8 +316,8 @@ private:
     double attempt(const Simplification& state) {
         const double start_s = cpu_s();
         Simplification copy(state);
-        const std::size_t steps = copy.optimize(trying_);
-        TriangleMesh mesh = copy.mesh();
+        TriangleMesh mesh;
+        const std::size_t steps = copy.optimize(trying_, mesh);
         result_.optimize_cpu_s += cpu_s() - start_s;
         if (trying_.max_seconds) {
             trying_.max_seconds.reset(); // Other tries take as many steps.
@@ -369,8 +392,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
     work.tell(result);
-    result.steps = work.optimize(options);
-    result.mesh = work.mesh();
+    result.steps = work.optimize(options, result.mesh);
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
     if (result.shells_gone == 0 && result.handles_cut == 0) {
@@ -419,7 +441,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
         samples,
         target,
         optimize_options(options, mesh.triangles.size(), original.triangles.size()));
-    return surface.to_mesh(mesh, units);
+    return better_of(original, mesh, surface.to_mesh(mesh, units));
 }
 
 } // namespace octant::models::simplify

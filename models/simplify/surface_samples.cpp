@@ -47,28 +47,20 @@ SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wante
     const std::size_t vertices = mesh.vertex_count();
     samples_.reserve(std::max(wanted, vertices));
     if (wanted <= vertices) {
-        add_vertices(original, vertex_areas, vertices / std::max<std::size_t>(wanted, 1));
+        add_on_faces(original, areas, std::max<std::size_t>(wanted, 1), false);
+        add_to_bare_shells(original, areas);
         return;
     }
     for (double& area : vertex_areas) {
         area *= vertex_share;
     }
-    add_vertices(original, vertex_areas, 1);
-    add_on_faces(original, areas, wanted - vertices);
+    add_vertices(original, vertex_areas);
+    add_on_faces(original, areas, std::max(wanted - vertices, wanted / 4), true);
 }
 
-/// Adds every stride-th vertex, which stands for those before it too: neighbours mostly follow each
-/// other.
-void SurfaceSamples::add_vertices(
-    const WorkingSurface& from, std::span<const double> areas, std::size_t stride) {
-    double area = 0.0;
-    std::size_t counted = 0;
+void SurfaceSamples::add_vertices(const WorkingSurface& from, std::span<const double> areas) {
     for (std::uint32_t vertex = 0; vertex < areas.size(); ++vertex) {
         if (!from.mesh.vertex_is_there(vertex)) {
-            continue;
-        }
-        area += areas[vertex];
-        if (++counted % stride != 0 && vertex + 1 != areas.size()) {
             continue;
         }
         const std::uint32_t face = from.mesh.face_at(vertex);
@@ -76,14 +68,18 @@ void SurfaceSamples::add_vertices(
         for (int i = 0; i < 3; ++i) {
             weights[i] = from.mesh.corners(face)[static_cast<std::size_t>(i)] == vertex ? 1.0 : 0.0;
         }
-        add(from, face, weights, area);
-        area = 0.0;
+        add(from, face, weights, areas[vertex]);
     }
 }
 
 /// Adds points spread evenly over the area: point k at (k + 1/2) / count of the accumulated area.
+/// Where vertices are no samples by themselves, the point of a small triangle is a corner, as corners
+/// are what sticks out.
 void SurfaceSamples::add_on_faces(
-    const WorkingSurface& from, std::span<const double> areas, std::size_t count) {
+    const WorkingSurface& from,
+    std::span<const double> areas,
+    std::size_t count,
+    bool with_vertices) {
     double total = 0.0;
     for (const double area : areas) {
         total += area;
@@ -97,10 +93,49 @@ void SurfaceSamples::add_on_faces(
             std::min(count, static_cast<std::size_t>(std::max(0.0, end / spacing + 0.5)));
         const std::size_t here = spacing > 0.0 && until > placed ? until - placed : 0;
         for (std::size_t i = 0; i < here; ++i) {
-            const glm::dvec3 weights = here == 1 ? glm::dvec3(1.0 / 3.0) : spread_weights(i);
-            add(from, face, weights, (1.0 - vertex_share) * spacing);
+            glm::dvec3 weights = spread_weights(i);
+            if (here == 1) {
+                const bool is_small = !with_vertices && areas[face] < 0.5 * spacing;
+                weights = glm::dvec3(is_small ? 0.0 : 1.0 / 3.0);
+                weights[0] = is_small ? 1.0 : weights[0];
+            }
+            add(from, face, weights, (with_vertices ? 1.0 - vertex_share : 1.0) * spacing);
         }
         placed += here;
+    }
+}
+
+/// Adds the middle of the largest triangle of each shell that has no sample.
+void SurfaceSamples::add_to_bare_shells(
+    const WorkingSurface& from, std::span<const double> areas) {
+    const CollapsibleMesh& mesh = from.mesh;
+    std::vector<bool> is_found(areas.size(), false);
+    std::vector<std::uint32_t> shell;
+    for (std::uint32_t start = 0; start < areas.size(); ++start) {
+        if (is_found[start] || !mesh.face_is_there(start)) {
+            continue;
+        }
+        is_found[start] = true;
+        shell.assign(1, start);
+        std::uint32_t largest = start;
+        double area = 0.0;
+        bool is_bare = true;
+        for (std::size_t i = 0; i < shell.size(); ++i) {
+            const std::uint32_t face = shell[i];
+            area += areas[face];
+            largest = areas[face] > areas[largest] ? face : largest;
+            is_bare = is_bare && counts_[face] == 0;
+            for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
+                const HalfEdge twin = mesh.twin(h);
+                if (twin != none && !is_found[face_of(twin)]) {
+                    is_found[face_of(twin)] = true;
+                    shell.push_back(face_of(twin));
+                }
+            }
+        }
+        if (is_bare) {
+            add(from, largest, glm::dvec3(1.0 / 3.0), area);
+        }
     }
 }
 

@@ -48,9 +48,10 @@ struct WayBack {
 /// Steps only touch the lists of triangles that change.
 class SurfaceSamples {
 public:
-    /// About `wanted` samples of a mesh (working units): vertices, and points spread over the area
-    /// where `wanted` exceeds the number of vertices. Of more vertices some are left out evenly.
-    /// At first each sample is in the list of a triangle that it lies on.
+    /// About `wanted` samples of a mesh (working units), spread over the area: each triangle that is
+    /// larger than the area of one sample has some, and so has each shell. All vertices are samples
+    /// where they are fewer. At first each sample is in the list of a triangle that
+    /// it lies on.
     SurfaceSamples(const WorkingSurface& original, std::size_t wanted);
 
     std::size_t size() const { return samples_.size(); }
@@ -118,8 +119,13 @@ public:
 
 private:
     void add(const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area);
-    void add_vertices(const WorkingSurface& from, std::span<const double> areas, std::size_t stride);
-    void add_on_faces(const WorkingSurface& from, std::span<const double> areas, std::size_t count);
+    void add_vertices(const WorkingSurface& from, std::span<const double> areas);
+    void add_on_faces(
+        const WorkingSurface& from,
+        std::span<const double> areas,
+        std::size_t count,
+        bool with_vertices);
+    void add_to_bare_shells(const WorkingSurface& from, std::span<const double> areas);
 
     std::vector<SurfaceSample> samples_;
     std::vector<std::array<float, 3>> colours_; ///< Empty = no colours.

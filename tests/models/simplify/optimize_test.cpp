@@ -2,6 +2,7 @@
 #include "models/simplify/collapsible_mesh.h"
 #include "models/simplify/original_surface.h"
 #include "models/simplify/simplify.h"
+#include "models/simplify/surface_samples.h"
 #include "models/simplify/working_surface.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::simplify;
@@ -51,6 +53,36 @@ TEST_CASE("more effort never leads farther off than collapses alone") {
             CHECK(now_m <= last_m);
             last_m = now_m;
         }
+    }
+}
+
+TEST_CASE("few samples of a dense mesh stand for its large triangles by area and for each shell") {
+    const std::size_t ground = hills_with_boxes(0, 1.0).triangles.size();
+    const auto sampled = [&](int boxes, double edge_m) {
+        const TriangleMesh mesh = hills_with_boxes(boxes, edge_m);
+        return SurfaceSamples(WorkingSurface(mesh, WorkingUnits{}), 500);
+    };
+    const SurfaceSamples one = sampled(1, 0.2);
+    CHECK(one.size() <= 510);
+    double box_m2 = 0.0;
+    double all_m2 = 0.0;
+    for (std::uint32_t sample = 0; sample < one.size(); ++sample) {
+        const double weight = static_cast<double>(one[sample].weight);
+        all_m2 += weight;
+        box_m2 += one[sample].triangle >= ground ? weight : 0.0;
+    }
+    CHECK(box_m2 == Approx(0.24).epsilon(0.02));
+    CHECK(all_m2 == Approx(area_m2(hills_with_boxes(1, 0.2))).epsilon(0.001));
+    for (std::uint32_t triangle = 0; triangle < 12; ++triangle) {
+        CHECK(one.count(static_cast<std::uint32_t>(ground) + triangle) >= 5); // 0.02 of 1.28 m2
+    }
+    const SurfaceSamples small = sampled(20, 0.001);
+    for (std::uint32_t box = 0; box < 20; ++box) {
+        std::size_t count = 0;
+        for (std::uint32_t i = 0; i < 12; ++i) {
+            count += small.count(static_cast<std::uint32_t>(ground) + 12 * box + i);
+        }
+        CHECK(count >= 1);
     }
 }
 

@@ -169,6 +169,25 @@ TriangleMesh machined_part(int n) {
     return std::move(w.mesh);
 }
 
+TriangleMesh hills_with_boxes(int boxes, double edge_m) {
+    TriangleMesh mesh = strip(100, 100);
+    for (glm::dvec3& vertex_m : mesh.vertices_m) {
+        vertex_m.z = 0.02 * std::sin(12.0 * vertex_m.x) * std::cos(9.0 * vertex_m.y);
+    }
+    const TriangleMesh box = cube(1);
+    for (int i = 0; i < boxes; ++i) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+        const glm::dvec3 corner_m(0.05 + 0.17 * (i % 6), 0.05 + 0.17 * (i / 6), 0.3);
+        for (const glm::dvec3& vertex : box.vertices_m) {
+            mesh.vertices_m.push_back(corner_m + edge_m * vertex);
+        }
+        for (const auto& [a, b, c] : box.triangles) {
+            mesh.triangles.push_back({a + first, b + first, c + first});
+        }
+    }
+    return mesh;
+}
+
 bool is_manifold(const TriangleMesh& mesh) {
     for (const auto& [edge, count] : directed_edges(mesh)) {
         if (count > 1 || edge.first == edge.second) {

@@ -26,6 +26,9 @@ models::TriangleMesh strip(int n, int m);
 /// A block with a step, rounded on one side, whose edges are sharp: like a part of a machine.
 models::TriangleMesh machined_part(int n);
 
+/// Hills of 100 x 100 fields over a unit square, and above them boxes of 12 triangles and this edge.
+models::TriangleMesh hills_with_boxes(int boxes, double edge_m);
+
 /// Whether no edge lies in two triangles the same way round, no three vertices form two triangles,
 /// and no triangle has a vertex twice.
 bool is_manifold(const models::TriangleMesh& mesh);
