@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace octant::models::simplify {
@@ -79,12 +80,13 @@ Shells::Shells(
     }
 }
 
-/// The nearest point of another shell of the original that was not dropped.
-measure::NearestOnMesh
-Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place) const {
+/// The nearest point of another shell of the original that was not dropped. There may be none where
+/// it is farther than `max_distance`.
+measure::NearestOnMesh Shells::nearest_other(
+    std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
     measure::NearestOnMesh found;
-    for (double within = std::min(1e-3, max_distance_);
-         found.triangle == none && within < 4.0 * max_distance_;
+    for (double within = std::min(1e-3, max_distance);
+         found.triangle == none && within < 4.0 * max_distance;
          within *= 4.0) {
         found.distance2 = within * within;
         bvh_->for_each_near(place, within, [&](std::uint32_t triangle) {
@@ -112,13 +114,13 @@ double Shells::cost(std::uint32_t shell) const {
     for (const std::uint32_t face : faces_[shell]) {
         if (surface_.mesh.face_is_there(face)) {
             all += samples_.count(face);
-            present += samples_.error(face) - samples_.back_error(face);
         }
     }
     const std::size_t stride = max_distance_ < max_shell_distance ? 1 : all / asked_samples + 1;
     double weights = 0.0;
     double asked_weights = 0.0;
     double sum = 0.0;
+    bool is_far = all == 0; // Nothing is known of where it is.
     std::size_t place = 0;
     for (const std::uint32_t face : faces_[shell]) {
         if (!surface_.mesh.face_is_there(face)) {
@@ -127,16 +129,19 @@ double Shells::cost(std::uint32_t shell) const {
         samples_.for_each(face, [&](std::uint32_t number) {
             const SurfaceSample& sample = samples_[number];
             weights += static_cast<double>(sample.weight);
-            if (place++ % stride == 0) {
+            present += static_cast<double>(sample.weight) *
+                       samples_.penalty().of(static_cast<double>(sample.distance2));
+            if (!is_far && place++ % stride == 0) {
                 const glm::dvec3 at(sample.place[0], sample.place[1], sample.place[2]);
-                const measure::NearestOnMesh other = nearest_other(shell, at);
+                const measure::NearestOnMesh other = nearest_other(shell, at, max_distance_);
+                is_far = other.triangle == none || other.distance2 > max_distance_ * max_distance_;
                 asked_weights += static_cast<double>(sample.weight);
-                sum += static_cast<double>(sample.weight) *
-                       (other.triangle == none || other.distance2 > max_distance_ * max_distance_
-                            ? infinite
-                            : samples_.penalty().of(other.distance2));
+                sum += static_cast<double>(sample.weight) * samples_.penalty().of(other.distance2);
             }
         });
+    }
+    if (is_far) {
+        return infinite;
     }
     return asked_weights > 0.0 ? sum * weights / asked_weights - present : 0.0;
 }
@@ -147,14 +152,11 @@ double Shells::cost(std::uint32_t shell) const {
 void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers) {
     for (const std::uint32_t number : numbers) {
         const std::array<float, 3>& at = samples_[number].place;
-        const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]});
-        std::uint32_t start = none;
-        if (other.triangle != none && sample_near_[other.triangle] != none) {
-            start = samples_[sample_near_[other.triangle]].face;
-        }
-        if (start == none || !surface_.mesh.face_is_there(start)) {
-            continue; // It is in no list, and so counts no more.
-        }
+        // No two points are farther apart than the diagonal, which is 1, and each shell has samples.
+        const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
+        assert(other.triangle != none && sample_near_[other.triangle] != none);
+        const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
+        assert(surface_.mesh.face_is_there(start));
         float distance2 = 0.0F;
         const std::uint32_t face = nearest_face_from(surface_, start, at, distance2);
         samples_.put(number, face, distance2);

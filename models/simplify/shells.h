@@ -65,7 +65,8 @@ public:
 
 private:
     void move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers);
-    measure::NearestOnMesh nearest_other(std::uint32_t shell, const glm::dvec3& place) const;
+    measure::NearestOnMesh
+    nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const;
 
     WorkingSurface& surface_;
     SurfaceSamples& samples_;

@@ -124,6 +124,30 @@ TEST_CASE("of shells that must go those go that lie by others, small ones far of
         fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
 }
 
+TEST_CASE("parts above a dense mesh do not vanish where another step costs less") {
+    const TriangleMesh fine = hills_with_boxes(20, 0.03);
+    SimplifyOptions options;
+    options.goal.faces = 140;
+    for (const int effort : {0, 4}) {
+        options.effort = effort;
+        const Simplified fewer = simplified(fine, options);
+        CHECK(fewer.mesh.triangles.size() <= 140);
+        CHECK(fewer.shells_gone == 0);
+        CHECK(measure::distance(fine, fewer.mesh, {.samples = 0}).most_hausdorff_m() < 0.1);
+    }
+}
+
+TEST_CASE("a part that is far from all others does not vanish, whatever the goal") {
+    TriangleMesh mesh;
+    add_part(mesh, cube(1), 0.0);
+    add_part(mesh, cube(1), 100.0);
+    SimplifyOptions options;
+    options.goal.faces = 4;
+    const Simplified fewer = simplified(mesh, options);
+    CHECK(fewer.shells_gone == 0);
+    CHECK(fewer.mesh.triangles.size() == 8);
+}
+
 TEST_CASE("of very many shells that cannot collapse the goal's number stays, spread over all") {
     TriangleMesh mesh; // of 200 tetrahedra in a row, each a little smaller than the one before
     for (std::uint32_t i = 0; i < 200; ++i) {
