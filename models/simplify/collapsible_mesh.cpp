@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace octant::models::simplify {
 
@@ -18,8 +19,8 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
     for (const Triangle& triangle : triangles) {
         origins_.insert(origins_.end(), triangle.begin(), triangle.end());
     }
-    // All half-edges are listed by the smaller vertex of their edge (counting sort), so that twins
-    // are found among neighbours in the list.
+    // All half-edges are listed by the smaller vertex of their edge (counting sort), and those of
+    // each vertex by the larger one, so that twins follow each other.
     std::vector<std::uint32_t> starts(vertices + 1, 0);
     const auto low = [this](HalfEdge h) { return std::min(origin(h), target(h)); };
     for (HalfEdge h = 0; h < origins_.size(); ++h) {
@@ -33,17 +34,17 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
     for (HalfEdge h = 0; h < origins_.size(); ++h) {
         listed[places[low(h)]++] = h;
     }
+    const auto high = [this](HalfEdge h) { return std::max(origin(h), target(h)); };
     for (std::size_t v = 0; v < vertices; ++v) {
-        for (std::uint32_t i = starts[v]; i < starts[v + 1]; ++i) {
-            for (std::uint32_t j = i + 1; j < starts[v + 1]; ++j) {
-                const HalfEdge a = listed[i];
-                const HalfEdge b = listed[j];
-                assert(origin(a) != origin(b) || target(a) != target(b));
-                if (origin(a) == target(b) && target(a) == origin(b)) {
-                    assert(twins_[a] == none && twins_[b] == none);
-                    twins_[a] = b;
-                    twins_[b] = a;
-                }
+        const std::span<HalfEdge> here(listed.data() + starts[v], starts[v + 1] - starts[v]);
+        std::ranges::sort(here, {}, [&](HalfEdge h) { return std::pair(high(h), h); });
+        for (std::size_t i = 1; i < here.size(); ++i) {
+            const HalfEdge a = here[i - 1];
+            const HalfEdge b = here[i];
+            if (high(a) == high(b)) {
+                assert(origin(a) == target(b) && twins_[a] == none);
+                twins_[a] = b;
+                twins_[b] = a;
             }
         }
     }

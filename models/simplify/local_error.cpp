@@ -243,16 +243,20 @@ glm::dvec3 LocalError::way_to_lower_max() {
 }
 
 /// A triangle of the original from which to look for the foot of a point on a present triangle:
-/// that of the nearest sample in the lists around it that faces its way.
+/// that of the nearest sample in the lists around it that faces its way. Of very many triangles around
+/// it some are left out.
 std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place) {
+    constexpr std::size_t max_looked = 256;
     constexpr double against = 100.0; // A factor of the squared distance.
     const CollapsibleMesh& mesh = surface_.mesh;
     const glm::dvec3 normal = area_vector(surface_.corner_places(face));
     std::uint32_t start = 0;
     double least2 = std::numeric_limits<double>::infinity();
-    std::vector<std::uint32_t> looked(1, face);
-    for (std::size_t i = 0; i < looked.size(); ++i) {
-        samples_.for_each(looked[i], [&](std::uint32_t number) {
+    face_marks_.resize(mesh.face_slots(), 0);
+    face_marks_[face] = ++face_mark_;
+    looked_.assign(1, face);
+    for (std::size_t i = 0; i < looked_.size(); ++i) {
+        samples_.for_each(looked_[i], [&](std::uint32_t number) {
             const SurfaceSample& sample = samples_[number];
             const bool faces_it = glm::dot(original_.normal(sample.triangle), normal) > 0.0;
             const glm::dvec3 off = widen(sample.place) - place;
@@ -262,12 +266,15 @@ std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place
                 start = sample.triangle;
             }
         });
-        const bool is_found = std::isfinite(least2);
-        for (const std::uint32_t corner : mesh.corners(looked[i])) {
+        if (std::isfinite(least2) && (i > 0 || looked_.size() >= max_looked)) {
+            continue;
+        }
+        for (const std::uint32_t corner : mesh.corners(looked_[i])) {
             mesh.around(corner, [&](HalfEdge h) {
-                if ((i == 0 || !is_found) &&
-                    std::ranges::find(looked, face_of(h)) == looked.end()) {
-                    looked.push_back(face_of(h));
+                if (face_marks_[face_of(h)] != face_mark_ &&
+                    (looked_.size() < max_looked || !std::isfinite(least2))) {
+                    face_marks_[face_of(h)] = face_mark_;
+                    looked_.push_back(face_of(h));
                 }
             });
         }

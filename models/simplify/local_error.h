@@ -153,6 +153,9 @@ private:
     double present_there_ = 0.0;
     double present_back_ = 0.0;
     double area_ = 0.0;
+    std::vector<std::uint32_t> looked_;     ///< The triangles that start_near() looks at.
+    std::vector<std::uint32_t> face_marks_; ///< For each triangle slot the last search that met it.
+    std::uint32_t face_mark_ = 0;           ///< The number of the last search.
 };
 
 } // namespace octant::models::simplify

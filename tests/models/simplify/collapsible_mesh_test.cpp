@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <set>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::simplify;
@@ -138,4 +139,18 @@ TEST_CASE("a compacted mesh is the same with fewer slots") {
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
         CHECK(neighbours(mesh, vertex).size() == neighbours(before, kept.vertices[vertex]).size());
     }
+}
+
+TEST_CASE("a vertex of very many triangles costs no more to join than others") {
+    constexpr std::uint32_t count = 150'000;
+    std::vector<Triangle> fan;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        fan.push_back({0, 1 + i, 1 + (i + 1) % count});
+    }
+    const CollapsibleMesh mesh(count + 1, fan);
+    std::size_t around = 0;
+    mesh.around(0, [&](HalfEdge) { ++around; });
+    CHECK(around == count);
+    CHECK(mesh.twin(1) == none);
+    CHECK(mesh.twin(0) == 3 * (count - 1) + 2);
 }
