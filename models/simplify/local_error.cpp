@@ -282,6 +282,19 @@ std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place
     return start;
 }
 
+/// Measures from the samples in the list of a present triangle, colours included.
+void LocalError::measure_colours(std::uint32_t face) {
+    const Triangle& corners = surface_.mesh.corners(face);
+    for (std::size_t i = 0; i < 3; ++i) {
+        triangles_[0].colours[i] = surface_.colours[corners[i]];
+    }
+    flatten();
+    block_.clear();
+    samples_.gather(face, block_);
+    measured_there();
+    samples_.assign(block_, {&face, 1}, {&face, 1});
+}
+
 double LocalError::measure_all_back() {
     const CollapsibleMesh& mesh = surface_.mesh;
     const auto start_from = [&](WayBack& from, std::uint32_t face, const glm::dvec3& place) {
@@ -308,6 +321,9 @@ double LocalError::measure_all_back() {
             near_.assign(1, face);
             turns_.assign(1, 0);
             measured_back();
+            if (samples_.coloured()) {
+                measure_colours(face);
+            }
             samples_.from_face(face) = from_points_[0];
             samples_.set_back_error(face, back_errors_[0]);
             most2 = std::max(most2, max_back2_);

@@ -51,7 +51,7 @@ public:
     void set_triangles(
         std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
-    /// Measures the ways back of all present triangles. Returns the largest squared distance.
+    /// Measures the ways back of all present triangles, and the colours of their samples. Returns the largest squared distance.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
@@ -121,6 +121,7 @@ private:
     void flatten();
     WayBack checked(const WayBack& from, const glm::dvec3& place) const;
     void measure_closely(std::uint32_t triangle);
+    void measure_colours(std::uint32_t face);
     std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);
     WayBack way_back(const OriginalPoint& start, const glm::dvec3& place) const;
 

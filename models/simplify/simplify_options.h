@@ -28,7 +28,7 @@ inline constexpr int surface_effort = 4;
 /// How a mesh is simplified.
 struct SimplifyOptions {
     Goal goal;
-    int effort = surface_effort; ///< 0 to 9; 0 = collapses alone. Each one more doubles the steps or so.
+    int effort = surface_effort; ///< 0 to 9; 0 = collapses alone. Each one more doubles the steps, as long as some help.
     /// The steps of the optimization, instead of those that follow from the effort.
     std::optional<std::size_t> steps;
     /// The optimization ends after so many seconds, all those for a wanted error together about.

@@ -190,13 +190,16 @@ void SurfaceSamples::assign(
         first_[face] = block.numbers[i];
         sample.face = face;
         sample.distance2 = block.distances2[i];
+        sample.colour_error2 = coloured() ? block.colour_errors2[i] : 0.0F;
         ++counts_[face];
-        const double colour_error2 =
-            coloured() ? static_cast<double>(block.colour_errors2[i]) : 0.0;
-        errors_[face] +=
-            static_cast<double>(block.weights[i]) *
-            (penalty_.of(static_cast<double>(block.distances2[i])) + colour_error2);
+        errors_[face] += error_of(sample);
     }
+}
+
+double SurfaceSamples::error_of(const SurfaceSample& sample) const {
+    return static_cast<double>(sample.weight) *
+           (penalty_.of(static_cast<double>(sample.distance2)) +
+            static_cast<double>(sample.colour_error2));
 }
 
 void SurfaceSamples::clear(std::uint32_t face) {
@@ -213,8 +216,7 @@ void SurfaceSamples::put(std::uint32_t sample, std::uint32_t face, float distanc
     put.distance2 = distance2;
     first_[face] = sample;
     ++counts_[face];
-    errors_[face] +=
-        static_cast<double>(put.weight) * penalty_.of(static_cast<double>(distance2));
+    errors_[face] += error_of(put);
 }
 
 void SurfaceSamples::make_face_room(std::size_t count) {
@@ -268,8 +270,7 @@ void SurfaceSamples::set_penalty(const Penalty& penalty) {
     penalty_ = penalty;
     std::ranges::fill(errors_, 0.0);
     for (const SurfaceSample& sample : samples_) {
-        errors_[sample.face] += static_cast<double>(sample.weight) *
-                                penalty_.of(static_cast<double>(sample.distance2));
+        errors_[sample.face] += error_of(sample);
     }
 }
 

@@ -20,6 +20,7 @@ struct SurfaceSample {
     std::array<float, 3> place{};
     float weight = 0.0F;           ///< The area that it stands for.
     float distance2 = 0.0F;        ///< The squared distance from the current surface.
+    float colour_error2 = 0.0F;    ///< The squared difference in colour to the nearest point there.
     std::uint32_t face = none;     ///< The triangle of the current surface in whose list it is.
     std::uint32_t next = none;     ///< The next sample in that list.
     std::uint32_t triangle = none; ///< Of the original.
@@ -96,7 +97,8 @@ public:
     /// Takes all samples of a triangle out of its list.
     void clear(std::uint32_t face);
 
-    /// Puts a sample that is in no list into that of a triangle.
+    /// Puts a sample that is in no list into that of a triangle. Its colour counts as it did until
+    /// assign() moves it.
     void put(std::uint32_t sample, std::uint32_t face, float distance2);
 
     /// Makes room for triangles numbered below `count`.
@@ -111,13 +113,14 @@ public:
 
     const Penalty& penalty() const { return penalty_; }
 
-    /// Errors are counted anew. Colour differences are not, where there are colours.
+    /// Errors are counted anew.
     void set_penalty(const Penalty& penalty);
 
     /// The weighted mean of the squared distances.
     double mean2() const;
 
 private:
+    double error_of(const SurfaceSample& sample) const;
     void add(const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area);
     void add_vertices(const WorkingSurface& from, std::span<const double> areas);
     void add_on_faces(

@@ -1,5 +1,6 @@
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/collapsible_mesh.h"
+#include "models/simplify/local_error.h"
 #include "models/simplify/original_surface.h"
 #include "models/simplify/simplify.h"
 #include "models/simplify/surface_samples.h"
@@ -83,6 +84,36 @@ TEST_CASE("few samples of a dense mesh stand for its large triangles by area and
             count += small.count(static_cast<std::uint32_t>(ground) + 12 * box + i);
         }
         CHECK(count >= 1);
+    }
+}
+
+TEST_CASE("the present error of coloured triangles is what measuring them again gives") {
+    TriangleMesh red = strip(4, 4);
+    red.colours.assign(red.vertices_m.size(), {0.8F, 0.1F, 0.0F});
+    TriangleMesh blue = red;
+    blue.colours.assign(red.vertices_m.size(), {0.0F, 0.2F, 0.9F});
+    const WorkingUnits units = WorkingUnits::of(red, 0.1);
+    const WorkingSurface fine(red, units);
+    const WorkingSurface surface(blue, units);
+    const OriginalSurface original(fine);
+    SurfaceSamples samples(fine, 500);
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
+        faces.push_back(samples[sample].face);
+    }
+    samples.assign_all(faces, std::vector<float>(samples.size(), 0.0F), surface.mesh);
+    LocalError local(surface, samples, original);
+    local.measure_all_back();
+    for (const double per_high2 : {0.0, 100.0}) {
+        samples.set_penalty({per_high2});
+        std::vector<RingFace> ring;
+        std::vector<std::uint32_t> around;
+        surface.mesh.ring_at(7, ring, around);
+        local.gather(around);
+        local.set_ring(ring, surface.places[7], surface.colours[7]);
+        const double again = local.measured();
+        CHECK(again > 0.0);
+        CHECK(local.present() == Approx(again).epsilon(1e-4));
     }
 }
 
