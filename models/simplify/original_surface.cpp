@@ -4,7 +4,17 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace octant::models::simplify {
+
+namespace {
+
+/// Where the squared share of its sides' rectangle that a triangle covers is below this, rounding
+/// hides on which side of it a point lies; the nearest point of its sides is taken then.
+constexpr double min_area_share2 = 1e-12;
+
+} // namespace
 
 OriginalSurface::OriginalSurface(const WorkingSurface& surface)
     : places_(surface.places) {
@@ -70,6 +80,19 @@ OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) con
         return made(ab + along * (ac - ab), 1, none);
     }
     const double sum = va + vb + vc;
+    if (!(sum > min_area_share2 * bb * cc)) {
+        const auto on_side = [&](std::uint32_t side, const glm::dvec3& from, const glm::dvec3& way) {
+            const double length2 = glm::dot(way, way);
+            const double along = glm::dot(ap - from, way);
+            const bool ends = !(along > 0.0 && along < length2);
+            const std::uint32_t corner = along > 0.0 ? (side + 1) % 3 : side;
+            const double share = ends ? (along > 0.0 ? 1.0 : 0.0) : along / length2;
+            return made(from + share * way, ends ? none : side, ends ? corner : none);
+        };
+        const OnTriangle sides[] = {
+            on_side(0, glm::dvec3(0.0), ab), on_side(1, ab, ac - ab), on_side(2, ac, -ac)};
+        return *std::ranges::min_element(sides, {}, &OnTriangle::distance2);
+    }
     return made((vb / sum) * ab + (vc / sum) * ac, none, none);
 }
 

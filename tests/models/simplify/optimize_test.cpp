@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 using namespace octant::models;
@@ -201,4 +202,30 @@ TEST_CASE("the way back keeps to the side of a thin part from which it starts") 
     const OriginalPoint lower = original.nearest_from(0, {0.25, 0.75, 0.02}, distance2);
     CHECK(lower.triangle == 1);
     CHECK(distance2 == Approx(0.02 * 0.02));
+}
+
+TEST_CASE("nearest points on triangles without area are numbers") {
+    std::mt19937 random(5);
+    const auto coordinate = [&random](double scale) {
+        return scale * (static_cast<double>(random() % 5) - 2.0);
+    };
+    for (int i = 0; i < 20'000; ++i) {
+        const double scale = std::pow(10.0, -static_cast<double>(random() % 150));
+        TriangleMesh thin;
+        for (int k = 0; k < 3; ++k) {
+            thin.vertices_m.emplace_back(
+                coordinate(scale), coordinate(i % 2 == 0 ? 0.0 : scale), coordinate(1e-9 * scale));
+        }
+        thin.triangles = {{0, 1, 2}};
+        const OriginalSurface original(WorkingSurface(thin, WorkingUnits{}));
+        const glm::dvec3 point(coordinate(scale), coordinate(0.5 * scale), coordinate(scale));
+        double distance2 = -1.0;
+        original.nearest_from(0, point, distance2);
+        double corner2 = glm::distance(point, thin.vertices_m[0]);
+        corner2 *= corner2;
+        CHECK(distance2 >= 0.0);
+        if (scale > 1e-70) { // Products of four lengths are numbers then.
+            CHECK(distance2 <= corner2 + 1e-9 * scale * scale);
+        }
+    }
 }
