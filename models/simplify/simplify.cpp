@@ -40,13 +40,16 @@ double cpu_s() {
 }
 
 /// How many samples stand for a surface: some dozens for each triangle that is to be left.
-std::size_t wanted_samples(std::size_t original_faces, std::size_t faces_left) {
+std::size_t wanted_samples(int effort, std::size_t original_faces, std::size_t faces_left) {
     constexpr std::size_t samples_a_face = 32;
     constexpr std::size_t samples_an_original_face = 4;
     constexpr std::size_t min_samples = 6'000;
-    return std::max(
-        std::min(samples_a_face * faces_left, samples_an_original_face * original_faces),
-        min_samples);
+    // More steps than those of effort 4 would only fit the surface to the samples of effort 4.
+    const std::size_t times = effort <= 4 ? 1 : effort == 5 ? 2 : 4;
+    return times *
+           std::max(
+               std::min(samples_a_face * faces_left, samples_an_original_face * original_faces),
+               min_samples);
 }
 
 /// How many steps an effort is. Where few triangles are left of many, each one is worth more steps.
@@ -180,7 +183,8 @@ public:
     /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
     /// left in the end.
     void approach(const Goal& near_goal, std::size_t faces) {
-        SurfaceSamples samples(surface_, wanted_samples(surface_.mesh.face_count(), faces));
+        SurfaceSamples samples(
+            surface_, wanted_samples(options_.effort, surface_.mesh.face_count(), faces));
         std::vector<std::uint32_t> near = anchors_of(surface_, samples);
         collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
@@ -424,7 +428,8 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface fine(original, units);
     const OriginalSurface target(fine);
-    SurfaceSamples samples(fine, wanted_samples(original.triangles.size(), mesh.triangles.size()));
+    SurfaceSamples samples(
+        fine, wanted_samples(options.effort, original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface(mesh, units);
     if (options.lock_border) {
         surface.lock_border(mesh, units);

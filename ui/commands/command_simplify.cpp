@@ -286,7 +286,9 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
         {read_option(
              {"effort",
               "0..9",
-              "how long to optimize; each one more doubles the steps as long as some help, 0 makes none [4]",
+              "how long to optimize: each one more doubles the steps, as long as some help; 5 and "
+              "more look at "
+              "more points; 0 makes none [4]",
               0,
               9},
              command.effort),
