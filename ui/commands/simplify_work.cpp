@@ -636,6 +636,29 @@ read_joined(const std::vector<std::string>& names, std::vector<TogetherFile>& fi
     return joined;
 }
 
+/// straighten_borders for all files that were simplified together; a note where they have no vertex
+/// in common.
+void straighten_common_borders(
+    const SimplifyCommand& command,
+    const simplify::AttributeSeams& seams,
+    const std::vector<TogetherFile>& files,
+    const models::TriangleMesh& original,
+    models::TriangleMesh& made) {
+    std::vector<std::uint32_t> first_materials;
+    std::ranges::transform(
+        files, std::back_inserter(first_materials), &TogetherFile::first_material);
+    const SharedVertices shared =
+        shared_vertices(seams.marked(), original.triangle_materials, first_materials);
+    if (shared.empty()) {
+        base::say(command.quiet, "note: --shared-border: no two files have a vertex in common");
+    }
+    straighten_borders(
+        made,
+        shared_vertices(made, seams.with_colours(made).triangle_materials, first_materials),
+        seams.marked(),
+        shared);
+}
+
 /// A folder for files that appear in its parent together, when all are written. What was not
 /// published vanishes with it.
 class UnfinishedFolder {
@@ -718,20 +741,7 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     add_attribute_errors(figures, seams, result.mesh);
     bool is_reached =
         keeps_goals(command, {options.goal.vertices, options.goal.faces, {}}, 0.0, figures);
-    std::vector<std::uint32_t> first_materials;
-    std::ranges::transform(
-        files, std::back_inserter(first_materials), &TogetherFile::first_material);
-    const SharedVertices shared =
-        shared_vertices(marked, original.triangle_materials, first_materials);
-    if (shared.empty()) {
-        base::say(command.quiet, "note: --shared-border: no two files have a vertex in common");
-    }
-    straighten_borders(
-        result.mesh,
-        shared_vertices(
-            result.mesh, seams.with_colours(result.mesh).triangle_materials, first_materials),
-        marked,
-        shared);
+    straighten_common_borders(command, seams, files, original, result.mesh);
     const models::TriangleMesh made = seams.with_attributes(std::move(result.mesh));
     const UnfinishedFolder unfinished(folder);
     for (std::size_t i = 0; i < command.files.size(); ++i) {
