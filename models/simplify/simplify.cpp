@@ -53,27 +53,27 @@ std::size_t wanted_samples(int effort, std::size_t original_faces, std::size_t f
 }
 
 /// How many steps an effort is. Where few triangles are left of many, each one is worth more steps.
-std::size_t steps_of(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
-    if (options.steps) {
-        return *options.steps;
-    }
-    if (options.effort <= 0) {
+std::size_t steps_of(int effort, std::size_t faces, std::size_t original) {
+    if (effort <= 0) {
         return 0;
     }
-    const double share = std::ldexp(1.0, options.effort - 2);
+    const double share = std::ldexp(1.0, effort - 2);
     return static_cast<std::size_t>(
         share * std::sqrt(static_cast<double>(faces) * static_cast<double>(original)));
 }
 
 OptimizeOptions
 optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t original) {
+    constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
     OptimizeOptions how;
-    how.max_steps = steps_of(options, faces, original);
-    if (options.max_seconds) {
-        using Clock = std::chrono::steady_clock;
-        const auto end = Clock::now() + std::chrono::duration<double>(*options.max_seconds);
-        how.max_steps = std::numeric_limits<std::size_t>::max();
-        how.is_time_over = [end] { return Clock::now() > end; };
+    how.max_steps = options.steps.value_or(unlimited);
+    if (options.effort_limits_each || (!options.steps && !options.deadline)) {
+        how.max_steps = std::min(how.max_steps, steps_of(options.effort, faces, original));
+    }
+    if (options.deadline) {
+        how.is_time_over = [end = *options.deadline] {
+            return std::chrono::steady_clock::now() > end;
+        };
     }
     return how;
 }
@@ -239,7 +239,8 @@ private:
 
 /// Searches for the fewest triangles whose finished mesh keeps a wanted error by its certified
 /// distance, so that whoever measures it again with the usual tightness finds it kept. Each try
-/// goes on from the last state that kept the error, is optimized and measured.
+/// goes on from the last state that kept the error, is optimized and measured. Tries after the last
+/// step or the deadline make no steps.
 class ErrorSearch {
 public:
     ErrorSearch(const TriangleMesh& original, const SimplifyOptions& options)
@@ -249,9 +250,7 @@ public:
         , trying_(options)
         , error_m_(*options.goal.error_m) {
         result_.mesh = original;
-        if (trying_.max_seconds) {
-            *trying_.max_seconds /= max_tries;
-        }
+        trying_.effort_limits_each = true;
     }
 
     Simplified find() {
@@ -323,9 +322,9 @@ private:
         TriangleMesh mesh;
         const std::size_t steps = copy.optimize(trying_, mesh);
         result_.optimize_cpu_s += cpu_s() - start_s;
-        if (trying_.max_seconds) {
-            trying_.max_seconds.reset(); // Other tries take as many steps.
-            trying_.steps = steps;
+        result_.steps += steps;
+        if (trying_.steps) {
+            *trying_.steps -= std::min(*trying_.steps, steps);
         }
         const measure::MeshDistance distance = measure::distance(
             original_,
@@ -339,7 +338,6 @@ private:
         if (is_kept_) {
             is_found_ = true;
             result_.mesh = std::move(mesh);
-            result_.steps = trying_.steps.value_or(steps);
             state.tell(result_);
         }
         return distance.least_hausdorff_m();
@@ -369,7 +367,7 @@ private:
     const TriangleMesh& original_;
     const SimplifyOptions& options_;
     SimplifyOptions collapsing_; ///< The same with what shells may cost.
-    SimplifyOptions trying_;     ///< The same with the steps that each try takes.
+    SimplifyOptions trying_;     ///< The same with the steps that are left.
     double error_m_;
     bool is_kept_ = false;  ///< by the last try
     bool is_found_ = false; ///< Some try has kept the error.

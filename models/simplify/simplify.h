@@ -17,7 +17,7 @@ struct Simplified {
     std::size_t shells_gone = 0;
     std::size_t holes_closed = 0;
     std::size_t handles_cut = 0;
-    std::size_t steps = 0; ///< That the optimization tried; of a wanted error the last one of several.
+    std::size_t steps = 0; ///< That all optimizations tried.
     double collapse_cpu_s = 0.0;
     double optimize_cpu_s = 0.0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -28,13 +29,16 @@ inline constexpr int surface_effort = 4;
 /// How a mesh is simplified.
 struct SimplifyOptions {
     Goal goal;
-    int effort = surface_effort; ///< 0 to 9; 0 = collapses alone. Each one more doubles the steps, as long as some help.
-    /// The steps of the optimization, instead of those that follow from the effort.
+    /// 0 to 9; 0 = collapses alone. Each one more doubles the steps, as long as some help.
+    int effort = surface_effort;
+    /// The steps of all optimizations together, instead of those that follow from the effort.
     std::optional<std::size_t> steps;
-    /// The optimization ends after so many seconds, all those for a wanted error together about.
-    /// The result then depends on the machine;
-    /// Simplified::steps repeats it.
-    std::optional<double> max_seconds;
+    /// Optimizations end at this time. The result then depends on the machine; Simplified::steps
+    /// repeats it.
+    std::optional<std::chrono::steady_clock::time_point> deadline;
+    /// With steps or a deadline: each optimization of several makes no more steps than those of the
+    /// effort, so that some are left for the next one. Always so for a wanted error.
+    bool effort_limits_each = false;
     /// What a colour difference of 1 counts as, against a distance, in diagonals of the bounding
     /// box.
     double colour_weight = 0.1;

@@ -15,17 +15,6 @@ using models::TriangleMesh;
 
 constexpr std::size_t most_polygons = 300; ///< that draw orders are found for quickly
 
-double certified_m(const TriangleMesh& original, const TriangleMesh& mesh, int threads) {
-    return models::measure::distance(
-               original,
-               mesh,
-               {.negligible_m = 1e-6 * models::diagonal_m(original),
-                .samples = 0,
-                .threads = threads,
-                .larger_alone = true})
-        .most_hausdorff_m();
-}
-
 std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
     std::vector<std::size_t> goals;
     for (std::size_t goal = faces / 2; goal > coarsest; goal /= 2) {
@@ -38,6 +27,17 @@ std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
 }
 
 } // namespace
+
+double certified_distance_m(const TriangleMesh& original, const TriangleMesh& mesh, int threads) {
+    return models::measure::distance(
+               original,
+               mesh,
+               {.negligible_m = 1e-6 * models::diagonal_m(original),
+                .samples = 0,
+                .threads = threads,
+                .larger_alone = true})
+        .most_hausdorff_m();
+}
 
 models::meshfile::LevelChain
 level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& options) {
@@ -63,7 +63,7 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
         }
         if (level.triangles.size() < chain.levels.back().mesh.triangles.size()) {
             const double before_m = chain.levels.back().error_m;
-            const double error_m = certified_m(original, level, simplify.threads);
+            const double error_m = certified_distance_m(original, level, simplify.threads);
             const double least_m =
                 std::max(before_m * larger, 1e-12 * models::diagonal_m(original));
             chain.levels.push_back(
@@ -81,7 +81,7 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
     if (chain.polygons) {
         chain.polygons_error_m =
             options.polygons
-                ? certified_m(
+                ? certified_distance_m(
                       original, models::polygons::as_triangles(*chain.polygons), simplify.threads)
                 : chain.levels.back().error_m;
     }

@@ -20,9 +20,13 @@ struct ChainOptions {
     std::function<void(std::size_t done, std::size_t of)> show_level;
 };
 
+/// The largest distance between two meshes, both ways, certified, metres.
+double certified_distance_m(
+    const models::TriangleMesh& original, const models::TriangleMesh& mesh, int threads);
+
 /// Levels of detail of an oriented manifold (repaired) whose colours may break along seams: half
-/// the faces each time, each optimized and its distance to the mesh certified. Where no polygons are
-/// given and the last level has at most 300 triangles, these are the polygons.
+/// the faces each time, each optimized and its distance to the mesh certified. Where no polygons
+/// are given and the last level has at most 300 triangles, these are the polygons.
 models::meshfile::LevelChain
 level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& options);
 

@@ -52,6 +52,22 @@ void refuse_wrong_output(const SimplifyCommand& command, const std::string& name
     check_can_write(out);
 }
 
+/// An option of the command line and whether it was given.
+struct GivenOption {
+    std::string_view name;
+    bool is_given;
+};
+
+/// Throws Error where an option stands with one of others that would have no effect or contradict
+/// it.
+void refuse_together(std::string_view option, const std::vector<GivenOption>& others) {
+    for (const GivenOption& other : others) {
+        if (other.is_given) {
+            throw Error(fmt::format("{}: expected no {} with it, got both", option, other.name));
+        }
+    }
+}
+
 /// Sets what the files are, by the options that say what is made of them.
 void assign_files(SimplifyCommand& command) {
     const std::size_t count = command.files.size();
@@ -69,6 +85,12 @@ void assign_files(SimplifyCommand& command) {
         throw Error("--out-dir: expected --shared-border with it, got none");
     }
     if (count == 1 && !command.chart.empty()) {
+        refuse_together(
+            "--chart without OUT",
+            {{"--faces", command.faces > 0},
+             {"--vertices", command.vertices > 0},
+             {"--error", !command.error.empty()},
+             {"--chain", command.chain}});
         return;
     }
     if (count != 2) {
@@ -78,7 +100,24 @@ void assign_files(SimplifyCommand& command) {
     refuse_wrong_output(command, command.out);
 }
 
+void refuse_wrong_chart(const SimplifyCommand& command) {
+    if (!command.chart.ends_with(".html")) {
+        throw Error(fmt::format(
+            "--chart: expected a name that ends in .html, got '{}'", printable(command.chart)));
+    }
+    std::vector<std::string> others = command.files; // OUT, too
+    others.push_back(command.polygons);
+    for (const std::string& other : others) {
+        if (is_same_file(other, command.chart)) {
+            throw Error(fmt::format(
+                "--chart: expected another file than '{}', got the same", printable(other)));
+        }
+    }
+    check_can_write(command.chart);
+}
+
 /// The outputs of --shared-border: the inputs' names in another folder.
+/// The folder is made, so that it is known before the work that all can be written.
 void refuse_wrong_folder(const SimplifyCommand& command) {
     std::set<std::filesystem::path> names;
     for (const std::string& file : command.files) {
@@ -98,6 +137,10 @@ void refuse_wrong_folder(const SimplifyCommand& command) {
                 "--shared-border: expected files of different names, got '{}' twice",
                 printable(name.string())));
         }
+    }
+    make_folder(command.out_dir);
+    for (const std::filesystem::path& name : names) {
+        check_can_write(command.out_dir / name);
     }
 }
 
@@ -125,29 +168,63 @@ void refuse_wrong_goals(const SimplifyCommand& command) {
     }
 }
 
+/// Options that have no effect in one of the ways to simplify.
+void refuse_unused(const SimplifyCommand& command) {
+    const GivenOption uv_error{"--uv-error", command.uv_error > 0.0};
+    const GivenOption normal_error{"--normal-error", command.normal_error > 0.0};
+    const GivenOption colour_error{"--colour-error", command.colour_error > 0.0};
+    const GivenOption effort{"--effort", command.effort >= 0};
+    const GivenOption steps{"--steps", command.steps >= 0};
+    const GivenOption max_seconds{"--max-seconds", command.max_seconds > 0.0};
+    const GivenOption chart{"--chart", !command.chart.empty()};
+    const GivenOption shared_border{"--shared-border", command.shared_border};
+    if (paper_measure(command.method)) {
+        refuse_together(
+            "--method " + command.method,
+            {uv_error,
+             normal_error,
+             colour_error,
+             effort,
+             steps,
+             max_seconds,
+             chart,
+             shared_border,
+             {"--keep-shells", command.keep_shells},
+             {"--keep-topology", command.keep_topology},
+             {"--keep-seams-apart", command.keep_seams_apart},
+             {"--lock-border", command.lock_border}});
+    } else if (!command.method.empty()) {
+        refuse_together("--method " + command.method, {effort, steps});
+    }
+    if (command.chain) {
+        refuse_together(
+            "--chain", {uv_error, normal_error, colour_error, shared_border, max_seconds});
+    }
+    if (chart.is_given) {
+        refuse_together("--chart", {shared_border, max_seconds});
+    }
+    if (max_seconds.is_given) {
+        refuse_together("--max-seconds", {steps});
+    }
+    // With several tries the effort limits each of them.
+    const bool has_several_tries = !command.error.empty() || has_attribute_bound(command);
+    if (effort.is_given && !has_several_tries) {
+        refuse_together("--effort", {steps, max_seconds});
+    }
+}
+
 void refuse_faults(SimplifyCommand& command) {
     assign_files(command);
-    if (command.shared_border) {
-        refuse_wrong_folder(command);
-    }
     refuse_wrong_goals(command);
-    const bool as_printed = paper_measure(command.method).has_value();
-    const bool has_more = command.uv_error > 0.0 || command.lock_border || command.shared_border ||
-                          !command.chart.empty();
-    if (as_printed && has_more) {
-        throw Error(fmt::format(
-            "--method {}: expected none of --uv-error, --lock-border, --shared-border and --chart "
-            "with it",
-            command.method));
-    }
-    if (command.chain && (command.uv_error > 0.0 || command.shared_border)) {
-        throw Error("--chain: expected neither --uv-error nor --shared-border with it");
-    }
+    refuse_unused(command);
     if (!command.polygons.empty() && !command.chain) {
         throw Error("--polygons: expected --chain with it, got none");
     }
     if (!command.chart.empty()) {
-        check_can_write(command.chart);
+        refuse_wrong_chart(command);
+    }
+    if (command.shared_border) {
+        refuse_wrong_folder(command);
     }
 }
 
@@ -155,27 +232,14 @@ void run(SimplifyCommand command) {
     refuse_faults(command);
     base::give_memory_back();
     base::Figures figures;
-    bool is_reached = true;
     if (!command.shared_border) {
         figures["in"] = command.in;
     }
     if (!command.out.empty()) {
         figures["out"] = command.out;
     }
-    if (!command.chart.empty()) {
-        write_simplify_chart(command, figures);
-    }
-    if (command.shared_border) {
-        is_reached = simplify_together(command, figures);
-    } else if (command.out.empty()) {
-        // The chart was all.
-    } else if (command.chain) {
-        simplify_into_chain(command, figures);
-    } else if (const auto measure = paper_measure(command.method)) {
-        simplify_as_printed(command, *measure, figures);
-    } else {
-        is_reached = simplify_mesh(command, figures);
-    }
+    const bool is_reached = command.shared_border ? simplify_together(command, figures)
+                                                  : simplify_one(command, figures);
     base::print_figures(figures, command.json);
     if (!is_reached) {
         throw CheckSaidNo();
@@ -196,8 +260,8 @@ std::vector<Option> goal_options(SimplifyCommand& command) {
         "IN OUT",
         "mesh to simplify: " + world::built_in_meshes() +
             " or a file: .obj, .ply, .stl, .off, .gltf, .glb, .ac, .wrl; and the file to write, "
-            "whose ending says how. With --shared-border meshes alone, with --chart perhaps "
-            "without OUT",
+            "whose ending says how. With --shared-border only meshes; with --chart OUT may be "
+            "left out",
         Takes::SomeWords,
         command.files))};
     add_group(
@@ -221,10 +285,10 @@ std::vector<Option> goal_options(SimplifyCommand& command) {
     return table;
 }
 
-void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
+void add_bound_options(std::vector<Option>& table, SimplifyCommand& command) {
     add_group(
         table,
-        "What stays",
+        "What attributes may lose",
         {read_option(
              {"uv-error",
               "U",
@@ -248,16 +312,21 @@ void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
               "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]",
               0,
               1000},
-             command.colour_weight),
-         flag(
+             command.colour_weight)});
+}
+
+void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
+    add_group(
+        table,
+        "What stays",
+        {flag(
              "--keep-shells",
              "no part of the mesh vanishes, even if the goal is then out of reach",
              command.keep_shells),
          flag(
              "--keep-topology",
              "no part vanishes, no hole is closed and no handle cut, even if the goal is then out "
-             "of "
-             "reach",
+             "of reach; --chain implies it",
              command.keep_topology),
          flag(
              "--keep-seams-apart",
@@ -265,7 +334,8 @@ void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
              command.keep_seams_apart),
          flag(
              "--lock-border",
-             "all vertices of open borders stay where they are",
+             "all vertices of open borders stay where they are, even if the goal is then out of "
+             "reach; implies --keep-topology",
              command.lock_border),
          flag(
              "--shared-border",
@@ -275,7 +345,8 @@ void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
          text_option(
              "--out-dir",
              "DIR",
-             "with --shared-border: the folder for the results, named as the inputs are",
+             "with --shared-border: the folder for the results, which have the file names of the "
+             "inputs",
              command.out_dir)});
 }
 
@@ -295,19 +366,27 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
          read_option(
              {"max-seconds",
               "S",
-              "end the optimization after this time; a note says which --steps repeat the result "
-              "[no limit]",
-              0,
+              "all optimization ends this long after the work begins, whose collapses and "
+              "certificates may take longer; a note says which --steps repeat the result [no "
+              "limit]",
+              1e-3,
               1e6},
              command.max_seconds),
          read_option(
-             {"steps", "N", "so many steps of the optimization [those of --effort]", 0, 2e9},
+             {"steps",
+              "N",
+              "so many steps of the optimization, with --error or bounds of attributes all tries "
+              "together, each at most those of --effort; with --chain and --chart each level "
+              "[those "
+              "of --effort]",
+              0,
+              2e9},
              command.steps),
          choice_option(
              "--method",
              "KIND",
              "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
-             "triangle or bidirectional",
+             "triangle or bidirectional [surface]",
              {"surface", "fast", "plane", "triangle", "bidirectional"},
              command.method),
          read_option(
@@ -319,7 +398,8 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
         {text_option(
              "--chart",
              "FILE.html",
-             "a page that plots errors of levels of the mesh against their faces",
+             "a page that plots errors of levels of the mesh against their faces, and gives the "
+             "command that makes each",
              command.chart),
          flag("--chain", "levels of detail, halving, into OUT.chain", command.chain),
          text_option(
@@ -346,7 +426,7 @@ constexpr const char* simplify_footer =
     "Results: error is the largest distance between the surfaces, both ways, certified for the\n"
     "written file; rms the root mean square; in file units and as fractions of the diagonal.\n"
     "Keys of --json: in, out, faces_in_file, repairs, faces_before, vertices_before, faces,\n"
-    "  vertices, method, steps (that the optimization tried), shells_gone, holes_closed,\n"
+    "  vertices, method (or effort), steps (of all tries together), shells_gone, holes_closed,\n"
     "  handles_cut, error, error_of_diagonal, rms, rms_of_diagonal, colour_rms, colour_error "
     "(lengths in RGB 0..1),\n"
     "  uv_error, uv_rms, normal_error, normal_rms (degrees; each where there are such "
@@ -370,6 +450,7 @@ Command simplify_command() {
         .options = goal_options(*work),
         .footer = simplify_footer,
         .run = [work] { run(*work); }};
+    add_bound_options(command.options, *work);
     add_keeping_options(command.options, *work);
     add_work_options(command.options, *work);
     return command;

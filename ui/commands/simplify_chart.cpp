@@ -11,22 +11,22 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::commands {
 
 namespace {
 
-using models::meshfile::ChainLevel;
-using models::meshfile::LevelChain;
+using Levels = std::vector<ChartLevel>;
 
-report::Plot plot_of(const LevelChain& chain) {
+report::Plot plot_of(const Levels& levels) {
     report::PlotSeries errors;
     errors.name = "largest distance";
     errors.colour = "#1d6fd1";
     errors.points = true;
-    for (const ChainLevel& level : chain.levels) {
-        if (level.error_m > 0.0) { // The first one has none, which no logarithmic axis shows.
-            errors.x.push_back(static_cast<double>(level.mesh.triangles.size()));
+    for (const ChartLevel& level : levels) {
+        if (level.error_m > 0.0) { // A logarithmic axis shows no exact ones.
+            errors.x.push_back(static_cast<double>(level.faces));
             errors.y.push_back(level.error_m);
         }
     }
@@ -41,14 +41,11 @@ report::Plot plot_of(const LevelChain& chain) {
 }
 
 /// What a screen reader says of the plot.
-std::string spoken(const LevelChain& chain) {
+std::string spoken(const Levels& levels) {
     std::string text;
-    for (const ChainLevel& level : chain.levels) {
-        text += fmt::format(
-            "{}{} faces: {:.3g}",
-            text.empty() ? "" : "; ",
-            level.mesh.triangles.size(),
-            level.error_m);
+    for (const ChartLevel& level : levels) {
+        text +=
+            fmt::format("{}{} faces: {:.3g}", text.empty() ? "" : "; ", level.faces, level.error_m);
     }
     return "Largest distance by the number of faces. " + text + ".";
 }
@@ -77,39 +74,40 @@ std::string named_picture(std::string_view svg, const std::string& name, const s
     return picture;
 }
 
-report::HtmlTable table_of(const std::string& mesh, const LevelChain& chain) {
-    const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
+report::HtmlTable table_of(const Levels& levels, double diagonal_m) {
     report::HtmlTable table;
-    table.header = {"faces", "largest distance", "% of the diagonal", "command"};
-    for (const ChainLevel& level : chain.levels) {
-        const std::size_t faces = level.mesh.triangles.size();
-        const bool is_first = &level == &chain.levels.front();
+    table.header = {"faces", "largest distance", "% of the diagonal", "made by"};
+    for (const ChartLevel& level : levels) {
         table.rows.push_back(
-            {fmt::format("{}", faces),
+            {fmt::format("{}", level.faces),
              fmt::format("{:.4g}", level.error_m),
              fmt::format("{:.3g}", 100.0 * level.error_m / diagonal_m),
-             is_first ? std::string("the mesh itself")
-                      : fmt::format("octant simplify {} OUT --faces {}", mesh, faces)});
+             level.made_by});
     }
     table.note =
         "The largest distance is certified: no point of either surface is farther from the "
-        "other one. It is in the units of the file.";
+        "other one. It is in the units of the file, before coordinates are rounded by the format "
+        "of OUT.";
     return table;
 }
 
 } // namespace
 
-std::string chart_page(const std::string& mesh, const LevelChain& chain) {
-    const auto svg = report::plot_svg(plot_of(chain));
-    if (!svg) {
-        throw Error(
-            "--chart: expected gnuplot on PATH and a mesh that can be simplified, got none");
-    }
+std::string chart_page(const std::string& mesh, const Levels& levels, double diagonal_m) {
     const std::string name = "Faces against error of " + mesh;
+    std::string figure;
+    const report::Plot plot = plot_of(levels);
+    if (!plot.series.front().x.empty()) {
+        const auto svg = report::plot_svg(plot);
+        if (!svg) {
+            throw Error("--chart: expected gnuplot on PATH, got none");
+        }
+        figure = "<figure class=\"card\" style=\"background:#fff\">\n" +
+                 named_picture(*svg, name, spoken(levels)) + "</figure>\n";
+    }
     return report::page_head(name, "one") + "<header><h1>" + report::escaped(name) +
-           "</h1></header>\n<figure class=\"card\" style=\"background:#fff\">\n" +
-           named_picture(*svg, name, spoken(chain)) + "</figure>\n<div class=\"card\">\n" +
-           report::html_of(table_of(mesh, chain)) + "</div>\n</main>\n</body>\n</html>\n";
+           "</h1></header>\n" + figure + "<div class=\"card\">\n" +
+           report::html_of(table_of(levels, diagonal_m)) + "</div>\n</main>\n</body>\n</html>\n";
 }
 
 } // namespace octant::ui::commands

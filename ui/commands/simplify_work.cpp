@@ -17,10 +17,12 @@
 #include "ui/commands/chain_maker.h"
 #include "ui/commands/simplify_as_printed.h"
 #include "ui/commands/simplify_chart.h"
+#include "ui/sweep/engine.h"
 #include "ui/world/mesh_input.h"
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
@@ -28,8 +30,11 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
+#include <string_view>
+#include <system_error>
 #include <tuple>
+#include <unistd.h>
+#include <vector>
 
 namespace octant::ui::commands {
 
@@ -51,7 +56,9 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
         options.steps = static_cast<std::size_t>(command.steps);
     }
     if (command.max_seconds > 0.0) {
-        options.max_seconds = command.max_seconds;
+        using Clock = std::chrono::steady_clock;
+        options.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                              std::chrono::duration<double>(command.max_seconds));
     }
     if (command.vertices > 0) {
         options.goal.vertices = static_cast<std::size_t>(command.vertices);
@@ -73,6 +80,28 @@ simplify::SimplifyOptions options_of(const SimplifyCommand& command, double diag
     return options;
 }
 
+/// The effort in words.
+std::string method_of(const SimplifyCommand& command) {
+    const int effort = options_of(command, 1.0).effort;
+    return effort == simplify::surface_effort ? "surface"
+           : effort == simplify::fast_effort  ? "fast"
+                                              : fmt::format("effort {}", effort);
+}
+
+/// Throws Error where squares of distances within the mesh are no normal numbers.
+void refuse_tiny(const std::string& name, const models::TriangleMesh& mesh) {
+    constexpr double min_diagonal_m = 1e-100;
+    const double diagonal_m = models::diagonal_m(mesh);
+    if (!(diagonal_m >= min_diagonal_m)) {
+        error_in(
+            name,
+            fmt::format(
+                "expected a bounding box with a diagonal of {:.0e} or more, got {:.3g}",
+                min_diagonal_m,
+                diagonal_m));
+    }
+}
+
 /// A mesh as an oriented manifold, and where its attributes break. `name` stands in errors.
 simplify::AttributeSeams repaired_mesh(
     const SimplifyCommand& command,
@@ -80,6 +109,9 @@ simplify::AttributeSeams repaired_mesh(
     models::TriangleMesh mesh,
     Figures& figures) {
     figures["faces_in_file"] = mesh.triangles.size();
+    if (!mesh.triangles.empty()) {
+        refuse_tiny(name, mesh); // Such triangles have no area by rounding.
+    }
     repair::RepairedMesh repaired = repair::repaired(
         std::move(mesh), command.keep_seams_apart ? repair::Seams::Apart : repair::Seams::Welded);
     const std::vector<std::string> repairs = repair::in_words(repaired.counts);
@@ -95,6 +127,7 @@ simplify::AttributeSeams repaired_mesh(
     if (repaired.mesh.triangles.empty()) {
         error_in(name, "expected at least one triangle with an area, got none");
     }
+    refuse_tiny(name, repaired.mesh);
     return {std::move(repaired.mesh), std::move(repaired.corner_colours)};
 }
 
@@ -133,31 +166,37 @@ void add_distance(
     }
 }
 
-/// Writes a mesh, says what the format leaves out, and adds the distance of the mesh that the file
-/// holds, read back, from the original.
+/// Writes a mesh into a folder, under the name that `out` has there, says what the format leaves
+/// out, and adds the distance of the mesh that the file holds, read back, from the original.
 void write_and_measure(
     const SimplifyCommand& command,
-    const std::string& out,
+    const std::filesystem::path& out,
+    const std::filesystem::path& folder,
     const models::TriangleMesh& mesh,
     const models::TriangleMesh& original,
     Figures& figures) {
     for (const std::string& note : meshfile::notes_on_writing(out, mesh)) {
         base::say(command.quiet, "note: " + note);
     }
-    meshfile::write_mesh(out, mesh);
+    const std::filesystem::path file = folder / out.filename();
+    meshfile::write_mesh(file, mesh);
     if (!mesh.triangles.empty()) {
-        add_distance(figures, original, meshfile::read_mesh(out), command.threads);
+        add_distance(figures, original, meshfile::read_mesh(file), command.threads);
     }
 }
 
-/// Leaves what the coordinates of a file lose by rounding out of the wanted error. Throws Error
-/// where nothing is left; a note where it is more than a tenth.
+/// Leaves the most that the coordinates of one of the files lose by rounding out of the wanted
+/// error. Throws Error where nothing is left; a note where it is more than a tenth.
 void leave_out_rounding(
     const SimplifyCommand& command,
-    const std::string& out,
+    const std::vector<std::string>& outs,
     const models::Bounds& bounds,
     std::optional<double>& error_m) {
-    const double rounding_m = meshfile::rounding_m(out, bounds);
+    const auto rounding_of_m = [&](const std::string& out) {
+        return meshfile::rounding_m(out, bounds);
+    };
+    const std::string& out = *std::ranges::max_element(outs, {}, rounding_of_m);
+    const double rounding_m = rounding_of_m(out);
     if (!error_m || rounding_m == 0.0) {
         return;
     }
@@ -198,6 +237,36 @@ std::array<AttributeBound, 3> bounds_of(const SimplifyCommand& command) {
          {"colours", "--colour-error", "colour_error", command.colour_error}}};
 }
 
+/// A number among named figures; 0 where there is none.
+double number_of(const Figures& figures, std::string_view name) {
+    for (const auto& [key, value] : std::get<Figures::Named>(figures.value())) {
+        if (key == name) {
+            const auto* number = std::get_if<double>(&value.value());
+            const auto* count = std::get_if<std::uint64_t>(&value.value());
+            return number != nullptr  ? *number
+                   : count != nullptr ? static_cast<double>(*count)
+                                      : 0.0;
+        }
+    }
+    return 0.0;
+}
+
+/// The given options that can put a number of faces out of reach.
+std::string holding_options(const SimplifyCommand& command) {
+    std::string held;
+    const auto add = [&](std::string_view option, bool is_given) {
+        held += is_given ? fmt::format("{}{}", held.empty() ? "" : ", ", option) : "";
+    };
+    add("--keep-shells", command.keep_shells);
+    add("--keep-topology", command.keep_topology);
+    add("--keep-seams-apart", command.keep_seams_apart);
+    add("--lock-border", command.lock_border);
+    for (const AttributeBound& bound : bounds_of(command)) {
+        add(bound.option, bound.wanted > 0.0);
+    }
+    return held;
+}
+
 /// Whether the figures of a written mesh keep the wanted error and the bounds of attributes, and
 /// its faces and vertices are few enough; else says why not.
 bool keeps_goals(
@@ -205,18 +274,7 @@ bool keeps_goals(
     const simplify::Goal& goal,
     double wanted_error_m,
     const Figures& figures) {
-    const auto figure = [&](std::string_view name) {
-        for (const auto& [key, value] : std::get<Figures::Named>(figures.value())) {
-            if (key == name) {
-                const auto* number = std::get_if<double>(&value.value());
-                const auto* count = std::get_if<std::uint64_t>(&value.value());
-                return number != nullptr  ? *number
-                       : count != nullptr ? static_cast<double>(*count)
-                                          : 0.0;
-            }
-        }
-        return 0.0;
-    };
+    const auto figure = [&](std::string_view name) { return number_of(figures, name); };
     bool is_kept = true;
     const auto refuse = [&](const std::string& why) {
         base::say(command.quiet, "note: " + why);
@@ -240,8 +298,10 @@ bool keeps_goals(
     }
     if ((goal.faces && figure("faces") > static_cast<double>(*goal.faces)) ||
         (goal.vertices && figure("vertices") > static_cast<double>(*goal.vertices))) {
-        refuse("no edge can collapse any more without folding the surface or changing what is to "
-               "be kept");
+        const std::string held = holding_options(command);
+        refuse(
+            "no edge can collapse any more without folding the surface" +
+            (held.empty() ? "" : " or losing what is held by " + held));
     }
     return is_kept;
 }
@@ -267,20 +327,20 @@ simplify::Simplified simplified_with_bounds(
     }
     const std::size_t most = seams.marked().triangles.size();
     const std::size_t goal = simplify::wanted_faces(options.goal);
+    options.effort_limits_each = is_bounded;
     std::optional<simplify::Simplified> best;
     bool is_kept = false;
-    double collapse_cpu_s = 0.0;
-    double optimize_cpu_s = 0.0;
+    simplify::Simplified sums; // of all tries
     for (int tries = 0; tries < max_tries; ++tries) {
         simplify::Simplified result = simplify::simplified(seams.marked(), options);
         if (!is_bounded) {
             return result;
         }
-        collapse_cpu_s += result.collapse_cpu_s;
-        optimize_cpu_s += result.optimize_cpu_s;
-        if (options.max_seconds) { // Further tries take as many steps.
-            options.steps = result.steps;
-            options.max_seconds.reset();
+        sums.collapse_cpu_s += result.collapse_cpu_s;
+        sums.optimize_cpu_s += result.optimize_cpu_s;
+        sums.steps += result.steps;
+        if (options.steps) {
+            *options.steps -= std::min(*options.steps, result.steps);
         }
         const auto before = static_cast<double>(result.mesh.triangles.size());
         models::TriangleMesh divided = seams.divided(result.mesh, bounds, most);
@@ -294,15 +354,18 @@ simplify::Simplified simplified_with_bounds(
             best = std::move(result); // Undivided, unless a later try fits.
         }
         const double share = static_cast<double>(goal) / after;
-        if (goal == 0 || (fits && enough * static_cast<double>(goal) <= after) || before < 8.0) {
+        // Where steps may run out, a later try may have none and be worse.
+        const bool is_enough =
+            enough * static_cast<double>(goal) <= after || options.steps || options.deadline;
+        if (goal == 0 || (fits && is_enough) || before < 8.0) {
             break;
         }
         options.goal.vertices.reset();
         options.goal.faces = static_cast<std::size_t>(std::max(4.0, before * std::min(share, 2.0)));
     }
-    best->collapse_cpu_s = collapse_cpu_s;
-    best->optimize_cpu_s = optimize_cpu_s;
-    best->steps = command.max_seconds > 0.0 ? options.steps.value_or(best->steps) : best->steps;
+    best->collapse_cpu_s = sums.collapse_cpu_s;
+    best->optimize_cpu_s = sums.optimize_cpu_s;
+    best->steps = sums.steps;
     return std::move(*best);
 }
 
@@ -332,18 +395,29 @@ void add_attribute_errors(
     }
 }
 
-/// A level of a chain, in a line or as figures.
-Figures level_figures(const meshfile::ChainLevel& level, double diagonal_m, bool json) {
-    const std::size_t faces = level.mesh.triangles.size();
-    const double of_diagonal = level.error_m / diagonal_m;
-    if (!json) {
-        return fmt::format(
-            "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
-            faces,
-            level.error_m,
-            of_diagonal);
+/// Adds levels to the figures, as lines or for programs, and writes the page of --chart.
+void add_levels(
+    const SimplifyCommand& command,
+    const std::vector<ChartLevel>& levels,
+    double diagonal_m,
+    Figures& figures) {
+    if (!command.chart.empty()) {
+        write_file(command.chart, chart_page(command.in, levels, diagonal_m));
+        figures["chart"] = command.chart;
     }
-    return {{"faces", faces}, {"error", level.error_m}, {"error_of_diagonal", of_diagonal}};
+    for (const ChartLevel& level : levels) {
+        const double of_diagonal = level.error_m / diagonal_m;
+        figures["levels"].push_back(
+            command.json ? Figures(
+                               {{"faces", level.faces},
+                                {"error", level.error_m},
+                                {"error_of_diagonal", of_diagonal}})
+                         : Figures(fmt::format(
+                               "level of {} faces: error {:.4g}, {:.3g} of the diagonal",
+                               level.faces,
+                               level.error_m,
+                               of_diagonal)));
+    }
 }
 
 /// As they stand in the file, which has the mesh's axes.
@@ -385,9 +459,13 @@ std::optional<simplify::PaperMeasure> paper_measure(const std::string& method) {
     return found == measures.end() ? std::nullopt : std::optional(found->second);
 }
 
+namespace {
+
+/// Of the mesh as it is, nothing repaired.
 void simplify_as_printed(
     const SimplifyCommand& command, simplify::PaperMeasure measure, Figures& figures) {
     const models::TriangleMesh original = world::read_mesh_input(command.in);
+    refuse_tiny(command.in, original);
     const double diagonal_m = models::diagonal_m(original);
     simplify::PaperOptions options;
     options.measure = measure;
@@ -414,16 +492,17 @@ void simplify_as_printed(
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["method"] = command.method;
     add_paper_figures(figures, options, result);
-    write_and_measure(command, command.out, result.mesh, original, figures);
+    const std::filesystem::path out = command.out;
+    write_and_measure(command, out, out.parent_path(), result.mesh, original, figures);
     figures["time_s"] = time_s;
 }
 
-bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
-    const simplify::AttributeSeams seams = read_repaired(command, figures);
+bool simplify_mesh(
+    const SimplifyCommand& command, const simplify::AttributeSeams& seams, Figures& figures) {
     const models::TriangleMesh& original = seams.marked();
     simplify::SimplifyOptions options = options_of(command, models::diagonal_m(original));
     const double wanted_error_m = options.goal.error_m.value_or(0.0);
-    leave_out_rounding(command, command.out, models::bounds_of(original), options.goal.error_m);
+    leave_out_rounding(command, {command.out}, models::bounds_of(original), options.goal.error_m);
     figures["faces_before"] = original.triangles.size();
     figures["vertices_before"] = original.vertices_m.size();
     base::Progress progress("simplifying", 100, command.quiet, "percent");
@@ -435,7 +514,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     result.sequence = {}; // It is as large as the mesh, and so is what measuring needs.
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
-    figures["method"] = command.method;
+    figures["method"] = method_of(command);
     figures["steps"] = result.steps;
     figures["shells_gone"] = result.shells_gone;
     figures["holes_closed"] = result.holes_closed;
@@ -445,6 +524,7 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     write_and_measure(
         command,
         command.out,
+        std::filesystem::path(command.out).parent_path(),
         seams.with_attributes(std::move(result.mesh)),
         original.colours.empty() ? original : seams.with_colours(original),
         figures);
@@ -458,8 +538,6 @@ bool simplify_mesh(const SimplifyCommand& command, Figures& figures) {
     tell_steps(command, result);
     return keeps_goals(command, options.goal, wanted_error_m, figures);
 }
-
-namespace {
 
 /// Vertices that triangles of several files share, by pairs of files.
 using SharedVertices = std::map<std::pair<std::size_t, std::size_t>, std::vector<std::uint32_t>>;
@@ -558,6 +636,82 @@ read_joined(const std::vector<std::string>& names, std::vector<TogetherFile>& fi
     return joined;
 }
 
+/// straighten_borders for all files that were simplified together; a note where they have no vertex
+/// in common.
+void straighten_common_borders(
+    const SimplifyCommand& command,
+    const simplify::AttributeSeams& seams,
+    const std::vector<TogetherFile>& files,
+    const models::TriangleMesh& original,
+    models::TriangleMesh& made) {
+    std::vector<std::uint32_t> first_materials;
+    std::ranges::transform(
+        files, std::back_inserter(first_materials), &TogetherFile::first_material);
+    const SharedVertices shared =
+        shared_vertices(seams.marked(), original.triangle_materials, first_materials);
+    if (shared.empty()) {
+        base::say(command.quiet, "note: --shared-border: no two files have a vertex in common");
+    }
+    straighten_borders(
+        made,
+        shared_vertices(made, seams.with_colours(made).triangle_materials, first_materials),
+        seams.marked(),
+        shared);
+}
+
+/// A folder for files that appear in its parent together, when all are written. What was not
+/// published vanishes with it.
+class UnfinishedFolder {
+public:
+    explicit UnfinishedFolder(const std::filesystem::path& parent)
+        : parent_(parent)
+        , path_(parent / fmt::format(".octant-{}.part", ::getpid())) {
+        make_folder(path_);
+    }
+
+    ~UnfinishedFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    UnfinishedFolder(const UnfinishedFolder&) = delete;
+    UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
+    UnfinishedFolder(UnfinishedFolder&&) = delete;
+    UnfinishedFolder& operator=(UnfinishedFolder&&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+    /// Throws Error where the parent has a folder of a file's name, or may not be written.
+    void publish() const {
+        std::vector<std::filesystem::path> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+            names.push_back(entry.path().filename());
+            check_can_write(parent_ / names.back());
+        }
+        for (const std::filesystem::path& name : names) {
+            std::error_code code;
+            std::filesystem::rename(path_ / name, parent_ / name, code);
+            if (code) {
+                error_in(parent_ / name, "cannot be written: " + code.message());
+            }
+        }
+    }
+
+private:
+    std::filesystem::path parent_;
+    std::filesystem::path path_;
+};
+
+/// The figures of one of several files, in a line.
+std::string line_of(const std::string& out, const Figures& of_file) {
+    return fmt::format(
+        "{}: {:.0f} faces, error {:.4g}, {:.3g} of the diagonal",
+        out,
+        number_of(of_file, "faces"),
+        number_of(of_file, "error"),
+        number_of(of_file, "error_of_diagonal"));
+}
+
 } // namespace
 
 bool simplify_together(const SimplifyCommand& command, Figures& figures) {
@@ -572,8 +726,9 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     const auto out_of = [&](const std::string& file) {
         return (folder / std::filesystem::path(file).filename()).string();
     };
-    leave_out_rounding(
-        command, out_of(command.files.front()), models::bounds_of(marked), options.goal.error_m);
+    std::vector<std::string> outs;
+    std::ranges::transform(command.files, std::back_inserter(outs), out_of);
+    leave_out_rounding(command, outs, models::bounds_of(marked), options.goal.error_m);
     const models::TriangleMesh original = seams.with_colours(marked);
     const base::Stopwatch watch;
     simplify::Simplified result = simplified_with_bounds(command, seams, options);
@@ -586,42 +741,33 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     add_attribute_errors(figures, seams, result.mesh);
     bool is_reached =
         keeps_goals(command, {options.goal.vertices, options.goal.faces, {}}, 0.0, figures);
-    std::vector<std::uint32_t> first_materials;
-    std::ranges::transform(
-        files, std::back_inserter(first_materials), &TogetherFile::first_material);
-    const SharedVertices shared =
-        shared_vertices(marked, original.triangle_materials, first_materials);
-    if (shared.empty()) {
-        base::say(command.quiet, "note: --shared-border: no two files have a vertex in common");
-    }
-    straighten_borders(
-        result.mesh,
-        shared_vertices(
-            result.mesh, seams.with_colours(result.mesh).triangle_materials, first_materials),
-        marked,
-        shared);
+    straighten_common_borders(command, seams, files, original, result.mesh);
     const models::TriangleMesh made = seams.with_attributes(std::move(result.mesh));
-    std::filesystem::create_directories(folder);
+    const UnfinishedFolder unfinished(folder);
     for (std::size_t i = 0; i < command.files.size(); ++i) {
         const models::TriangleMesh part = files[i].part_of(made);
         Figures of_file = {
             {"in", command.files[i]},
-            {"out", out_of(command.files[i])},
+            {"out", outs[i]},
             {"faces", part.triangles.size()},
             {"vertices", part.vertices_m.size()}};
         write_and_measure(
-            command, out_of(command.files[i]), part, files[i].part_of(original), of_file);
+            command, outs[i], unfinished.path(), part, files[i].part_of(original), of_file);
         is_reached =
             keeps_goals(command, {{}, {}, options.goal.error_m}, wanted_error_m, of_file) &&
             is_reached;
-        figures["files"].push_back(std::move(of_file));
+        figures["files"].push_back(
+            command.json ? std::move(of_file) : Figures(line_of(outs[i], of_file)));
     }
+    unfinished.publish();
     figures["time_s"] = time_s;
     return is_reached;
 }
 
-void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
-    const simplify::AttributeSeams seams = read_repaired(command, figures);
+namespace {
+
+void simplify_into_chain(
+    const SimplifyCommand& command, const simplify::AttributeSeams& seams, Figures& figures) {
     if (seams.has_texture_coordinates()) {
         base::say(command.quiet, "note: texture coordinates are left out of the levels of a chain");
     }
@@ -643,9 +789,15 @@ void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
     progress.finish();
     meshfile::write_chain(command.out, chain);
     const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
+    std::vector<ChartLevel> chart;
     for (const meshfile::ChainLevel& level : chain.levels) {
-        figures["levels"].push_back(level_figures(level, diagonal_m, command.json));
+        chart.push_back(
+            {.faces = level.mesh.triangles.size(),
+             .error_m = level.error_m,
+             .made_by = chart.empty() ? "the mesh itself"
+                                      : fmt::format("level {} of the chain", chart.size())});
     }
+    add_levels(command, chart, diagonal_m, figures);
     figures["polygons"] = chain.polygons ? chain.polygons->polygons.size() : 0;
     if (chain.polygons) {
         figures["polygons_error"] = chain.polygons_error_m;
@@ -653,24 +805,82 @@ void simplify_into_chain(const SimplifyCommand& command, Figures& figures) {
     figures["time_s"] = time_s;
 }
 
-void write_simplify_chart(const SimplifyCommand& command, Figures& figures) {
-    const simplify::AttributeSeams seams = read_repaired(command, figures);
-    constexpr std::size_t coarsest_faces = 32;
-    ChainOptions options;
-    options.simplify = options_of(command, models::diagonal_m(seams.marked()));
-    options.coarsest_faces = coarsest_faces;
-    base::Progress progress("making levels", 100, command.quiet, "percent");
-    options.show_level = [&](std::size_t done, std::size_t of) {
-        progress.show(static_cast<int>(100 * done / std::max<std::size_t>(of, 1)));
+/// The command that makes one level of a chart, with the options that change the result.
+std::string level_command(const SimplifyCommand& command, std::size_t faces) {
+    std::string text =
+        fmt::format("octant simplify {} OUT --faces {}", sweep::shell_word(command.in), faces);
+    const auto add = [&](std::string_view option, bool is_given, const auto&... value) {
+        if (is_given) {
+            text += fmt::format(" {}", option);
+            ((text += fmt::format(" {}", value)), ...);
+        }
     };
-    const meshfile::LevelChain chain = level_chain(seams, options);
-    progress.finish();
-    write_file(command.chart, chart_page(command.in, chain));
-    const double diagonal_m = models::diagonal_m(chain.levels.front().mesh);
-    figures["chart"] = command.chart;
-    for (const meshfile::ChainLevel& level : chain.levels) {
-        figures["levels"].push_back(level_figures(level, diagonal_m, command.json));
+    add("--method", !command.method.empty(), command.method);
+    add("--effort", command.effort >= 0, command.effort);
+    add("--steps", command.steps >= 0, command.steps);
+    add("--colour-weight", command.colour_weight >= 0.0, command.colour_weight);
+    for (const AttributeBound& bound : bounds_of(command)) {
+        add(bound.option, bound.wanted > 0.0, bound.wanted);
     }
+    add("--keep-shells", command.keep_shells);
+    add("--keep-topology", command.keep_topology);
+    add("--keep-seams-apart", command.keep_seams_apart);
+    add("--lock-border", command.lock_border);
+    return text;
+}
+
+/// Half the triangles each time, each level by the command that the page gives for it.
+void write_simplify_chart(
+    const SimplifyCommand& command, const simplify::AttributeSeams& seams, Figures& figures) {
+    const models::TriangleMesh& original = seams.marked();
+    const double diagonal_m = models::diagonal_m(original);
+    const std::size_t faces_before = original.triangles.size();
+    const std::size_t coarsest = std::clamp<std::size_t>(faces_before / 2, 2, 32);
+    std::vector<ChartLevel> levels{
+        {.faces = faces_before, .error_m = 0.0, .made_by = "the mesh itself"}};
+    base::Progress progress("making levels", 100, command.quiet, "percent");
+    for (std::size_t goal = faces_before / 2; goal >= coarsest;
+         goal = goal == coarsest ? 0 : std::max(goal / 2, coarsest)) {
+        simplify::SimplifyOptions options = options_of(command, diagonal_m);
+        options.goal = {.vertices = {}, .faces = goal, .error_m = {}};
+        const models::TriangleMesh mesh = simplified_with_bounds(command, seams, options).mesh;
+        if (mesh.triangles.size() >= levels.back().faces) {
+            break;
+        }
+        levels.push_back(
+            {.faces = mesh.triangles.size(),
+             .error_m = certified_distance_m(original, mesh, command.threads),
+             .made_by = level_command(command, goal)});
+        progress.show(static_cast<int>(100 - 100 * goal / faces_before));
+    }
+    progress.finish();
+    if (levels.size() < 2) {
+        error_in(
+            command.in,
+            fmt::format(
+                "--chart: expected a mesh that can be simplified, got one of {} triangles that "
+                "cannot",
+                faces_before));
+    }
+    add_levels(command, levels, diagonal_m, figures);
+}
+
+} // namespace
+
+bool simplify_one(const SimplifyCommand& command, Figures& figures) {
+    if (const auto measure = paper_measure(command.method)) {
+        simplify_as_printed(command, *measure, figures);
+        return true;
+    }
+    const simplify::AttributeSeams seams = read_repaired(command, figures);
+    if (command.chain) {
+        simplify_into_chain(command, seams, figures);
+        return true;
+    }
+    if (!command.chart.empty()) {
+        write_simplify_chart(command, seams, figures);
+    }
+    return command.out.empty() || simplify_mesh(command, seams, figures);
 }
 
 } // namespace octant::ui::commands

@@ -18,10 +18,10 @@ struct SimplifyCommand {
     int vertices = 0;               ///< 0: no goal
     int faces = 0;                  ///< 0: no goal
     std::string error;
-    std::string method = "surface";
-    int effort = -1;          ///< That of the method
-    int steps = -1;           ///< Those of the effort
-    double max_seconds = 0.0; ///< No limit
+    std::string method;          ///< Empty: as --method surface
+    int effort = -1;             ///< That of the method
+    int steps = -1;              ///< Those of the effort
+    double max_seconds = 0.0;    ///< 0: no limit
     double colour_weight = -1.0; ///< That of the method
     int threads = core_count();
     bool chain = false;
@@ -50,20 +50,13 @@ double error_m_from(const std::string& text, double diagonal_m);
 /// The paper's measure where the method is one of the paper's.
 std::optional<models::simplify::PaperMeasure> paper_measure(const std::string& method);
 
-/// Each does the work of `octant simplify` in one of its ways, writes the file and adds to the
-/// figures. The first returns whether the goal was reached. Throws Error.
-bool simplify_mesh(const SimplifyCommand& command, base::Figures& figures);
-void simplify_into_chain(const SimplifyCommand& command, base::Figures& figures);
+/// Simplifies one mesh in the way that the command says: to a file, to levels of detail, as a chart
+/// or as printed. Writes the files and adds to the figures. Returns whether the goal was reached.
+/// Throws Error.
+bool simplify_one(const SimplifyCommand& command, base::Figures& figures);
 
 /// Simplifies several meshes as one, so that their common borders stay common, and writes each to
-/// the folder. Returns whether all goals were reached. Throws Error.
+/// the folder, all or none. Returns whether all goals were reached. Throws Error.
 bool simplify_together(const SimplifyCommand& command, base::Figures& figures);
-
-/// Writes a page that plots errors of levels of a mesh against their faces. Throws Error.
-void write_simplify_chart(const SimplifyCommand& command, base::Figures& figures);
-
-/// As printed: of the mesh as it is, nothing repaired.
-void simplify_as_printed(
-    const SimplifyCommand& command, models::simplify::PaperMeasure measure, base::Figures& figures);
 
 } // namespace octant::ui::commands

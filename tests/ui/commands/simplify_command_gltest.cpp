@@ -17,9 +17,11 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 using namespace octant;
@@ -266,6 +268,31 @@ TEST_CASE("files simplified together keep their common border to the byte") {
     }
     CHECK(borders[0].size() >= 2);
     CHECK(borders[0] == borders[1]);
+    // Text has a line for each file.
+    const std::string lines = run_octant({"simplify",
+                                          tiles[0],
+                                          tiles[1],
+                                          "--shared-border",
+                                          "--out-dir",
+                                          folder,
+                                          "--faces",
+                                          "300",
+                                          "--method",
+                                          "fast"})
+                                  .out;
+    CHECK_THAT(lines, Catch::Contains("west.obj: ") && Catch::Contains(" faces, error "));
+    CHECK(lines.find('{') == lines.npos);
+    // Where one cannot be written none is, and nothing is left over.
+    const std::string blocked = file_named("blocked");
+    std::filesystem::create_directories(blocked + "/east.obj");
+    check_simplify_refused(
+        {tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"},
+        "east.obj: cannot be written");
+    CHECK(std::distance(std::filesystem::directory_iterator(blocked), {}) == 1);
+    std::filesystem::remove(blocked + "/east.obj");
+    simplify_figures(
+        {tiles[0], tiles[1], "--shared-border", "--out-dir", blocked, "--faces", "300"});
+    CHECK(std::distance(std::filesystem::directory_iterator(blocked), {}) == 2);
     // Put together again the tiles have no edge inside that lies in one triangle only.
     models::TriangleMesh joined = models::meshfile::read_mesh(folder + "/west.obj");
     models::meshfile::join_mesh(joined, models::meshfile::read_mesh(folder + "/east.obj"), {});
@@ -318,16 +345,153 @@ TEST_CASE("a chart of faces against error is one page without a script, with a n
         return;
     }
     const std::string page = file_named("chart.html");
-    const auto found = simplify_figures({waves(16), "--chart", page, "--method", "fast"});
+    const std::string in = waves(16);
+    const auto found = simplify_figures({in, "--chart", page, "--method", "fast", "--lock-border"});
     REQUIRE(found["levels"].size() >= 4);
     const std::string html = read_file(page);
     CHECK(html.find("<script") == html.npos);
     CHECK(html.find("src=") == html.npos);
     CHECK(html.find("<svg role=\"img\" aria-labelledby=\"chart-name\"") != html.npos);
     CHECK(html.find("<title id=\"chart-name\">Faces against error of ") != html.npos);
+    // A row gives the command that makes its level, with the options that were used.
+    const std::size_t faces = models::meshfile::read_mesh(in).triangles.size() / 2;
     CHECK(
-        html.find(fmt::format("--faces {}</td>", found["levels"][1]["faces"].number())) !=
+        html.find(fmt::format("OUT --faces {} --method fast --lock-border</td>", faces)) !=
         html.npos);
+    const auto alone = simplify_figures(
+        {in,
+         file_named("level.obj"),
+         "--faces",
+         std::to_string(faces),
+         "--method",
+         "fast",
+         "--lock-border"});
+    CHECK(found["levels"][1]["faces"] == alone["faces"].number());
+    CHECK(found["levels"][1]["error"].number() == Approx(alone["error"].number()).epsilon(0.3));
+    write_file(simplify_folder() / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    check_simplify_refused(
+        {file_named("one.obj"), "--chart", page}, "expected a mesh that can be simplified");
+}
+
+TEST_CASE("a chart and a mesh come from one reading of the file") {
+    write_file(
+        simplify_folder() / "plate.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nv 7 7 7\n"
+        "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 1 2\n");
+    const tests::ProgramRun run = run_octant(
+        {"simplify",
+         file_named("plate.obj"),
+         file_named("plate-2.obj"),
+         "--faces",
+         "2",
+         "--chart",
+         file_named("plate.html")});
+    INFO(run.err);
+    CHECK(run.exit_code != 2);
+    const std::string said = "repaired: 1 triangle without an area taken out";
+    CHECK_THAT(run.err, Catch::Contains(said));
+    CHECK(run.err.find(said) == run.err.rfind(said));
+}
+
+TEST_CASE("the steps that are told for a limited time repeat its result, also of several tries") {
+    const std::string in = waves(24);
+    const std::string timed = file_named("timed.obj");
+    const std::string repeated = file_named("repeated.obj");
+    for (const std::vector<std::string>& goal :
+         {std::vector<std::string>{"--error", "1%"},
+          {"--error", "0.5%", "--effort", "5"},
+          {"--faces", "300"}}) {
+        for (const std::string seconds : {"0.001", "0.04"}) {
+            INFO(goal[1] << " in " << seconds);
+            std::vector<std::string> arguments{in, timed, "--max-seconds", seconds};
+            arguments.insert(arguments.end(), goal.begin(), goal.end());
+            const auto limited = simplify_figures(arguments);
+            arguments[1] = repeated;
+            arguments[2] = "--steps";
+            arguments[3] = fmt::format("{:.0f}", limited["steps"].number());
+            const auto again = simplify_figures(arguments);
+            CHECK(again["steps"] == limited["steps"].number());
+            CHECK(read_file(timed) == read_file(repeated));
+        }
+    }
+}
+
+TEST_CASE("the steps of a wanted error are those of all its tries and repeat its result") {
+    const std::string in = waves(24);
+    const auto found = simplify_figures({in, file_named("tries.obj"), "--error", "0.3%"});
+    const auto fewer = simplify_figures(
+        {in,
+         file_named("tries-again.obj"),
+         "--error",
+         "0.3%",
+         "--steps",
+         fmt::format("{:.0f}", found["steps"].number())});
+    CHECK(read_file(file_named("tries.obj")) == read_file(file_named("tries-again.obj")));
+    CHECK(fewer["steps"] == found["steps"].number());
+}
+
+TEST_CASE("a note names the options that put a number of faces out of reach") {
+    const tests::ProgramRun run = run_octant(
+        {"simplify",
+         waves(12),
+         file_named("locked.obj"),
+         "--faces",
+         "20",
+         "--lock-border",
+         "--method",
+         "fast"});
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err, Catch::Contains("or losing what is held by --lock-border"));
+}
+
+TEST_CASE("a mesh too small for squares of its distances is refused") {
+    for (const std::string power : {"e-170", "e-310"}) {
+        write_file(
+            simplify_folder() / "minute.obj",
+            fmt::format(
+                "v 0 0 0\nv 1{0} 0 0\nv 0 1{0} 0\nv 1{0} 1{0} 0\nf 1 2 3\nf 2 4 3\n", power));
+        for (const char* method : {"surface", "triangle"}) {
+            check_simplify_refused(
+                {file_named("minute.obj"), file_named("x.obj"), "--faces", "1", "--method", method},
+                "expected a bounding box with a diagonal of");
+        }
+    }
+}
+
+TEST_CASE("options that would have no effect or overwrite an input are refused") {
+    const std::string in = waves(4);
+    const std::string before = read_file(in);
+    const std::string out = file_named("unused.obj");
+    const std::string page = file_named("unused.html");
+    using Words = std::vector<std::string>;
+    const std::vector<std::pair<Words, std::string>> cases{
+        {{in, "--chart", in}, "ends in .html"},
+        {{in, out, "--faces", "9", "--chart", out}, "ends in .html"},
+        {{in, "--chart", page, "--faces", "9"}, "expected no --faces with it"},
+        {{in, "--chart", page, "--max-seconds", "1"}, "expected no --max-seconds with it"},
+        {{in, out, "--faces", "9", "--max-seconds", "0"}, "--max-seconds"},
+        {{in, out, "--faces", "9", "--max-seconds", "1", "--steps", "5"}, "expected no --steps"},
+        {{in, out, "--faces", "9", "--effort", "2", "--steps", "5"}, "expected no --steps"},
+        {{in, out, "--faces", "9", "--method", "fast", "--effort", "9"}, "expected no --effort"},
+        {{in, file_named("u.chain"), "--chain", "--max-seconds", "1"}, "no --max-seconds"},
+        {{in, file_named("u.chain"), "--chain", "--normal-error", "5"}, "no --normal-error"},
+        {{in, in, "--shared-border", "--out-dir", "d", "--chart", page, "--faces", "9"},
+         "--chart: expected no --shared-border"}};
+    for (const auto& [words, expected] : cases) {
+        INFO(expected);
+        check_simplify_refused(words, expected);
+    }
+    for (const Words& unused :
+         {Words{"--effort", "9"}, {"--steps", "5"}, {"--keep-shells"}, {"--max-seconds", "3"}}) {
+        Words words{in, out, "--faces", "9", "--method", "plane"};
+        words.insert(words.end(), unused.begin(), unused.end());
+        check_simplify_refused(words, "expected no " + unused.front() + " with it");
+    }
+    std::filesystem::create_symlink(in, file_named("link.html"));
+    check_simplify_refused({in, "--chart", file_named("link.html")}, "another file than");
+    CHECK(read_file(in) == before);
+    CHECK_FALSE(std::filesystem::exists(page));
+    CHECK_FALSE(std::filesystem::exists(out));
 }
 
 TEST_CASE("the same input gives the same file for any number of threads") {
@@ -386,7 +550,7 @@ TEST_CASE("simplify refuses wrong input in one line with exit code 2") {
         {in, file_named("x.obj"), "--out-dir", "d", "--faces", "10"}, "--shared-border with it");
     check_simplify_refused(
         {in, file_named("x.obj"), "--uv-error", "0.1", "--method", "plane", "--faces", "10"},
-        "--method plane: expected none of");
+        "--method plane: expected no --uv-error with it");
     check_simplify_refused(
         {in, file_named("x.obj")}, "expected one of --vertices, --faces and --error");
     check_simplify_refused(
