@@ -1,7 +1,7 @@
 // Half-edges for collapses and flips. CollapsibleMesh::may_collapse tests the link condition of T.
 // Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge Contraction", 1999: the
 // ends of the edge may have no common neighbours but the corners opposite the edge. The 2005 paper
-// tests nothing and so leaves manifolds; its own mode uses PaperMesh instead.
+// tests nothing and so leaves manifolds; its own mode uses PaperRun instead.
 #include "models/simplify/collapsible_mesh.h"
 
 #include <algorithm>
