@@ -5,6 +5,7 @@
 #include "models/measure/flipped_area.h"
 
 #include "models/measure/surface_samples.h"
+#include "models/measure/target_surface.h"
 #include "sim/base/worker_team.h"
 
 #include <glm/geometric.hpp>
@@ -17,6 +18,10 @@
 
 namespace octant::models::measure {
 
+namespace {
+
+/// Whether a point of a mesh counts as one that faces against `original`. `normal` is that of its
+/// triangle, of any length, and `nearest` the nearest point of the original.
 bool is_flipped(
     const TargetSurface& original,
     const glm::dvec3& point_m,
@@ -39,6 +44,8 @@ bool is_flipped(
     });
     return against;
 }
+
+} // namespace
 
 double flipped_area_share(
     const TriangleMesh& mesh, const TriangleMesh& original, const FlippedAreaOptions& options) {

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "models/measure/target_surface.h"
 #include "models/triangle_mesh.h"
-
-#include <glm/vec3.hpp>
 
 #include <cstddef>
 
@@ -25,14 +22,5 @@ struct FlippedAreaOptions {
 /// Sampled by SurfaceSamples. Both meshes need triangles (asserted).
 double flipped_area_share(
     const TriangleMesh& mesh, const TriangleMesh& original, const FlippedAreaOptions& options = {});
-
-/// Whether a point of a mesh counts as one that faces against `original`. `normal` is that of its
-/// triangle, of any length, and `nearest` the nearest point of the original.
-bool is_flipped(
-    const TargetSurface& original,
-    const glm::dvec3& point_m,
-    const glm::dvec3& normal,
-    const NearestOnMesh& nearest,
-    double reach_m);
 
 } // namespace octant::models::measure

@@ -3,7 +3,6 @@
 // number of threads does not change the result.
 #include "models/measure/sampled_distance.h"
 
-#include "models/measure/flipped_area.h"
 #include "models/measure/surface_samples.h"
 #include "sim/base/worker_team.h"
 
@@ -21,7 +20,6 @@ struct Sums {
     double distances = 0.0;
     double squares = 0.0;
     double colour_squares = 0.0;
-    std::size_t flipped = 0;
 };
 
 /// The squared difference between the colours of a point and of its nearest point.
@@ -57,10 +55,6 @@ SampledDistance sampled_distance(
             if (coloured) {
                 sums.colour_squares += colour_difference2(mesh, here, target.mesh(), there);
             }
-            if (options.flipped) {
-                const glm::dvec3 normal = area_vector(mesh, mesh.triangles[here.triangle]);
-                sums.flipped += is_flipped(target, here.point_m, normal, there, 0.0) ? 1U : 0U;
-            }
         });
         chunks[chunk] = sums;
     });
@@ -69,14 +63,12 @@ SampledDistance sampled_distance(
         total.distances += sums.distances;
         total.squares += sums.squares;
         total.colour_squares += sums.colour_squares;
-        total.flipped += sums.flipped;
     }
     const auto count = static_cast<double>(options.samples);
     return {
         std::sqrt(total.squares / count),
         total.distances / count,
-        std::sqrt(total.colour_squares / count),
-        static_cast<double>(total.flipped) / count};
+        std::sqrt(total.colour_squares / count)};
 }
 
 } // namespace octant::models::measure

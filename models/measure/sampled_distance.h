@@ -13,16 +13,12 @@ struct SampledDistance {
     double mean_m = 0.0;
     /// In RGB with parts 0 to 1; 0 where one of the meshes has no colours.
     double colour_rms = 0.0;
-    /// The share of the area that faces against the target (flipped_area_share without a reach); 0
-    /// where it was not asked for.
-    double flipped_share = 0.0;
 };
 
 /// What sampled_distance measures.
 struct SampleOptions {
     std::size_t samples = 0;
     int threads = 1; ///< The number of threads; it does not change the result.
-    bool flipped = false;
 };
 
 /// Measures the distances from SurfaceSamples of `mesh` to `target`. Any number of threads gives
