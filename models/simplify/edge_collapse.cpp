@@ -10,7 +10,7 @@
 //   top of the heap.
 #include "models/simplify/edge_collapse.h"
 
-#include "models/simplify/collapse_guard.h"
+#include "models/simplify/working_surface.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
 #include "models/simplify/shells.h"

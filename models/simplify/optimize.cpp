@@ -11,7 +11,7 @@
 // it.
 #include "models/simplify/optimize.h"
 
-#include "models/simplify/collapse_guard.h"
+#include "models/simplify/working_surface.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
 
@@ -29,7 +29,7 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// A distance of so many root mean squares counts twice.
+/// At so many root mean squares a distance has twice the penalty of its square.
 constexpr double high = 1.5;
 /// The shares of an error that a step is expected to take away before one was tried.
 constexpr double expected_of_move = 0.1;
@@ -493,10 +493,10 @@ void Optimizer::try_flip(HalfEdge h) {
     }
 }
 
-/// Loads the triangles around an edge that would split, into a fan around the new vertex.
+/// Loads the triangles around an edge that would split, no border, into a fan around the new vertex.
 void Optimizer::load_split(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
-    faces_.assign(1, face_of(h));
+    faces_.clear();
     fan_.clear();
     const glm::dvec3 middle =
         0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
@@ -514,12 +514,7 @@ void Optimizer::load_split(HalfEdge h) {
     };
     // In the order of CollapsibleMesh::split.
     for (const HalfEdge side : {h, mesh.twin(h)}) {
-        if (side == none) {
-            continue;
-        }
-        if (side != h) {
-            faces_.push_back(face_of(side));
-        }
+        faces_.push_back(face_of(side));
         const std::uint32_t opposite = mesh.origin(previous_of(side));
         add(opposite, mesh.origin(side));
         add(mesh.target(side), opposite);
@@ -578,10 +573,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
 void Optimizer::load_collapse(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.ring_of(h, ring_);
-    faces_.assign(1, face_of(h));
-    if (mesh.twin(h) != none) {
-        faces_.push_back(face_of(mesh.twin(h)));
-    }
+    faces_ = {face_of(h), face_of(mesh.twin(h))};
     ring_faces_.clear();
     for (const RingFace& face : ring_) {
         faces_.push_back(face.face);
@@ -647,10 +639,8 @@ bool Optimizer::touch(HalfEdge split, HalfEdge collapsed) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     std::vector<std::uint32_t> near;
     for (const HalfEdge side : {split, mesh.twin(split)}) {
-        if (side != none) {
-            const Triangle corners = mesh.corners(face_of(side));
-            near.insert(near.end(), corners.begin(), corners.end());
-        }
+        const Triangle corners = mesh.corners(face_of(side));
+        near.insert(near.end(), corners.begin(), corners.end());
     }
     bool found = false;
     for (const std::uint32_t end : {mesh.origin(collapsed), mesh.target(collapsed)}) {
@@ -713,7 +703,8 @@ void Optimizer::try_split(HalfEdge h) {
     relocate(h, cheapest);
 }
 
-/// Collapses one edge and splits another one with the triangles that are free then.
+/// Collapses one edge and splits another one, neither of them a border, with the triangles that are
+/// free then.
 void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     CollapsibleMesh& mesh = surface_.mesh;
     const MadeVertex apart = split_vertex(split);
@@ -732,12 +723,8 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     const double work = local_.work();
     const std::uint32_t kept = mesh.origin(collapsed);
     const std::uint32_t gone = mesh.target(collapsed);
-    std::array<std::uint32_t, 2> free = {face_of(collapsed), none};
+    const std::array free = {face_of(collapsed), face_of(mesh.twin(collapsed))};
     for (const HalfEdge side : {collapsed, mesh.twin(collapsed)}) {
-        if (side == none) {
-            continue;
-        }
-        free[1] = face_of(side);
         for (const HalfEdge at : {side, next_of(side), previous_of(side)}) {
             const HalfEdge edge = mesh.edge_of(at);
             collapses_.remove(edge);
@@ -757,25 +744,19 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     local_.move_corner(apart.place, apart.colour);
     local_.measured();
     const std::uint32_t left = face_of(split);
-    const std::uint32_t right = mesh.twin(split) == none ? none : face_of(mesh.twin(split));
+    const std::uint32_t right = face_of(mesh.twin(split));
     mesh.split(split, gone, free);
-    std::vector<std::uint32_t> made = {left, free[0]};
-    if (right != none) {
-        made.insert(made.end(), {free[1], right});
-    }
     if (!surface_.materials.empty()) {
         surface_.materials[free[0]] = surface_.materials[left];
-        if (right != none) {
-            surface_.materials[free[1]] = surface_.materials[right];
-        }
+        surface_.materials[free[1]] = surface_.materials[right];
     }
     surface_.places[gone] = apart.place;
     if (surface_.coloured()) {
         surface_.colours[gone] = apart.colour;
     }
-    local_.keep(faces_, made, gone);
+    changed_ = {left, free[0], free[1], right};
+    local_.keep(faces_, changed_, gone);
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + gain) : 0.0;
-    changed_ = made;
     mesh.around(kept, [&](HalfEdge h) { changed_.push_back(face_of(h)); });
     changed_around(kept, gain, work, true);
     changed_around(gone, gain, work, true);
