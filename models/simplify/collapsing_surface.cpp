@@ -3,6 +3,7 @@
 #include "models/simplify/collapsing_surface.h"
 
 #include <numeric>
+#include <utility>
 
 namespace octant::models::simplify {
 
@@ -17,27 +18,13 @@ std::vector<std::uint32_t> counted(std::size_t count) {
 } // namespace
 
 CollapsingSurface::CollapsingSurface(
-    WorkingSurface& surface, const WorkingUnits& units, const EdgeWeights& weights)
-    : surface_(surface)
+    WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights)
+    : surface_(std::move(surface))
     , units_(units)
-    , quadrics_(surface, weights)
-    , vertex_numbers_(counted(surface.mesh.vertex_slots()))
-    , face_numbers_(counted(surface.mesh.face_slots()))
-    , first_faces_(surface.mesh.face_slots())
-    , first_vertices_(surface.mesh.vertex_slots()) {}
-
-CollapsingSurface::CollapsingSurface(
-    const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units)
-    : surface_(surface)
-    , units_(units)
-    , quadrics_(from.quadrics_)
-    , vertex_numbers_(from.vertex_numbers_)
-    , face_numbers_(from.face_numbers_)
-    , first_faces_(from.first_faces_)
-    , first_vertices_(from.first_vertices_)
-    , collapses_(from.collapses_)
-    , holes_closed_(from.holes_closed_)
-    , handles_cut_(from.handles_cut_) {}
+    , quadrics_(surface_, weights)
+    , vertex_numbers_(counted(surface_.mesh.vertex_slots()))
+    , face_numbers_(counted(surface_.mesh.face_slots()))
+    , first_vertices_(surface_.mesh.vertex_slots()) {}
 
 CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;

@@ -14,14 +14,7 @@ namespace octant::models::simplify {
 /// the record of what collapsed, in the numbers of the mesh that it was at first.
 class CollapsingSurface {
 public:
-    /// The surface is changed by collapse() and compact() and must outlive this, and so must the
-    /// units.
-    CollapsingSurface(
-        WorkingSurface& surface, const WorkingUnits& units, const EdgeWeights& weights);
-
-    /// A copy that goes on with a copy of the surface.
-    CollapsingSurface(
-        const CollapsingSurface& from, WorkingSurface& surface, const WorkingUnits& units);
+    CollapsingSurface(WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights);
 
     WorkingSurface& surface() { return surface_; }
 
@@ -44,9 +37,6 @@ public:
     /// Gives the slots of what is gone back and keeps the order of the rest.
     KeptSlots compact();
 
-    /// The triangles of the mesh at first.
-    std::size_t first_faces() const { return first_faces_; }
-
     /// The vertices of the mesh at first.
     std::size_t first_vertices() const { return first_vertices_; }
 
@@ -64,12 +54,11 @@ public:
 private:
     void copy_vertex(std::uint32_t from, std::uint32_t to);
 
-    WorkingSurface& surface_;
-    const WorkingUnits& units_;
+    WorkingSurface surface_;
+    WorkingUnits units_;
     VertexQuadrics quadrics_;
     std::vector<std::uint32_t> vertex_numbers_;
     std::vector<std::uint32_t> face_numbers_; ///< For each triangle slot its number at first.
-    std::size_t first_faces_;
     std::size_t first_vertices_;
     std::vector<Collapse> collapses_;
     std::size_t holes_closed_ = 0;
