@@ -511,67 +511,30 @@ HausdorffBounds one_way_hausdorff(
     return bounds;
 }
 
-double MeshDistance::least_hausdorff_m() const {
-    return std::max(there.least_hausdorff_m, back.least_hausdorff_m);
-}
-
-double MeshDistance::most_hausdorff_m() const {
-    return std::max(there.most_hausdorff_m, back.most_hausdorff_m);
-}
-
-double MeshDistance::rms_m() const {
-    return std::max(there.rms_m, back.rms_m);
-}
-
-double MeshDistance::mean_m() const {
-    return std::max(there.mean_m, back.mean_m);
-}
-
-double MeshDistance::colour_rms() const {
-    return std::max(there.colour_rms, back.colour_rms);
-}
-
 namespace {
 
-/// Tells the caller's progress function how many of the four steps are done.
-class Steps {
-public:
-    explicit Steps(const DistanceOptions& options)
-        : options_(options) {
-        show();
+/// Tells how many of the four steps are done.
+void show(const DistanceOptions& options, int done) {
+    if (options.progress) {
+        options.progress(done, 4);
     }
+}
 
-    void next() {
-        ++done_;
-        show();
-    }
-
-private:
-    void show() const {
-        constexpr int steps = 4;
-        if (options_.progress) {
-            options_.progress(done_, steps);
-        }
-    }
-
-    const DistanceOptions& options_;
-    int done_ = 0;
-};
-
+/// The two steps after those that are `done`.
 OneWayDistance one_way(
     const TriangleMesh& mesh,
     const TargetSurface& target,
     const DistanceOptions& options,
-    Steps& steps) {
+    int done) {
     HausdorffLimits limits;
     limits.tightness = options.tightness;
     limits.negligible_m = options.negligible_m;
     limits.threads = options.threads;
     const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
-    steps.next();
+    show(options, done + 1);
     const SampledDistance sampled =
         sampled_distance(mesh, target, {.samples = options.samples, .threads = options.threads});
-    steps.next();
+    show(options, done + 2);
     return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
 }
 
@@ -584,13 +547,13 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     if (!(options.negligible_m > 0.0)) {
         wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b));
     }
-    Steps steps(options);
+    show(options, 0);
     MeshDistance found;
-    found.there = one_way(a, TargetSurface(b), wanted, steps);
+    found.there = one_way(a, TargetSurface(b), wanted, 0);
     if (options.larger_alone) {
         wanted.negligible_m = std::max(wanted.negligible_m, found.there.least_hausdorff_m);
     }
-    found.back = one_way(b, TargetSurface(a), wanted, steps);
+    found.back = one_way(b, TargetSurface(a), wanted, 2);
     return found;
 }
 

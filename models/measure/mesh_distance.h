@@ -3,6 +3,7 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/triangle_mesh.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 
@@ -51,11 +52,16 @@ struct MeshDistance {
     OneWayDistance there; ///< From the points of a to b.
     OneWayDistance back;  ///< From the points of b to a.
 
-    double least_hausdorff_m() const;
-    double most_hausdorff_m() const;
-    double rms_m() const;
-    double mean_m() const;
-    double colour_rms() const;
+    double least_hausdorff_m() const { return larger(&OneWayDistance::least_hausdorff_m); }
+    double most_hausdorff_m() const { return larger(&OneWayDistance::most_hausdorff_m); }
+    double rms_m() const { return larger(&OneWayDistance::rms_m); }
+    double mean_m() const { return larger(&OneWayDistance::mean_m); }
+    double colour_rms() const { return larger(&OneWayDistance::colour_rms); }
+
+private:
+    double larger(double OneWayDistance::* figure) const {
+        return std::max(there.*figure, back.*figure);
+    }
 };
 
 /// How accurately distances are measured.

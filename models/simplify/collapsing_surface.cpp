@@ -60,10 +60,7 @@ CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placemen
 
 /// Gives a vertex the place, the colour and the quadric of another one.
 void CollapsingSurface::copy_vertex(std::uint32_t from, std::uint32_t to) {
-    surface_.places[to] = surface_.places[from];
-    if (surface_.coloured()) {
-        surface_.colours[to] = surface_.colours[from];
-    }
+    surface_.set_vertex(to, surface_.places[from], surface_.colour_of(from));
     quadrics_.copy(from, to);
 }
 

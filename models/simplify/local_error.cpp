@@ -175,14 +175,10 @@ void LocalError::set_ring(
     for (const RingFace& face : ring) {
         const std::uint32_t next = surface_.mesh.target(face.half_edge);
         const std::uint32_t last = surface_.mesh.origin(previous_of(face.half_edge));
-        ColouredTriangle made{{none, next, last}, moved_corners(surface_, face, place), {}};
-        if (surface_.coloured()) {
-            made.colours = {
-                colour,
-                surface_.colours[next],
-                surface_.colours[last]};
-        }
-        triangles_.push_back(made);
+        triangles_.push_back(
+            {{none, next, last},
+             moved_corners(surface_, face, place),
+             {colour, surface_.colour_of(next), surface_.colour_of(last)}});
         near_.push_back(face.face);
         turns_.push_back(face.half_edge % 3);
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/original_surface.h"
 #include "models/simplify/quadric.h"
 #include "models/simplify/sample_block.h"
 #include "models/simplify/surface_samples.h"

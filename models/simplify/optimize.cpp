@@ -101,6 +101,7 @@ private:
         double limit,
         std::uint32_t vertex,
         const std::function<bool(const glm::dvec3&)>& may_be_at);
+    void fit_corner(glm::dvec3& place, glm::dvec3& colour);
     MadeVertex split_vertex(HalfEdge h);
     MadeVertex collapsed_vertex(HalfEdge h);
     HalfEdge cheapest_collapse();
@@ -343,10 +344,7 @@ void Optimizer::lower_max_by_corner(
 /// Moves a vertex so that the largest distance around it falls below the largest one allowed.
 void Optimizer::move_to_lower_max(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
-    MadeVertex moved{surface_.places[vertex], {}, 0.0};
-    if (surface_.coloured()) {
-        moved.colour = surface_.colours[vertex];
-    }
+    MadeVertex moved{surface_.places[vertex], surface_.colour_of(vertex), 0.0};
     local_.gather(faces_);
     local_.set_ring(ring_, moved.place, moved.colour);
     const double limit = local_.present() + spare_;
@@ -377,7 +375,7 @@ void Optimizer::try_step(Id id) {
 void Optimizer::try_move(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
     const glm::dvec3 place = surface_.places[vertex];
-    const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
+    const glm::dvec3 colour = surface_.colour_of(vertex);
     local_.gather(faces_);
     const double before = local_.present();
     if (before <= local_.rounding()) {
@@ -398,10 +396,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
         const double limit = (1.0 - min_share) * before;
         const double after = local_.measured(limit);
         if (after < limit && local_.max_distance2() <= max_distance2_) {
-            surface_.places[vertex] = there;
-            if (surface_.coloured()) {
-                surface_.colours[vertex] = new_colour;
-            }
+            surface_.set_vertex(vertex, there, new_colour);
             local_.keep(faces_, faces_, vertex);
             expect(vertex, expected_again * (before - after), work);
             changed_around(vertex, before - after, work, false);
@@ -448,12 +443,10 @@ void Optimizer::try_flip(HalfEdge h) {
     const std::uint32_t x = mesh.origin(previous_of(h));
     const std::uint32_t y = mesh.origin(previous_of(mesh.twin(h)));
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{
-            {a, b, c}, {surface_.places[a], surface_.places[b], surface_.places[c]}, {}};
-        if (surface_.coloured()) {
-            made.colours = {surface_.colours[a], surface_.colours[b], surface_.colours[c]};
-        }
-        return made;
+        return ColouredTriangle{
+            {a, b, c},
+            {surface_.places[a], surface_.places[b], surface_.places[c]},
+            {surface_.colour_of(a), surface_.colour_of(b), surface_.colour_of(c)}};
     };
     const std::array old = {triangle(u, w, x), triangle(w, u, y)};
     const std::array made = {triangle(y, x, u), triangle(x, y, w)};
@@ -501,16 +494,12 @@ void Optimizer::load_split(HalfEdge h) {
     const glm::dvec3 middle =
         0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
     const glm::dvec3 colour =
-        surface_.coloured()
-            ? 0.5 * (surface_.colours[mesh.origin(h)] + surface_.colours[mesh.target(h)])
-            : glm::dvec3(0.0);
+        0.5 * (surface_.colour_of(mesh.origin(h)) + surface_.colour_of(mesh.target(h)));
     const auto add = [&](std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{
-            {none, b, c}, {middle, surface_.places[b], surface_.places[c]}, {}};
-        if (surface_.coloured()) {
-            made.colours = {colour, surface_.colours[b], surface_.colours[c]};
-        }
-        fan_.push_back(made);
+        fan_.push_back(
+            {{none, b, c},
+             {middle, surface_.places[b], surface_.places[c]},
+             {colour, surface_.colour_of(b), surface_.colour_of(c)}});
     };
     // In the order of CollapsibleMesh::split.
     for (const HalfEdge side : {h, mesh.twin(h)}) {
@@ -525,6 +514,17 @@ void Optimizer::load_split(HalfEdge h) {
         near_.push_back(faces_[i / 2]);
     }
     local_.set_triangles(fan_, near_);
+}
+
+/// Moves corner 0 of the new triangles to where two least-squares fits lead.
+void Optimizer::fit_corner(glm::dvec3& place, glm::dvec3& colour) {
+    for (int fit = 0; fit < 2; ++fit) {
+        local_.measured_there();
+        const VertexFit step = local_.fit(false);
+        place += step.way();
+        colour += step.colour_change();
+        local_.move_corner(place, colour);
+    }
 }
 
 /// The vertex that a split of an edge would make.
@@ -554,13 +554,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
     }
     glm::dvec3 place = made.place;
     glm::dvec3 colour = made.colour;
-    for (int fit = 0; fit < 2; ++fit) {
-        local_.measured_there();
-        const VertexFit step = local_.fit(false);
-        place += step.way();
-        colour += step.colour_change();
-        local_.move_corner(place, colour);
-    }
+    fit_corner(place, colour);
     if (is_allowed(place)) {
         const double after = local_.measured(present);
         if (after < present && local_.max_distance2() <= max_distance2_) {
@@ -594,16 +588,9 @@ Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
     const std::uint32_t u = mesh.origin(h);
     const std::uint32_t w = mesh.target(h);
     glm::dvec3 place = 0.5 * (surface_.places[u] + surface_.places[w]);
-    glm::dvec3 colour = surface_.coloured() ? 0.5 * (surface_.colours[u] + surface_.colours[w])
-                                            : glm::dvec3(0.0);
+    glm::dvec3 colour = 0.5 * (surface_.colour_of(u) + surface_.colour_of(w));
     local_.set_ring(ring_, place, colour);
-    for (int fit = 0; fit < 2; ++fit) {
-        local_.measured_there();
-        const VertexFit step = local_.fit(false);
-        place += step.way();
-        colour += step.colour_change();
-        local_.move_corner(place, colour);
-    }
+    fit_corner(place, colour);
     if (may_move(surface_, ring_, place)) {
         const double after = local_.measured();
         if (local_.max_distance2() <= max_distance2_) {
@@ -733,10 +720,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
         }
     }
     mesh.collapse(collapsed);
-    surface_.places[kept] = merged.place;
-    if (surface_.coloured()) {
-        surface_.colours[kept] = merged.colour;
-    }
+    surface_.set_vertex(kept, merged.place, merged.colour);
     local_.keep(faces_, ring_faces_, kept);
     queue_.remove(gone);
     // The split.
@@ -750,10 +734,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
         surface_.materials[free[0]] = surface_.materials[left];
         surface_.materials[free[1]] = surface_.materials[right];
     }
-    surface_.places[gone] = apart.place;
-    if (surface_.coloured()) {
-        surface_.colours[gone] = apart.colour;
-    }
+    surface_.set_vertex(gone, apart.place, apart.colour);
     changed_ = {left, free[0], free[1], right};
     local_.keep(faces_, changed_, gone);
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + gain) : 0.0;

@@ -2,7 +2,7 @@
 
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/collapsing_surface.h"
-#include "models/simplify/original_surface.h"
+#include "models/simplify/working_surface.h"
 #include "models/simplify/surface_samples.h"
 
 #include <cstddef>
