@@ -38,7 +38,7 @@ constexpr double expected_of_split = 0.6;
 /// The next move of the same vertex is expected to achieve this share of the last one, and the
 /// moves and flips around it these.
 constexpr double expected_again = 0.5;
-constexpr double expected_beside = 0.25;
+constexpr double expected_nearby = 0.25;
 /// At most so many distances count as one step; mostly there are some 2,000.
 constexpr double work_of_step = 20'000.0;
 /// A step is made only if it takes away this share of the error around it.
@@ -417,7 +417,7 @@ void Optimizer::changed_around(
                 expect_split(edge);
                 collapses_.set(edge, 0.0F);
             } else {
-                expect(flip_of(edge), 0.2 * expected_beside * gain, work);
+                expect(flip_of(edge), 0.2 * expected_nearby * gain, work);
                 split_is_checked_[edge] = 0;
             }
             collapse_is_checked_[edge] = 0;
@@ -425,7 +425,7 @@ void Optimizer::changed_around(
         if (connectivity) {
             expect(mesh.target(h), expected_of_move * samples_.error(face_of(h)), work_at(h));
         } else {
-            expect(mesh.target(h), expected_beside * gain, work);
+            expect(mesh.target(h), expected_nearby * gain, work);
         }
     });
     if (connectivity) {
@@ -471,12 +471,12 @@ void Optimizer::try_flip(HalfEdge h) {
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + before - after) : 0.0;
     const double work = local_.work();
     for (const std::uint32_t vertex : {u, w, x, y}) {
-        expect(vertex, expected_beside * (before - after), work);
+        expect(vertex, expected_nearby * (before - after), work);
     }
     for (const std::uint32_t face : faces_) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             const HalfEdge edge = mesh.edge_of(3 * face + corner);
-            expect(flip_of(edge), expected_beside * (before - after), work);
+            expect(flip_of(edge), expected_nearby * (before - after), work);
             split_is_checked_[edge] = 0;
             collapse_is_checked_[edge] = 0;
             if (!collapses_.holds(edge)) {
