@@ -47,6 +47,7 @@ struct Side {
 
     /// Its corners at the smaller and at the larger vertex.
     std::uint32_t least_corner() const { return rises ? corner : (corner + 1U) % 3U; }
+
     std::uint32_t most_corner() const { return rises ? (corner + 1U) % 3U : corner; }
 
     bool operator==(const Side&) const = default;

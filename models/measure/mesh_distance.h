@@ -53,13 +53,17 @@ struct MeshDistance {
     OneWayDistance back;  ///< From the points of b to a.
 
     double least_hausdorff_m() const { return larger(&OneWayDistance::least_hausdorff_m); }
+
     double most_hausdorff_m() const { return larger(&OneWayDistance::most_hausdorff_m); }
+
     double rms_m() const { return larger(&OneWayDistance::rms_m); }
+
     double mean_m() const { return larger(&OneWayDistance::mean_m); }
+
     double colour_rms() const { return larger(&OneWayDistance::colour_rms); }
 
 private:
-    double larger(double OneWayDistance::* figure) const {
+    double larger(double OneWayDistance::*figure) const {
         return std::max(there.*figure, back.*figure);
     }
 };

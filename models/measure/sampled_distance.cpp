@@ -7,8 +7,8 @@
 // M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: a Kronecker sequence
 // in the unit square, folded at its diagonal.
 //
-// Distances do not show what is folded over: in a thin part, such as a wing, a triangle of the upper
-// side that faces downwards is near the lower side. So each point looks for a triangle of the
+// Distances do not show what is folded over: in a thin part, such as a wing, a triangle of the
+// upper side that faces downwards is near the lower side. So each point looks for a triangle of the
 // original nearby that faces its way.
 #include "models/measure/sampled_distance.h"
 
@@ -159,7 +159,8 @@ double flipped_area_share(
     const TargetSurface target(original);
     const auto take = [&](Sums& sums, const SurfacePoint& here, const NearestOnMesh& nearest) {
         const glm::dvec3 normal = area_vector(mesh, mesh.triangles[here.triangle]);
-        sums.flipped += is_flipped(target, here.point_m, normal, nearest, options.reach_m) ? 1U : 0U;
+        sums.flipped +=
+            is_flipped(target, here.point_m, normal, nearest, options.reach_m) ? 1U : 0U;
     };
     const Sums sums = summed(mesh, target, {options.samples, options.threads}, take);
     return static_cast<double>(sums.flipped) / static_cast<double>(options.samples);

@@ -39,8 +39,8 @@ struct SampleOptions {
 };
 
 /// Measures the distances from points spread evenly over `mesh`, always the same ones for the same
-/// mesh and number, to `target`. Any number of threads gives the same bits. The mesh needs triangles
-/// (asserted).
+/// mesh and number, to `target`. Any number of threads gives the same bits. The mesh needs
+/// triangles (asserted).
 SampledDistance sampled_distance(
     const TriangleMesh& mesh, const TargetSurface& target, const SampleOptions& options);
 

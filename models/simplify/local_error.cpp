@@ -482,13 +482,8 @@ VertexFit LocalError::fit(bool with_back) const {
     for (std::size_t i = 0; i < block_.size(); ++i) {
         const double weight = static_cast<double>(block_.weights[i]) *
                               penalty.weight(static_cast<double>(block_.distances2[i]));
-        add_sample(
-            fit,
-            block_,
-            i,
-            flat_[static_cast<std::size_t>(block_.nearest[i])],
-            weight,
-            samples_.coloured());
+        const FlatTriangle& triangle = flat_[static_cast<std::size_t>(block_.nearest[i])];
+        add_sample(fit, block_, i, triangle, weight, samples_.coloured());
     }
     double around = 0.0;
     for (std::size_t t = 0; with_back && t < triangles_.size(); ++t) {

@@ -81,7 +81,8 @@ public:
     void set_triangles(
         std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
-    /// Measures the ways back of all present triangles, and the colours of their samples. Returns the largest squared distance.
+    /// Measures the ways back of all present triangles, and the colours of their samples. Returns
+    /// the largest squared distance.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
@@ -125,9 +126,10 @@ public:
     /// The sum of that over all measurements so far.
     double work_done() const { return work_done_; }
 
-    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of `faces`,
-    /// the numbers of the new triangles in their order. `emptied` are those that were loaded, and
-    /// `vertex` the number of the vertex that is new or moves, or none.
+    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the
+    /// samples to the lists of `faces`, the numbers of the new triangles in their order. `emptied`
+    /// are those that were loaded, and `vertex` is the number of the vertex that is new or moves, or
+    /// none.
     void keep(
         std::span<const std::uint32_t> emptied,
         std::span<const std::uint32_t> faces,

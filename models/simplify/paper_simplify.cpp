@@ -304,8 +304,8 @@ PaperRun::PaperRun(const TriangleMesh& original, const PaperOptions& options)
     result.counted_vertices = original.vertices_m.size() + options.uncounted;
     for (std::size_t i = 0; i < original.vertices_m.size(); ++i) {
         const glm::dvec3& at_m = original.vertices_m[i];
-        const glm::dvec3 colour = colours_.empty() ? glm::dvec3(0.0)
-                                                   : options.colour_weight * glm::dvec3(colours_[i]);
+        const glm::dvec3 colour =
+            colours_.empty() ? glm::dvec3(0.0) : options.colour_weight * glm::dvec3(colours_[i]);
         points_.push_back({at_m.x, at_m.y, at_m.z, colour.x, colour.y, colour.z});
     }
     for (std::uint32_t face = 0; face < faces_.size(); ++face) {
