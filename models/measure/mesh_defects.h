@@ -25,8 +25,7 @@ struct MeshDefects {
     std::size_t shells = 0;                ///< Components connected by edges.
     long euler_characteristic = 0;         ///< Used vertices - edges + faces.
     /// The number of handles of all shells together; only for closed, oriented manifolds.
-    std::optional<long>
-        genus; ///< handles of all shells together; only of closed, oriented manifolds
+    std::optional<long> genus;
 
     bool operator==(const MeshDefects&) const = default;
 };

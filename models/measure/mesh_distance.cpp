@@ -1,77 +1,540 @@
 // Puts the two measurements of a distance together, in each direction: the certified Hausdorff
-// distance (hausdorff.cpp) and sampled mean values (sampled_distance.cpp). Both use one tree over
-// the triangles of the other mesh.
+// distance and sampled mean values (sampled_distance.cpp). Both use one tree over the triangles of
+// the other mesh.
+//
+// The one-sided Hausdorff distance with certified bounds, by branch and bound over the triangles of
+// one mesh: M. Guthe, P. Borodin, R. Klein, "Fast and accurate Hausdorff distance calculation
+// between meshes", 2005. Every sampled point gives a lower bound; each piece of a triangle has an
+// upper bound; the piece with the largest is cut in two until the bounds are close.
+//
+// The upper bound of a piece: the distance to a convex set is a convex function, so that over a
+// triangular piece it is at most its largest value at the corners. A single triangle T of the
+// target is convex, and the distance to the target is at most that to T. Asked are the T nearest to
+// the corners and to the centre of the piece. Beside that, the distance changes no faster than a
+// point moves.
+//
+// Deviations:
+// - The bound of a piece is the one above, not one from a voxel grid.
+// - Pieces are cut in two, not in four, and where they leave the part of space over one T. So a
+//   piece that lies flat on many triangles ends as the overlay of both meshes and not in pieces of
+//   the size of the distance. Elsewhere the cut is where the nearest triangle changes.
+// - Pieces are cut in batches, so that the result is the same on any number of threads.
 #include "models/measure/mesh_distance.h"
 
-#include "models/measure/hausdorff.h"
 #include "models/measure/sampled_distance.h"
+#include "models/measure/triangle_bvh.h"
+#include "sim/base/worker_team.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace octant::models::measure {
 
-double MeshDistance::least_hausdorff_m() const {
-    return std::max(there.least_hausdorff_m, back.least_hausdorff_m);
+namespace {
+
+/// A point of a surface and its distance from the target.
+struct Sample {
+    glm::dvec3 point{0.0};
+    double distance_m = 0.0;
+    std::uint32_t nearest = NearestOnMesh::none; ///< The triangle of the target that is nearest.
+};
+
+/// The three corners of a triangular piece of a surface.
+using Corners = std::array<const Sample*, 3>;
+
+/// Bounds of the largest distance from a piece's points to the target.
+struct PieceBounds {
+    double least_m = 0.0;
+    double most_m = 0.0;
+    /// The triangle nearest to the piece's centre, if that was looked for.
+    std::uint32_t middle = NearestOnMesh::none;
+};
+
+/// Where a piece is cut in two: by a line from a point on one edge to the opposite corner.
+struct Cut {
+    std::size_t edge = 0; ///< The edge from this corner to the next one.
+    double along = 0.5;   ///< Where on that edge, 0 to 1.
+};
+
+/// The largest distance from a piece's corners to one triangle of the target.
+double most_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
+    double most2 = 0.0;
+    for (const Sample* corner : corners) {
+        most2 = corner->nearest == triangle
+                    ? std::max(most2, corner->distance_m * corner->distance_m)
+                    : std::max(most2, target.distance2_to(triangle, corner->point));
+    }
+    return std::sqrt(most2);
 }
 
-double MeshDistance::most_hausdorff_m() const {
-    return std::max(there.most_hausdorff_m, back.most_hausdorff_m);
+/// A bound of the largest distance from a piece to the target. The piece is seen as four parts: one
+/// at each corner, cut off at a third of both sides, and the hexagon between them. Each part lies
+/// near one triangle of the target, the one nearest to its corner or to the centre, and no farther
+/// from it than its own corners are.
+double most_by_parts(const TargetSurface& target, std::uint32_t middle, const Corners& corners) {
+    double most2 = 0.0;
+    for (std::size_t from = 0; from < 3; ++from) {
+        const Sample& corner = *corners[from];
+        most2 = std::max(most2, corner.distance_m * corner.distance_m);
+        for (const std::size_t to : {(from + 1) % 3, (from + 2) % 3}) {
+            const glm::dvec3 third = glm::mix(corner.point, corners[to]->point, 1.0 / 3.0);
+            most2 = std::max(
+                {most2,
+                 target.distance2_to(corner.nearest, third),
+                 target.distance2_to(middle, third)});
+        }
+    }
+    return std::sqrt(most2);
 }
 
-double MeshDistance::rms_m() const {
-    return std::max(there.rms_m, back.rms_m);
+double length_m(const Corners& corners, std::size_t edge) {
+    return glm::distance(corners[edge]->point, corners[(edge + 1) % 3]->point);
 }
 
-double MeshDistance::mean_m() const {
-    return std::max(there.mean_m, back.mean_m);
+bool share_vertex(const Triangle& one, const Triangle& other) {
+    return std::ranges::any_of(
+        one, [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); });
 }
 
-double MeshDistance::colour_rms() const {
-    return std::max(there.colour_rms, back.colour_rms);
+/// The place between two samples, 0 to 1, where their nearest triangles are equally far: a root of
+/// the difference of the distances, by regula falsi (Illinois algorithm).
+double crossing(const TargetSurface& target, const Sample& start, const Sample& end) {
+    // Of the difference of squares the signed root is taken: that is linear across an edge between
+    // two triangles of one plane.
+    const auto difference = [&](double along) {
+        const glm::dvec3 point = glm::mix(start.point, end.point, along);
+        const double squares =
+            target.distance2_to(start.nearest, point) - target.distance2_to(end.nearest, point);
+        return std::copysign(std::sqrt(std::abs(squares)), squares);
+    };
+    double low = 0.0;
+    double high = 1.0;
+    double below = difference(low);
+    double above = difference(high);
+    double along = 0.5;
+    constexpr int steps = 8;
+    for (int step = 0; step < steps && below < 0.0 && above > 0.0; ++step) {
+        along = low - below * (high - low) / (above - below);
+        const double here = difference(along);
+        if (here == 0.0) {
+            break;
+        }
+        if (here < 0.0) {
+            low = along;
+            below = here;
+            above *= 0.5; // The Illinois step: halves the value that stays, so that both ends move.
+        } else {
+            high = along;
+            above = here;
+            below *= 0.5;
+        }
+    }
+    return along;
+}
+
+/// The cut where the nearest triangle changes between neighbouring triangles of the target, on the
+/// longest edge on which it does; otherwise the midpoint of the longest edge.
+Cut change_cut(const TargetSurface& target, const Corners& corners) {
+    Cut longest;
+    Cut changing;
+    double longest_m = -1.0;
+    double changing_m = -1.0;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        const double edge_m = length_m(corners, edge);
+        if (edge_m > longest_m) {
+            longest = {edge, 0.5};
+            longest_m = edge_m;
+        }
+        if (corners[edge]->nearest != corners[(edge + 1) % 3]->nearest && edge_m > changing_m) {
+            changing = {edge, 0.5};
+            changing_m = edge_m;
+        }
+    }
+    if (changing_m < 0.25 * longest_m) {
+        return longest;
+    }
+    const Sample& start = *corners[changing.edge];
+    const Sample& end = *corners[(changing.edge + 1) % 3];
+    const auto& triangles = target.mesh().triangles;
+    if (!share_vertex(triangles[start.nearest], triangles[end.nearest])) {
+        return longest;
+    }
+    constexpr double margin = 1.0 / 16.0;
+    changing.along = std::clamp(crossing(target, start, end), margin, 1.0 - margin);
+    return changing;
+}
+
+/// A cut along a plane, and how deep the piece reaches to both sides of it.
+struct PlaneCut {
+    Cut cut;
+    double depth_m = 0.0;
+};
+
+/// The cut along a plane, given the corners' signed distances from it. Chosen is the longest edge
+/// whose ends both lie more than `least_depth_m` off the plane, on opposite sides: for thin pieces
+/// another edge would leave a part as long as the piece.
+PlaneCut
+plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double least_depth_m) {
+    PlaneCut found;
+    double longest_m = 0.0;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        const double from_m = inside_m[edge];
+        const double to_m = inside_m[(edge + 1) % 3];
+        const double depth_m = std::min(std::abs(from_m), std::abs(to_m));
+        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > least_depth_m)) {
+            continue;
+        }
+        found.depth_m = std::max(found.depth_m, depth_m);
+        const double edge_m = length_m(corners, edge);
+        if (edge_m > longest_m) {
+            longest_m = edge_m;
+            found.cut = {edge, from_m / (from_m - to_m)};
+        }
+    }
+    return found;
+}
+
+/// Replaces `best` if the piece reaches deeper across one of the three planes through the edges of
+/// a triangle that are perpendicular to it.
+void take_edge_cut(
+    const TargetSurface& target,
+    std::uint32_t triangle,
+    const Corners& corners,
+    double least_depth_m,
+    PlaneCut& best) {
+    const auto& at = target.mesh().vertices_m;
+    const Triangle& t = target.mesh().triangles[triangle];
+    const glm::dvec3 normal = glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
+    for (std::size_t side = 0; side < 3; ++side) {
+        const glm::dvec3& start = at[t[side]];
+        const glm::dvec3 inwards = glm::cross(normal, at[t[(side + 1) % 3]] - start);
+        const double length = glm::length(inwards);
+        if (!(length > 0.0)) {
+            continue;
+        }
+        std::array<double, 3> inside_m{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            inside_m[i] = glm::dot(corners[i]->point - start, inwards) / length;
+        }
+        const PlaneCut found = plane_cut(corners, inside_m, least_depth_m);
+        best = found.depth_m > best.depth_m ? found : best;
+    }
+}
+
+/// The deepest such cut over the triangles nearest to the corners and the centre. Triangles that
+/// are small beside the piece do not count.
+PlaneCut edge_cut(
+    const TargetSurface& target,
+    const Corners& corners,
+    std::uint32_t middle,
+    double least_depth_m) {
+    constexpr double least_size = 0.25;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    const std::array<std::uint32_t, 4> nearest = {
+        corners[0]->nearest, corners[1]->nearest, corners[2]->nearest, middle};
+    PlaneCut best;
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        const bool again =
+            std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
+        if (nearest[i] != NearestOnMesh::none && !again &&
+            target.longest_edge_m(nearest[i]) >= least_size * longest_m) {
+            take_edge_cut(target, nearest[i], corners, least_depth_m, best);
+        }
+    }
+    return best;
+}
+
+/// Measures a point. `guess` is a triangle of the target that may be near, or none; it changes the
+/// time only.
+Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
+    const NearestOnMesh found = target.nearest(point, guess);
+    return {point, std::sqrt(found.distance2), found.triangle};
+}
+
+/// Bounds a piece as tightly as is cheap. The bounds are not tightened any further once the upper
+/// one is at most `enough_m`.
+PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
+    const auto& [a, b, c] = corners;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    PieceBounds bounds;
+    bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
+    // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
+    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3;
+    for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
+        bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
+    }
+    if (bounds.most_m <= enough_m) {
+        return bounds;
+    }
+    const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
+    const Sample middle = measured(target, centre, a->nearest);
+    double radius_m = 0.0;
+    for (const Sample* corner : corners) {
+        radius_m = std::max(radius_m, glm::distance(corner->point, centre));
+    }
+    bounds.middle = middle.nearest;
+    bounds.least_m = std::max(bounds.least_m, middle.distance_m);
+    bounds.most_m = std::min(
+        {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
+    if (bounds.most_m > enough_m) {
+        bounds.most_m = std::min(bounds.most_m, most_by_parts(target, middle.nearest, corners));
+    }
+    return bounds;
+}
+
+/// Chooses the cut of a piece. The first choice is where it leaves the part of space over one of
+/// the triangles nearest to its corners or its centre (`middle`), because the distance to a single
+/// triangle then bounds a part well; leaving it by a small part of `enough_m` does not count. The
+/// second is where the nearest triangle changes from one corner to the next, and the last the
+/// midpoint of the longest edge.
+Cut cut_of(
+    const TargetSurface& target, const Corners& corners, std::uint32_t middle, double enough_m) {
+    // A point this far beside a triangle is nearer to it than the plane suggests by 5e-5 of
+    // enough_m.
+    constexpr double ignored = 0.01;
+    const PlaneCut over_edge = edge_cut(target, corners, middle, ignored * enough_m);
+    return over_edge.depth_m > 0.0 ? over_edge.cut : change_cut(target, corners);
+}
+
+/// A triangular piece of the surface, its corners given as indices of samples.
+struct Piece {
+    std::array<std::uint32_t, 3> corners{};
+    double most_m = 0.0; ///< No point of the piece is farther from the target than this.
+    /// The target's triangle nearest to the centre of the piece, where known.
+    std::uint32_t middle = NearestOnMesh::none;
+};
+
+/// The order of the heap of open pieces: the one with the largest bound is on top.
+bool nearer(const Piece& one, const Piece& other) {
+    return one.most_m < other.most_m;
+}
+
+/// One branch-and-bound search.
+class Search {
+public:
+    Search(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits)
+        : mesh_(mesh)
+        , target_(target)
+        , limits_(limits) {}
+
+    HausdorffBounds run();
+
+private:
+    /// The two parts of a piece that was cut, and the sample where it was cut.
+    struct Halves {
+        Sample between;
+        std::array<Piece, 2> pieces; ///< A corner numbered `fresh` is the sample `between`.
+        double least_m = 0.0;
+    };
+
+    static constexpr std::uint32_t fresh = NearestOnMesh::none;
+    static constexpr std::size_t chunk = 64;
+    static constexpr std::size_t batch = 1024;
+
+    /// Pieces whose bound is below this need not be cut any further.
+    double enough_m() const { return std::max(limits_.negligible_m, limits_.tightness * least_m_); }
+
+    /// The samples at the corners of a piece; `between` stands for a fresh corner.
+    Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
+    /// Measures the distances of all vertices that triangles use.
+    void measure_vertices();
+    /// Bounds all triangles and keeps those that may hold the largest distance.
+    void take_triangles();
+    /// Cuts a piece in two and bounds both parts. Changes nothing, so that threads may share the
+    /// work.
+    Halves cut(const Piece& piece, double enough_m) const;
+    /// Cuts the open pieces with the largest bounds, a whole batch against the same lower bound.
+    void cut_batch();
+    /// Puts a piece onto the heap unless its bound is low enough.
+    void keep(const Piece& piece);
+
+    /// Calls `work(first, last)` for chunks of 0 to `count`, on several threads.
+    template <typename Work>
+    void in_chunks(std::size_t count, const Work& work) const {
+        share_out((count + chunk - 1) / chunk, limits_.threads, [&](std::size_t i, std::size_t) {
+            work(i * chunk, std::min(count, (i + 1) * chunk));
+        });
+    }
+
+    const TriangleMesh& mesh_;
+    const TargetSurface& target_;
+    const HausdorffLimits& limits_;
+    std::vector<Sample> samples_; ///< The mesh's vertices first, then one for each cut.
+    std::vector<Piece> open_;     ///< A heap; the piece with the largest bound is on top.
+    double least_m_ = 0.0;
+    double left_out_m_ = 0.0; ///< The largest bound of the pieces that were left out.
+    std::size_t cuts_ = 0;
+};
+
+Corners Search::corners_of(const Piece& piece, const Sample* between) const {
+    Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = piece.corners[i] == fresh ? between : &samples_[piece.corners[i]];
+    }
+    return corners;
+}
+
+void Search::measure_vertices() {
+    std::vector<char> used(mesh_.vertices_m.size(), 0);
+    for (const Triangle& triangle : mesh_.triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            used[vertex] = 1;
+        }
+    }
+    samples_.resize(used.size());
+    in_chunks(used.size(), [&](std::size_t first, std::size_t last) {
+        std::uint32_t guess = NearestOnMesh::none;
+        for (std::size_t i = first; i < last; ++i) {
+            if (used[i] != 0) {
+                samples_[i] = measured(target_, mesh_.vertices_m[i], guess);
+                guess = samples_[i].nearest;
+            }
+        }
+    });
+    for (const Sample& sample : samples_) {
+        least_m_ = std::max(least_m_, sample.distance_m);
+    }
+}
+
+void Search::keep(const Piece& piece) {
+    if (piece.most_m <= enough_m()) {
+        left_out_m_ = std::max(left_out_m_, piece.most_m);
+    } else {
+        open_.push_back(piece);
+        std::ranges::push_heap(open_, nearer);
+    }
+}
+
+void Search::take_triangles() {
+    std::vector<PieceBounds> bounds(mesh_.triangles.size());
+    in_chunks(bounds.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            bounds[i] = bounds_of(target_, corners_of({.corners = mesh_.triangles[i]}), enough_m());
+        }
+    });
+    for (const PieceBounds& one : bounds) {
+        least_m_ = std::max(least_m_, one.least_m);
+    }
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        keep({mesh_.triangles[i], bounds[i].most_m, bounds[i].middle});
+    }
+}
+
+Search::Halves Search::cut(const Piece& piece, double enough_m) const {
+    const Corners corners = corners_of(piece);
+    const Cut where = cut_of(target_, corners, piece.middle, enough_m);
+    const std::size_t next = (where.edge + 1) % 3;
+    Halves halves;
+    halves.between = measured(
+        target_,
+        glm::mix(corners[where.edge]->point, corners[next]->point, where.along),
+        corners[where.along < 0.5 ? where.edge : next]->nearest);
+    halves.pieces = {piece, piece};
+    halves.pieces[0].corners[next] = fresh;
+    halves.pieces[1].corners[where.edge] = fresh;
+    for (Piece& half : halves.pieces) {
+        const PieceBounds bounds = bounds_of(target_, corners_of(half, &halves.between), enough_m);
+        half.most_m = std::min(piece.most_m, bounds.most_m);
+        half.middle = bounds.middle;
+        halves.least_m = std::max(halves.least_m, bounds.least_m);
+    }
+    return halves;
+}
+
+void Search::cut_batch() {
+    std::vector<Piece> pieces;
+    while (!open_.empty() && pieces.size() < batch && open_.front().most_m > enough_m()) {
+        std::ranges::pop_heap(open_, nearer);
+        pieces.push_back(open_.back());
+        open_.pop_back();
+    }
+    const double enough = enough_m();
+    std::vector<Halves> halves(pieces.size());
+    in_chunks(pieces.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            halves[i] = cut(pieces[i], enough);
+        }
+    });
+    cuts_ += pieces.size();
+    for (const Halves& pair : halves) {
+        least_m_ = std::max(least_m_, pair.least_m);
+    }
+    for (Halves& pair : halves) {
+        const auto between = static_cast<std::uint32_t>(samples_.size());
+        samples_.push_back(pair.between);
+        for (Piece& piece : pair.pieces) {
+            std::ranges::replace(piece.corners, fresh, between);
+            keep(piece);
+        }
+    }
+}
+
+HausdorffBounds Search::run() {
+    measure_vertices();
+    take_triangles();
+    while (!open_.empty() && open_.front().most_m > enough_m() && cuts_ < limits_.cuts) {
+        cut_batch();
+    }
+    const double open_m = open_.empty() ? 0.0 : open_.front().most_m;
+    return {least_m_, std::max({least_m_, left_out_m_, open_m}), cuts_};
+}
+
+} // namespace
+
+HausdorffBounds one_way_hausdorff(
+    const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits) {
+    assert(!mesh.triangles.empty() && !target.mesh().triangles.empty());
+    const Bounds extent = models::bounds_of(mesh);
+    const glm::dvec3 farthest = glm::max(glm::abs(extent.least_m), glm::abs(extent.most_m));
+    const double rounding_m =
+        target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
+                                        std::max({farthest.x, farthest.y, farthest.z});
+    HausdorffLimits wanted = limits;
+    wanted.negligible_m = std::max(limits.negligible_m, 4.0 * rounding_m);
+    HausdorffBounds bounds = Search(mesh, target, wanted).run();
+    bounds.least_m = std::max(0.0, bounds.least_m - rounding_m);
+    bounds.most_m += rounding_m;
+    return bounds;
 }
 
 namespace {
 
-/// Tells the caller's progress function how many of the four steps are done.
-class Steps {
-public:
-    explicit Steps(const DistanceOptions& options)
-        : options_(options) {
-        show();
+/// Tells how many of the four steps are done.
+void show(const DistanceOptions& options, int done) {
+    if (options.progress) {
+        options.progress(done, 4);
     }
+}
 
-    void next() {
-        ++done_;
-        show();
-    }
-
-private:
-    void show() const {
-        constexpr int steps = 4;
-        if (options_.progress) {
-            options_.progress(done_, steps);
-        }
-    }
-
-    const DistanceOptions& options_;
-    int done_ = 0;
-};
-
+/// The two steps after those that are `done`.
 OneWayDistance one_way(
     const TriangleMesh& mesh,
     const TargetSurface& target,
     const DistanceOptions& options,
-    Steps& steps) {
+    int done) {
     HausdorffLimits limits;
     limits.tightness = options.tightness;
     limits.negligible_m = options.negligible_m;
     limits.threads = options.threads;
     const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
-    steps.next();
+    show(options, done + 1);
     const SampledDistance sampled =
         sampled_distance(mesh, target, {.samples = options.samples, .threads = options.threads});
-    steps.next();
+    show(options, done + 2);
     return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
 }
 
@@ -84,13 +547,13 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     if (!(options.negligible_m > 0.0)) {
         wanted.negligible_m = 1e-9 * std::max(diagonal_m(a), diagonal_m(b));
     }
-    Steps steps(options);
+    show(options, 0);
     MeshDistance found;
-    found.there = one_way(a, TargetSurface(b), wanted, steps);
+    found.there = one_way(a, TargetSurface(b), wanted, 0);
     if (options.larger_alone) {
         wanted.negligible_m = std::max(wanted.negligible_m, found.there.least_hausdorff_m);
     }
-    found.back = one_way(b, TargetSurface(a), wanted, steps);
+    found.back = one_way(b, TargetSurface(a), wanted, 2);
     return found;
 }
 

@@ -1,11 +1,37 @@
 #pragma once
 
+#include "models/measure/triangle_bvh.h"
 #include "models/triangle_mesh.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 
 namespace octant::models::measure {
+
+/// When the search for the largest distance may end. Whenever it ends, its bounds are certified.
+struct HausdorffLimits {
+    /// The search ends when the upper bound is at most this many times the lower one.
+    double tightness = 1.01;
+    /// It also ends when the upper bound is at most this.
+    double negligible_m = 0.0;
+    /// It ends after so many cuts, too.
+    std::size_t cuts = std::size_t{1} << 22U;
+    int threads = 1; ///< The number of threads; it does not change the result.
+};
+
+/// The largest distance from a point of one surface to another surface lies between these two.
+struct HausdorffBounds {
+    double least_m = 0.0;
+    double most_m = 0.0;
+    std::size_t cuts = 0; ///< How many cuts the search took.
+};
+
+/// Bounds of the one-sided Hausdorff distance: the largest distance from any point of `mesh`'s
+/// triangles to `target`. Rounding is allowed for in both bounds. Both meshes need triangles
+/// (asserted).
+HausdorffBounds one_way_hausdorff(
+    const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits);
 
 /// Distances from the points of one surface to another surface, metres.
 struct OneWayDistance {
@@ -26,11 +52,20 @@ struct MeshDistance {
     OneWayDistance there; ///< From the points of a to b.
     OneWayDistance back;  ///< From the points of b to a.
 
-    double least_hausdorff_m() const;
-    double most_hausdorff_m() const;
-    double rms_m() const;
-    double mean_m() const;
-    double colour_rms() const;
+    double least_hausdorff_m() const { return larger(&OneWayDistance::least_hausdorff_m); }
+
+    double most_hausdorff_m() const { return larger(&OneWayDistance::most_hausdorff_m); }
+
+    double rms_m() const { return larger(&OneWayDistance::rms_m); }
+
+    double mean_m() const { return larger(&OneWayDistance::mean_m); }
+
+    double colour_rms() const { return larger(&OneWayDistance::colour_rms); }
+
+private:
+    double larger(double OneWayDistance::*figure) const {
+        return std::max(there.*figure, back.*figure);
+    }
 };
 
 /// How accurately distances are measured.

@@ -1,12 +1,16 @@
 #pragma once
 
+#include "models/measure/nearest_point.h"
 #include "models/measure/plane_frame.h"
-#include "models/measure/triangle_split.h"
 #include "models/triangle_mesh.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -53,7 +57,7 @@ public:
     double rounding_m() const { return rounding_m_; }
 
 private:
-    static constexpr std::size_t lanes = leaf_lanes;
+    static constexpr std::size_t lanes = 4; ///< A leaf holds at most so many triangles.
     using Floats = float __attribute__((vector_size(4 * lanes)));
 
     /// Four bounding boxes in the tree's units: the mesh's centre is the origin and half of its
@@ -172,5 +176,48 @@ TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Pro
     find_in_frame<false>(found, probe.place, frames);
     distances2 = found.distance2;
 }
+
+/// A mesh to which distances are measured, with a tree over its triangles. The mesh must outlive
+/// this.
+class TargetSurface {
+public:
+    explicit TargetSurface(const TriangleMesh& mesh)
+        : mesh_(&mesh)
+        , bvh_(mesh) {}
+
+    const TriangleMesh& mesh() const { return *mesh_; }
+
+    const TriangleBvh& bvh() const { return bvh_; }
+
+    /// The square of the distance from a point to one triangle.
+    double distance2_to(std::uint32_t triangle, const glm::dvec3& point) const {
+        const auto& [a, b, c] = mesh_->triangles[triangle];
+        const auto& at = mesh_->vertices_m;
+        return detail::nearest_to_origin({at[a] - point, at[b] - point, at[c] - point}).distance2;
+    }
+
+    double longest_edge_m(std::uint32_t triangle) const {
+        const auto& [a, b, c] = mesh_->triangles[triangle];
+        const auto& at = mesh_->vertices_m;
+        return std::max(
+            {glm::distance(at[a], at[b]),
+             glm::distance(at[b], at[c]),
+             glm::distance(at[c], at[a])});
+    }
+
+    /// The nearest point of the mesh. `guess` is a triangle that may be near, or none; a good guess
+    /// makes the search faster but never changes what is found.
+    NearestOnMesh nearest(const glm::dvec3& point, std::uint32_t guess) const {
+        if (guess == NearestOnMesh::none) {
+            return bvh_.nearest(point);
+        }
+        constexpr double margin = 1.0 + 1e-12; // Makes up for the rounding of the square root.
+        return bvh_.nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
+    }
+
+private:
+    const TriangleMesh* mesh_;
+    TriangleBvh bvh_;
+};
 
 } // namespace octant::models::measure

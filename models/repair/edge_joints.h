@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/repair/shell_pieces.h"
+#include "models/mesh_edges.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "models/repair/near_rims.h"
 
-#include "models/repair/shell_pieces.h"
+#include "models/mesh_edges.h"
 
 #include <glm/geometric.hpp>
 

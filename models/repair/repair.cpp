@@ -4,7 +4,7 @@
 #include "models/repair/agreeing_turns.h"
 #include "models/repair/edge_joints.h"
 #include "models/repair/near_rims.h"
-#include "models/repair/shell_pieces.h"
+#include "models/mesh_edges.h"
 #include "models/repair/vertex_twins.h"
 
 #include <glm/geometric.hpp>

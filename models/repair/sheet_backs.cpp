@@ -1,7 +1,7 @@
 #include "models/repair/sheet_backs.h"
 
 #include "models/no_index.h"
-#include "models/repair/shell_pieces.h"
+#include "models/mesh_edges.h"
 #include "models/repair/vertex_twins.h"
 
 #include <glm/geometric.hpp>

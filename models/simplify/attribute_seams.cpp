@@ -9,6 +9,7 @@
 // more, none of which meets itself at a seam.
 #include "models/simplify/attribute_seams.h"
 
+#include "models/mesh_edges.h"
 #include "models/no_index.h"
 
 #include <glm/geometric.hpp>
@@ -68,13 +69,6 @@ struct Attributes {
     }
 };
 
-/// A triangle's side, from its smaller vertex to its larger one.
-struct Side {
-    std::array<std::uint32_t, 2> ends{};
-    std::array<std::size_t, 2> corners{};
-    std::uint32_t triangle = 0;
-};
-
 /// Two triangles with a common edge.
 struct Neighbours {
     std::uint32_t first = 0;
@@ -83,57 +77,22 @@ struct Neighbours {
 };
 
 std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes& attributes) {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::size_t from = k;
-            std::size_t to = (k + 1) % 3;
-            if (mesh.triangles[t][from] > mesh.triangles[t][to]) {
-                std::swap(from, to);
-            }
-            sides.push_back({{mesh.triangles[t][from], mesh.triangles[t][to]}, {from, to}, t});
-        }
-    }
-    std::ranges::stable_sort(sides, {}, &Side::ends);
+    const std::vector<Side> sides = sorted_sides(mesh.triangles);
     std::vector<Neighbours> neighbours;
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        const Side& one = sides[i - 1];
-        const Side& other = sides[i];
-        if (one.ends == other.ends) {
+    for_each_edge(sides, [&](std::span<const Side> edge) {
+        for (std::size_t i = 1; i < edge.size(); ++i) {
+            const Side& one = edge[i - 1];
+            const Side& other = edge[i];
+            const std::uint32_t first = one.triangle;
+            const std::uint32_t second = other.triangle;
             const bool agree =
-                attributes.agree(one.triangle, one.corners[0], other.triangle, other.corners[0]) &&
-                attributes.agree(one.triangle, one.corners[1], other.triangle, other.corners[1]);
-            neighbours.push_back({one.triangle, other.triangle, agree});
+                attributes.agree(first, one.least_corner(), second, other.least_corner()) &&
+                attributes.agree(first, one.most_corner(), second, other.most_corner());
+            neighbours.push_back({first, second, agree});
         }
-    }
+    });
     return neighbours;
 }
-
-/// Sets of numbers that are joined; each is known by its smallest number.
-class JoinedSets {
-public:
-    explicit JoinedSets(std::size_t count)
-        : first_(count) {
-        std::iota(first_.begin(), first_.end(), 0U);
-    }
-
-    std::uint32_t first_of(std::uint32_t number) {
-        while (first_[number] != number) {
-            first_[number] = first_[first_[number]];
-            number = first_[number];
-        }
-        return number;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        const auto [first, later] = std::minmax({first_of(a), first_of(b)});
-        first_[later] = first;
-    }
-
-private:
-    std::vector<std::uint32_t> first_;
-};
 
 /// Cuts charts that meet themselves at a seam.
 class ChartCuts {
@@ -153,7 +112,7 @@ public:
     std::vector<std::uint32_t> charts() {
         std::vector<std::uint32_t> whole(cells_.size());
         for (std::uint32_t t = 0; t < whole.size(); ++t) {
-            whole[t] = sets_.first_of(t);
+            whole[t] = sets_.group_of(t);
         }
         if (!find_self_meetings(whole)) {
             return whole;
@@ -161,7 +120,7 @@ public:
         grow_cells();
         join_cells();
         for (std::uint32_t t = 0; t < whole.size(); ++t) {
-            whole[t] = cells_[t] == no_index ? whole[t] : sets_.first_of(cells_[t]);
+            whole[t] = cells_[t] == no_index ? whole[t] : sets_.group_of(cells_[t]);
         }
         return whole;
     }
@@ -216,9 +175,9 @@ private:
         using Border = std::pair<std::pair<std::uint32_t, std::uint32_t>, std::size_t>;
         std::vector<Border> sorted(borders.begin(), borders.end());
         std::ranges::stable_sort(sorted, std::ranges::greater(), &Border::second);
-        sets_ = JoinedSets(cells_.size());
+        sets_ = Groups(cells_.size());
         for (const Border& border : sorted) {
-            join(sets_.first_of(border.first.first), sets_.first_of(border.first.second));
+            join(sets_.group_of(border.first.first), sets_.group_of(border.first.second));
         }
     }
 
@@ -237,7 +196,7 @@ private:
     }
 
     std::span<const Neighbours> neighbours_;
-    JoinedSets sets_;
+    Groups sets_;
     std::vector<std::uint32_t> cells_; ///< of triangles in charts that meet themselves
     /// For each cell, by the first number of its set, those that it meets at seams.
     std::map<std::uint32_t, std::set<std::uint32_t>> meetings_;

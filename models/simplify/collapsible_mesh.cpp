@@ -1,7 +1,7 @@
 // Half-edges for collapses and flips. CollapsibleMesh::may_collapse tests the link condition of T.
 // Dey, H. Edelsbrunner, S. Guha, D. Nekhayev, "Topology Preserving Edge Contraction", 1999: the
 // ends of the edge may have no common neighbours but the corners opposite the edge. The 2005 paper
-// tests nothing and so leaves manifolds; its own mode uses PaperMesh instead.
+// tests nothing and so leaves manifolds; its own mode uses PaperRun instead.
 #include "models/simplify/collapsible_mesh.h"
 
 #include <algorithm>
@@ -310,41 +310,31 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
 
 void CollapsibleMesh::split(
     HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces) {
-    assert(!vertex_is_there(vertex) && !face_is_there(faces[0]));
+    assert(!vertex_is_there(vertex) && !face_is_there(faces[0]) && !face_is_there(faces[1]));
     const HalfEdge other = twins_[h];
     const std::uint32_t w = target(h);
     const HalfEdge a = 3 * faces[0]; // From the new vertex to w.
+    const HalfEdge b = 3 * faces[1]; // From w to the new vertex.
     const HalfEdge wx = next_of(h);
-    const HalfEdge beyond = twins_[wx];
+    const HalfEdge yw = previous_of(other);
+    const HalfEdge beyond_wx = twins_[wx];
     origins_[a] = vertex;
     origins_[a + 1] = w;
     origins_[a + 2] = origin(previous_of(h));
     origins_[wx] = vertex;
-    join(a + 1, beyond);
+    origins_[b] = w;
+    origins_[b + 1] = vertex;
+    origins_[b + 2] = origin(yw);
+    origins_[other] = vertex;
+    join(a + 1, beyond_wx);
     join(wx, a + 2);
-    twins_[a] = none;
-    ++face_count_;
+    join(b + 2, twins_[yw]);
+    join(b + 1, yw);
+    join(a, b);
+    face_count_ += 2;
     ++vertex_count_;
-    if (other != none) {
-        assert(!face_is_there(faces[1]));
-        const HalfEdge b = 3 * faces[1]; // From w to the new vertex.
-        const HalfEdge yw = previous_of(other);
-        const HalfEdge far = twins_[yw];
-        origins_[b] = w;
-        origins_[b + 1] = vertex;
-        origins_[b + 2] = origin(yw);
-        origins_[other] = vertex;
-        join(b + 2, far);
-        join(b + 1, yw);
-        join(a, b);
-        ++face_count_;
-    }
-    set_out(a);
-    set_out(a + 1);
-    set_out(previous_of(h));
-    set_out(h);
-    if (other != none) {
-        set_out(previous_of(other));
+    for (const HalfEdge start : {a, a + 1, previous_of(h), h, yw}) {
+        set_out(start);
     }
 }
 

@@ -162,8 +162,8 @@ public:
     /// which lie at the same places. Returns what it did.
     CollapseEffect collapse(HalfEdge h);
 
-    /// Splits an edge at a new vertex, whose slot must be free, as must be the slots of `faces`: one
-    /// on a boundary, else two. `h` then runs from its origin to the new vertex; the first of the
+    /// Splits an edge, which must have two triangles, at a new vertex, whose slot must be free, as
+    /// must be the slots of `faces`. `h` then runs from its origin to the new vertex; the first of the
     /// new triangles takes the rest of its triangle, the second that of the twin's.
     void split(HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces);
 

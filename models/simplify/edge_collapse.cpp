@@ -10,22 +10,316 @@
 //   top of the heap.
 #include "models/simplify/edge_collapse.h"
 
-#include "models/simplify/collapse_guard.h"
+#include "models/measure/triangle_bvh.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
-#include "models/simplify/shells.h"
+#include "models/simplify/surface_samples.h"
+#include "models/simplify/working_surface.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::models::simplify {
 
 namespace {
+
+std::vector<std::uint32_t> counted(std::size_t count) {
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+}
+
+} // namespace
+
+CollapsingSurface::CollapsingSurface(
+    WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights)
+    : surface_(std::move(surface))
+    , units_(units)
+    , quadrics_(surface_, weights)
+    , vertex_numbers_(counted(surface_.mesh.vertex_slots()))
+    , face_numbers_(counted(surface_.mesh.face_slots()))
+    , first_vertices_(surface_.mesh.vertex_slots()) {}
+
+CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
+    CollapsibleMesh& mesh = surface_.mesh;
+    const std::uint32_t kept = mesh.origin(h);
+    const std::uint32_t gone = mesh.target(h);
+    const HalfEdge twin = mesh.twin(h);
+    Collapse made;
+    made.first = vertex_numbers_[kept];
+    made.second = vertex_numbers_[gone];
+    made.position_m = surface_.to_file(placement.place, units_);
+    made.left = face_numbers_[face_of(h)];
+    made.right = twin == none ? none : face_numbers_[face_of(twin)];
+    made.error_m = error * units_.diagonal_m;
+    const CollapseEffect effect = mesh.collapse(h);
+    quadrics_.merge(kept, gone);
+    surface_.places[kept] = placement.place;
+    if (surface_.coloured()) {
+        surface_.colours[kept] = placement.colour;
+        made.colour = units_.colour_to_file(placement.colour);
+    }
+    vertex_numbers_[kept] = static_cast<std::uint32_t>(first_vertices_ + collapses_.size());
+    if (effect.kind == CollapseEffect::Kind::ClosesHole) {
+        ++holes_closed_;
+    }
+    collapses_.push_back(made);
+    if (effect.kind == CollapseEffect::Kind::CutsHandle) {
+        ++handles_cut_;
+        copy_vertex(kept, gone);
+        copy_vertex(mesh.origin(effect.third), effect.made);
+    }
+    return effect;
+}
+
+/// Gives a vertex the place, the colour and the quadric of another one.
+void CollapsingSurface::copy_vertex(std::uint32_t from, std::uint32_t to) {
+    surface_.set_vertex(to, surface_.places[from], surface_.colour_of(from));
+    quadrics_.copy(from, to);
+}
+
+KeptSlots CollapsingSurface::compact() {
+    KeptSlots kept = surface_.compact();
+    quadrics_.keep(kept.vertices);
+    keep_slots(vertex_numbers_, kept.vertices);
+    keep_slots(face_numbers_, kept.faces);
+    return kept;
+}
+
+namespace {
+
+// Shells of an assembly: what is left of a small one may cost more triangles than it is worth.
+
+/// Shells that are farther from the others than this are not dropped, in working units.
+constexpr double max_shell_distance = 0.5;
+
+/// The connected pieces of a surface that collapses, and what it costs to drop one.
+class Shells {
+public:
+    /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the
+    /// usual max_shell_distance, for which only some samples are looked at, or less.
+    /// The samples must be in lists. All must outlive this.
+    Shells(
+        CollapsingSurface& collapsing,
+        SurfaceSamples& samples,
+        const OriginalSurface& original,
+        double max_distance);
+
+    std::size_t count() const { return faces_.size(); }
+
+    /// Of those that were not dropped.
+    std::size_t count_left() const { return count_left_; }
+
+    std::uint32_t shell_of(std::uint32_t face) const { return of_face_[face]; }
+
+    /// The number of triangles that a shell has now; 0 = it was dropped.
+    std::size_t face_count(std::uint32_t shell) const { return face_counts_[shell]; }
+
+    /// Counts triangles of a shell that went.
+    void lose(std::uint32_t shell, std::size_t faces) { face_counts_[shell] -= faces; }
+
+    /// How much the error grows when a shell is dropped: its samples are then as far off as the
+    /// nearest other shell of the original. Infinite where there is none, or where that is far.
+    double cost(std::uint32_t shell) const;
+
+    /// Drops a shell. `gone` is called with each of its triangles before. Its samples go to the
+    /// triangles that are then nearest.
+    template <typename Gone>
+    void drop(std::uint32_t shell, const Gone& gone) {
+        std::vector<std::uint32_t> numbers;
+        for (const std::uint32_t face : faces_[shell]) {
+            if (surface_.mesh.face_is_there(face)) {
+                samples_.for_each(face, [&](std::uint32_t number) { numbers.push_back(number); });
+                samples_.clear(face);
+                gone(face);
+                surface_.mesh.remove(face);
+            }
+        }
+        face_counts_[shell] = 0;
+        --count_left_;
+        move_samples(shell, numbers);
+    }
+
+private:
+    void move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers);
+    measure::NearestOnMesh
+    nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const;
+
+    WorkingSurface& surface_;
+    SurfaceSamples& samples_;
+    const OriginalSurface& original_;
+    double max_distance_;
+    std::vector<std::uint32_t> of_face_; ///< For each triangle slot.
+    std::vector<std::vector<std::uint32_t>> faces_; ///< Of each shell at first.
+    std::vector<std::size_t> face_counts_;
+    std::size_t count_left_ = 0;
+    std::vector<std::uint32_t> of_original_; ///< For each triangle of the original.
+    /// For each triangle of the original a sample on it or near it.
+    std::vector<std::uint32_t> sample_near_;
+    std::unique_ptr<const measure::TriangleBvh> bvh_; ///< Null where there is only one shell.
+};
+
+/// The cost is estimated from about so many samples.
+constexpr std::size_t asked_samples = 48;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Shells::Shells(
+    CollapsingSurface& collapsing,
+    SurfaceSamples& samples,
+    const OriginalSurface& original,
+    double max_distance)
+    : surface_(collapsing.surface())
+    , samples_(samples)
+    , original_(original)
+    , max_distance_(max_distance)
+    , of_face_(surface_.mesh.face_slots(), none)
+    , of_original_(original.triangles().size(), none) {
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t triangle = 0; triangle < of_original_.size(); ++triangle) {
+        if (of_original_[triangle] != none) {
+            continue;
+        }
+        const auto shell = static_cast<std::uint32_t>(faces_.size());
+        faces_.emplace_back();
+        of_original_[triangle] = shell;
+        waiting.assign(1, triangle);
+        while (!waiting.empty()) {
+            const std::uint32_t here = waiting.back();
+            waiting.pop_back();
+            for (const std::uint32_t beyond : original.beyond(here)) {
+                if (beyond != none && of_original_[beyond] == none) {
+                    of_original_[beyond] = shell;
+                    waiting.push_back(beyond);
+                }
+            }
+        }
+    }
+    face_counts_.assign(faces_.size(), 0);
+    for (std::uint32_t face = 0; face < of_face_.size(); ++face) {
+        if (surface_.mesh.face_is_there(face)) {
+            of_face_[face] = of_original_[collapsing.face_numbers()[face]];
+            faces_[of_face_[face]].push_back(face);
+            ++face_counts_[of_face_[face]];
+        }
+    }
+    count_left_ = faces_.size() - static_cast<std::size_t>(std::ranges::count(face_counts_, 0U));
+    if (count_left_ < 2) {
+        return;
+    }
+    bvh_ = std::make_unique<const measure::TriangleBvh>(original.places(), original.triangles());
+    sample_near_.assign(of_original_.size(), none);
+    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
+        const std::uint32_t triangle = samples[sample].triangle;
+        if (sample_near_[triangle] == none) {
+            sample_near_[triangle] = sample;
+            waiting.push_back(triangle);
+        }
+    }
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+        for (const std::uint32_t beyond : original.beyond(waiting[i])) {
+            if (beyond != none && sample_near_[beyond] == none) {
+                sample_near_[beyond] = sample_near_[waiting[i]];
+                waiting.push_back(beyond);
+            }
+        }
+    }
+}
+
+/// The nearest point of another shell of the original that was not dropped. There may be none where
+/// it is farther than `max_distance`.
+measure::NearestOnMesh Shells::nearest_other(
+    std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
+    measure::NearestOnMesh found;
+    for (double within = std::min(1e-3, max_distance);
+         found.triangle == none && within < 4.0 * max_distance;
+         within *= 4.0) {
+        found.distance2 = within * within;
+        bvh_->for_each_near(place, within, [&](std::uint32_t triangle) {
+            const std::uint32_t other = of_original_[triangle];
+            if (other == shell || face_counts_[other] == 0) {
+                return;
+            }
+            const double distance2 = original_.distance2(triangle, place);
+            if (distance2 < found.distance2 ||
+                (distance2 == found.distance2 && triangle < found.triangle)) {
+                found.distance2 = distance2;
+                found.triangle = triangle;
+            }
+        });
+    }
+    return found;
+}
+
+double Shells::cost(std::uint32_t shell) const {
+    if (count_left_ < 2) {
+        return infinite;
+    }
+    std::size_t all = 0;
+    double present = 0.0;
+    for (const std::uint32_t face : faces_[shell]) {
+        if (surface_.mesh.face_is_there(face)) {
+            all += samples_.count(face);
+        }
+    }
+    const std::size_t stride = max_distance_ < max_shell_distance ? 1 : all / asked_samples + 1;
+    double weights = 0.0;
+    double asked_weights = 0.0;
+    double sum = 0.0;
+    bool is_far = all == 0; // Nothing is known of where it is.
+    std::size_t place = 0;
+    for (const std::uint32_t face : faces_[shell]) {
+        if (!surface_.mesh.face_is_there(face)) {
+            continue;
+        }
+        samples_.for_each(face, [&](std::uint32_t number) {
+            const SurfaceSample& sample = samples_[number];
+            weights += static_cast<double>(sample.weight);
+            present += static_cast<double>(sample.weight) *
+                       samples_.penalty().of(static_cast<double>(sample.distance2));
+            if (!is_far && place++ % stride == 0) {
+                const glm::dvec3 at(sample.place[0], sample.place[1], sample.place[2]);
+                const measure::NearestOnMesh other = nearest_other(shell, at, max_distance_);
+                is_far = other.triangle == none || other.distance2 > max_distance_ * max_distance_;
+                asked_weights += static_cast<double>(sample.weight);
+                sum += static_cast<double>(sample.weight) * samples_.penalty().of(other.distance2);
+            }
+        });
+    }
+    if (is_far) {
+        return infinite;
+    }
+    return asked_weights > 0.0 ? sum * weights / asked_weights - present : 0.0;
+}
+
+/// Puts the samples of a shell that was dropped into the lists of triangles of the others: from the
+/// nearest point of the original to a sample near it, and from the triangle of that to the nearest
+/// around.
+void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers) {
+    for (const std::uint32_t number : numbers) {
+        const std::array<float, 3>& at = samples_[number].place;
+        // No two points are farther apart than the diagonal, which is 1, and each shell has samples.
+        const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
+        assert(other.triangle != none && sample_near_[other.triangle] != none);
+        const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
+        assert(surface_.mesh.face_is_there(start));
+        float distance2 = 0.0F;
+        const std::uint32_t face = nearest_face_from(surface_, start, at, distance2);
+        samples_.put(number, face, distance2);
+    }
+}
 
 /// Of collapses at the same cost, as in a plane, short edges go first: this share of an edge's
 /// squared length counts as a squared distance.
@@ -202,8 +496,8 @@ HalfEdge EdgeCollapse::next_edge() {
     return none;
 }
 
-/// The cheapest edge of a boundary where `h`, the cheapest of all, is none and costs not far less:
-/// it takes one triangle instead of two.
+/// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a boundary,
+/// else the cheapest boundary edge, unless that costs more than `max_factor` times as much as `h`.
 HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     constexpr float max_factor = 100.0F; // Some ten times as far off there.
     const CollapsibleMesh& mesh = surface_.mesh;

@@ -2,18 +2,138 @@
 // 2005, section II.2, distance to triangles in both directions, but against the original surface
 // instead of the mesh before: from samples of it, and back to it by a tree. The way back counts
 // more where the original faces against the triangle, so that no triangle folds over.
+//
+// VertexFit holds the normal equations of one vertex. A point at distance d from the surface wants the surface to
+// move by d along the direction to the point; the vertex takes part in that by its barycentric
+// weight. Three equations result, slightly damped (Levenberg-Marquardt), so that a vertex in a flat
+// surrounding does not slide.
 #include "models/simplify/local_error.h"
-
-#include "models/simplify/collapse_guard.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace octant::models::simplify {
 
 namespace {
+
+/// How much the distance along the triangle counts, beside that across it. 0 would be a
+/// Gauss-Newton step (point-to-plane); 1 the slower convergence of iterated closest points.
+constexpr double sideways = 0.1;
+
+/// The point of a triangle nearest to a point of its plane, in the plane's coordinates.
+struct FlatFoot {
+    double x = 0.0;
+    double y = 0.0;
+    bool inside = true;
+};
+
+/// The point of a triangle nearest to the point (x, y) of its plane.
+FlatFoot foot_of(double x, double y, const FlatTriangle& t) {
+    const double bx = static_cast<double>(t.bx);
+    const double cx = static_cast<double>(t.cx);
+    const double cy = static_cast<double>(t.cy);
+    if (y >= 0.0 && (cx - bx) * y - cy * (x - bx) >= 0.0 && cy * x - cx * y >= 0.0) {
+        return {x, y, true};
+    }
+    FlatFoot foot;
+    double best2 = std::numeric_limits<double>::infinity();
+    // The edge from (ax, ay) along (ex, ey).
+    const auto take = [&](double ax, double ay, double ex, double ey, float per_length2) {
+        const double share = ((x - ax) * ex + (y - ay) * ey) * static_cast<double>(per_length2);
+        const double along = std::clamp(share, 0.0, 1.0);
+        const double fx = ax + along * ex;
+        const double fy = ay + along * ey;
+        const double away2 = (x - fx) * (x - fx) + (y - fy) * (y - fy);
+        if (away2 < best2) {
+            best2 = away2;
+            foot = {fx, fy, false};
+        }
+    };
+    take(0.0, 0.0, bx, 0.0, t.per_ab2);
+    take(bx, 0.0, cx - bx, cy, t.per_bc2);
+    take(0.0, 0.0, cx, cy, t.per_ca2);
+    return foot;
+}
+
+} // namespace
+
+void VertexFit::add(const glm::dvec3& off, const glm::dvec3& normal, double share, double weight) {
+    const double length2 = glm::dot(off, off);
+    const glm::dvec3 direction = length2 > 1e-16 ? off / std::sqrt(length2) : normal;
+    matrix_.add_plane(direction, 0.0, weight * share * share);
+    const double along = sideways * weight * share * share;
+    matrix_.xx += along;
+    matrix_.yy += along;
+    matrix_.zz += along;
+    right_side_ += ((1.0 + sideways) * weight * share) * off;
+}
+
+void VertexFit::add_colour(
+    const glm::dvec3& off, const std::array<glm::dvec3, 3>& gradient, double share, double weight) {
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3& slope = gradient[static_cast<std::size_t>(i)];
+        matrix_.add_plane(slope, 0.0, weight * share * share);
+        right_side_ -= (weight * share * off[i]) * slope;
+    }
+    colour_weight_ += weight * share * share;
+    colour_sum_ += (weight * share) * off;
+}
+
+glm::dvec3 VertexFit::way() const {
+    Quadric held = matrix_;
+    const double hold = 1e-3 * matrix_.trace();
+    held.xx += hold;
+    held.yy += hold;
+    held.zz += hold;
+    return solved(held, right_side_, glm::dvec3(0.0));
+}
+
+glm::dvec3 VertexFit::colour_change() const {
+    return colour_weight_ > 0.0 ? colour_sum_ / colour_weight_ : glm::dvec3(0.0);
+}
+
+namespace {
+
+/// Adds sample `i` of a block after find_nearest; `t` is its nearest triangle.
+void add_sample(
+    VertexFit& fit,
+    const SampleBlock& samples,
+    std::size_t i,
+    const FlatTriangle& t,
+    double weight,
+    bool coloured) {
+    const glm::dvec3 d(
+        static_cast<double>(samples.x[i]) - static_cast<double>(t.origin[0]),
+        static_cast<double>(samples.y[i]) - static_cast<double>(t.origin[1]),
+        static_cast<double>(samples.z[i]) - static_cast<double>(t.origin[2]));
+    const glm::dvec3 x_axis = widen(t.x_axis);
+    const glm::dvec3 y_axis = widen(t.y_axis);
+    const FlatFoot foot = foot_of(glm::dot(d, x_axis), glm::dot(d, y_axis), t);
+    const double c = t.cy > 0.0F ? foot.y / static_cast<double>(t.cy) : 0.0;
+    const double b =
+        t.bx > 0.0F ? (foot.x - c * static_cast<double>(t.cx)) / static_cast<double>(t.bx) : 0.0;
+    const double share = std::clamp(1.0 - b - c, 0.0, 1.0);
+    if (share <= 0.0) {
+        return;
+    }
+    const glm::dvec3 off = d - foot.x * x_axis - foot.y * y_axis;
+    fit.add(off, widen(t.normal), share, weight);
+    if (coloured) {
+        const glm::dvec3 colour(samples.red[i], samples.green[i], samples.blue[i]);
+        const glm::dvec3 along_x = widen(t.colour_x);
+        const glm::dvec3 along_y = widen(t.colour_y);
+        const glm::dvec3 here = widen(t.colour) + foot.x * along_x + foot.y * along_y;
+        std::array<glm::dvec3, 3> gradient{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
+        for (int part = 0; foot.inside && part < 3; ++part) {
+            gradient[static_cast<std::size_t>(part)] =
+                along_x[part] * x_axis + along_y[part] * y_axis;
+        }
+        fit.add_colour(colour - here, gradient, share, weight);
+    }
+}
 
 /// The shares of a triangle's area for which three points on it and its corners stand. The points
 /// alone would do for the mean (Gauss), but the largest distance mostly is that of a vertex.
@@ -55,14 +175,10 @@ void LocalError::set_ring(
     for (const RingFace& face : ring) {
         const std::uint32_t next = surface_.mesh.target(face.half_edge);
         const std::uint32_t last = surface_.mesh.origin(previous_of(face.half_edge));
-        ColouredTriangle made{{none, next, last}, moved_corners(surface_, face, place), {}};
-        if (surface_.coloured()) {
-            made.colours = {
-                colour,
-                surface_.colours[next],
-                surface_.colours[last]};
-        }
-        triangles_.push_back(made);
+        triangles_.push_back(
+            {{none, next, last},
+             moved_corners(surface_, face, place),
+             {colour, surface_.colour_of(next), surface_.colour_of(last)}});
         near_.push_back(face.face);
         turns_.push_back(face.half_edge % 3);
     }
@@ -366,13 +482,8 @@ VertexFit LocalError::fit(bool with_back) const {
     for (std::size_t i = 0; i < block_.size(); ++i) {
         const double weight = static_cast<double>(block_.weights[i]) *
                               penalty.weight(static_cast<double>(block_.distances2[i]));
-        add_sample(
-            fit,
-            block_,
-            i,
-            flat_[static_cast<std::size_t>(block_.nearest[i])],
-            weight,
-            samples_.coloured());
+        const FlatTriangle& triangle = flat_[static_cast<std::size_t>(block_.nearest[i])];
+        add_sample(fit, block_, i, triangle, weight, samples_.coloured());
     }
     double around = 0.0;
     for (std::size_t t = 0; with_back && t < triangles_.size(); ++t) {

@@ -1,16 +1,16 @@
 #pragma once
 
 #include "models/measure/triangle_bvh.h"
-#include "models/simplify/original_surface.h"
+#include "models/simplify/quadric.h"
 #include "models/simplify/sample_block.h"
 #include "models/simplify/surface_samples.h"
-#include "models/simplify/vertex_fit.h"
 #include "models/simplify/working_surface.h"
 
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -18,6 +18,36 @@
 #include <vector>
 
 namespace octant::models::simplify {
+
+/// A least-squares fit of one vertex: the step of its position, and the change of its colour, that
+/// lessen a sum of squared distances most, as far as distances are linear functions of both.
+class VertexFit {
+public:
+    /// Adds a pair of a point and its nearest point on a triangle whose corner 0 is the vertex.
+    /// `off` runs from the nearest point to the point; `share` is the vertex's barycentric weight
+    /// in the nearest point; `normal` is the triangle's unit normal.
+    void add(const glm::dvec3& off, const glm::dvec3& normal, double share, double weight);
+
+    /// Adds the colour of such a pair. `off` is the point's colour less that of the nearest point,
+    /// and `gradient` how the latter grows with position on the triangle.
+    void add_colour(
+        const glm::dvec3& off,
+        const std::array<glm::dvec3, 3>& gradient,
+        double share,
+        double weight);
+
+    /// The step of the position.
+    glm::dvec3 way() const;
+
+    /// The change of the colour.
+    glm::dvec3 colour_change() const;
+
+private:
+    Quadric matrix_;
+    glm::dvec3 right_side_{0.0};
+    double colour_weight_ = 0.0;
+    glm::dvec3 colour_sum_{0.0};
+};
 
 /// The corners of a triangle, and their colours where there are any.
 struct ColouredTriangle {
@@ -51,7 +81,8 @@ public:
     void set_triangles(
         std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
-    /// Measures the ways back of all present triangles, and the colours of their samples. Returns the largest squared distance.
+    /// Measures the ways back of all present triangles, and the colours of their samples. Returns
+    /// the largest squared distance.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
@@ -63,9 +94,7 @@ public:
     /// Both; only a lower bound where that exceeds `limit`.
     double measured(double limit = std::numeric_limits<double>::infinity());
 
-    /// The largest squared distance that was measured last, in each direction.
-    double max_there2();
-    double max_back2() const { return max_back2_; }
+    /// The largest squared distance that was measured last, in both directions.
     double max_distance2() { return std::max(max_there2(), max_back2_); }
 
     /// The sum of the present errors of the triangles that were loaded.
@@ -97,9 +126,10 @@ public:
     /// The sum of that over all measurements so far.
     double work_done() const { return work_done_; }
 
-    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the samples to the lists of `faces`,
-    /// the numbers of the new triangles in their order. `emptied` are those that were loaded, and
-    /// `vertex` the number of the vertex that is new or moves, or none.
+    /// Accepts the step that was measured last, in full, after the mesh was changed: moves the
+    /// samples to the lists of `faces`, the numbers of the new triangles in their order. `emptied`
+    /// are those that were loaded, and `vertex` is the number of the vertex that is new or moves, or
+    /// none.
     void keep(
         std::span<const std::uint32_t> emptied,
         std::span<const std::uint32_t> faces,
@@ -111,6 +141,8 @@ public:
     }
 
 private:
+    double max_there2();
+
     /// A point of a new triangle and its way to the original.
     struct BackPoint {
         glm::dvec3 off{0.0};

@@ -11,7 +11,7 @@
 // it.
 #include "models/simplify/optimize.h"
 
-#include "models/simplify/collapse_guard.h"
+#include "models/simplify/working_surface.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
 
@@ -29,7 +29,7 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// A distance of so many root mean squares counts twice.
+/// At so many root mean squares a distance has twice the penalty of its square.
 constexpr double high = 1.5;
 /// The shares of an error that a step is expected to take away before one was tried.
 constexpr double expected_of_move = 0.1;
@@ -38,7 +38,7 @@ constexpr double expected_of_split = 0.6;
 /// The next move of the same vertex is expected to achieve this share of the last one, and the
 /// moves and flips around it these.
 constexpr double expected_again = 0.5;
-constexpr double expected_beside = 0.25;
+constexpr double expected_nearby = 0.25;
 /// At most so many distances count as one step; mostly there are some 2,000.
 constexpr double work_of_step = 20'000.0;
 /// A step is made only if it takes away this share of the error around it.
@@ -101,6 +101,7 @@ private:
         double limit,
         std::uint32_t vertex,
         const std::function<bool(const glm::dvec3&)>& may_be_at);
+    void fit_corner(glm::dvec3& place, glm::dvec3& colour);
     MadeVertex split_vertex(HalfEdge h);
     MadeVertex collapsed_vertex(HalfEdge h);
     HalfEdge cheapest_collapse();
@@ -343,10 +344,7 @@ void Optimizer::lower_max_by_corner(
 /// Moves a vertex so that the largest distance around it falls below the largest one allowed.
 void Optimizer::move_to_lower_max(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
-    MadeVertex moved{surface_.places[vertex], {}, 0.0};
-    if (surface_.coloured()) {
-        moved.colour = surface_.colours[vertex];
-    }
+    MadeVertex moved{surface_.places[vertex], surface_.colour_of(vertex), 0.0};
     local_.gather(faces_);
     local_.set_ring(ring_, moved.place, moved.colour);
     const double limit = local_.present() + spare_;
@@ -377,7 +375,7 @@ void Optimizer::try_step(Id id) {
 void Optimizer::try_move(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
     const glm::dvec3 place = surface_.places[vertex];
-    const glm::dvec3 colour = surface_.coloured() ? surface_.colours[vertex] : glm::dvec3(0.0);
+    const glm::dvec3 colour = surface_.colour_of(vertex);
     local_.gather(faces_);
     const double before = local_.present();
     if (before <= local_.rounding()) {
@@ -398,10 +396,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
         const double limit = (1.0 - min_share) * before;
         const double after = local_.measured(limit);
         if (after < limit && local_.max_distance2() <= max_distance2_) {
-            surface_.places[vertex] = there;
-            if (surface_.coloured()) {
-                surface_.colours[vertex] = new_colour;
-            }
+            surface_.set_vertex(vertex, there, new_colour);
             local_.keep(faces_, faces_, vertex);
             expect(vertex, expected_again * (before - after), work);
             changed_around(vertex, before - after, work, false);
@@ -422,7 +417,7 @@ void Optimizer::changed_around(
                 expect_split(edge);
                 collapses_.set(edge, 0.0F);
             } else {
-                expect(flip_of(edge), 0.2 * expected_beside * gain, work);
+                expect(flip_of(edge), 0.2 * expected_nearby * gain, work);
                 split_is_checked_[edge] = 0;
             }
             collapse_is_checked_[edge] = 0;
@@ -430,7 +425,7 @@ void Optimizer::changed_around(
         if (connectivity) {
             expect(mesh.target(h), expected_of_move * samples_.error(face_of(h)), work_at(h));
         } else {
-            expect(mesh.target(h), expected_beside * gain, work);
+            expect(mesh.target(h), expected_nearby * gain, work);
         }
     });
     if (connectivity) {
@@ -448,12 +443,10 @@ void Optimizer::try_flip(HalfEdge h) {
     const std::uint32_t x = mesh.origin(previous_of(h));
     const std::uint32_t y = mesh.origin(previous_of(mesh.twin(h)));
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{
-            {a, b, c}, {surface_.places[a], surface_.places[b], surface_.places[c]}, {}};
-        if (surface_.coloured()) {
-            made.colours = {surface_.colours[a], surface_.colours[b], surface_.colours[c]};
-        }
-        return made;
+        return ColouredTriangle{
+            {a, b, c},
+            {surface_.places[a], surface_.places[b], surface_.places[c]},
+            {surface_.colour_of(a), surface_.colour_of(b), surface_.colour_of(c)}};
     };
     const std::array old = {triangle(u, w, x), triangle(w, u, y)};
     const std::array made = {triangle(y, x, u), triangle(x, y, w)};
@@ -478,12 +471,12 @@ void Optimizer::try_flip(HalfEdge h) {
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + before - after) : 0.0;
     const double work = local_.work();
     for (const std::uint32_t vertex : {u, w, x, y}) {
-        expect(vertex, expected_beside * (before - after), work);
+        expect(vertex, expected_nearby * (before - after), work);
     }
     for (const std::uint32_t face : faces_) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             const HalfEdge edge = mesh.edge_of(3 * face + corner);
-            expect(flip_of(edge), expected_beside * (before - after), work);
+            expect(flip_of(edge), expected_nearby * (before - after), work);
             split_is_checked_[edge] = 0;
             collapse_is_checked_[edge] = 0;
             if (!collapses_.holds(edge)) {
@@ -493,33 +486,24 @@ void Optimizer::try_flip(HalfEdge h) {
     }
 }
 
-/// Loads the triangles around an edge that would split, into a fan around the new vertex.
+/// Loads the triangles around an edge that would split, no border, into a fan around the new vertex.
 void Optimizer::load_split(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
-    faces_.assign(1, face_of(h));
+    faces_.clear();
     fan_.clear();
     const glm::dvec3 middle =
         0.5 * (surface_.places[mesh.origin(h)] + surface_.places[mesh.target(h)]);
     const glm::dvec3 colour =
-        surface_.coloured()
-            ? 0.5 * (surface_.colours[mesh.origin(h)] + surface_.colours[mesh.target(h)])
-            : glm::dvec3(0.0);
+        0.5 * (surface_.colour_of(mesh.origin(h)) + surface_.colour_of(mesh.target(h)));
     const auto add = [&](std::uint32_t b, std::uint32_t c) {
-        ColouredTriangle made{
-            {none, b, c}, {middle, surface_.places[b], surface_.places[c]}, {}};
-        if (surface_.coloured()) {
-            made.colours = {colour, surface_.colours[b], surface_.colours[c]};
-        }
-        fan_.push_back(made);
+        fan_.push_back(
+            {{none, b, c},
+             {middle, surface_.places[b], surface_.places[c]},
+             {colour, surface_.colour_of(b), surface_.colour_of(c)}});
     };
     // In the order of CollapsibleMesh::split.
     for (const HalfEdge side : {h, mesh.twin(h)}) {
-        if (side == none) {
-            continue;
-        }
-        if (side != h) {
-            faces_.push_back(face_of(side));
-        }
+        faces_.push_back(face_of(side));
         const std::uint32_t opposite = mesh.origin(previous_of(side));
         add(opposite, mesh.origin(side));
         add(mesh.target(side), opposite);
@@ -530,6 +514,17 @@ void Optimizer::load_split(HalfEdge h) {
         near_.push_back(faces_[i / 2]);
     }
     local_.set_triangles(fan_, near_);
+}
+
+/// Moves corner 0 of the new triangles to where two least-squares fits lead.
+void Optimizer::fit_corner(glm::dvec3& place, glm::dvec3& colour) {
+    for (int fit = 0; fit < 2; ++fit) {
+        local_.measured_there();
+        const VertexFit step = local_.fit(false);
+        place += step.way();
+        colour += step.colour_change();
+        local_.move_corner(place, colour);
+    }
 }
 
 /// The vertex that a split of an edge would make.
@@ -559,13 +554,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
     }
     glm::dvec3 place = made.place;
     glm::dvec3 colour = made.colour;
-    for (int fit = 0; fit < 2; ++fit) {
-        local_.measured_there();
-        const VertexFit step = local_.fit(false);
-        place += step.way();
-        colour += step.colour_change();
-        local_.move_corner(place, colour);
-    }
+    fit_corner(place, colour);
     if (is_allowed(place)) {
         const double after = local_.measured(present);
         if (after < present && local_.max_distance2() <= max_distance2_) {
@@ -578,10 +567,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
 void Optimizer::load_collapse(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.ring_of(h, ring_);
-    faces_.assign(1, face_of(h));
-    if (mesh.twin(h) != none) {
-        faces_.push_back(face_of(mesh.twin(h)));
-    }
+    faces_ = {face_of(h), face_of(mesh.twin(h))};
     ring_faces_.clear();
     for (const RingFace& face : ring_) {
         faces_.push_back(face.face);
@@ -602,16 +588,9 @@ Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
     const std::uint32_t u = mesh.origin(h);
     const std::uint32_t w = mesh.target(h);
     glm::dvec3 place = 0.5 * (surface_.places[u] + surface_.places[w]);
-    glm::dvec3 colour = surface_.coloured() ? 0.5 * (surface_.colours[u] + surface_.colours[w])
-                                            : glm::dvec3(0.0);
+    glm::dvec3 colour = 0.5 * (surface_.colour_of(u) + surface_.colour_of(w));
     local_.set_ring(ring_, place, colour);
-    for (int fit = 0; fit < 2; ++fit) {
-        local_.measured_there();
-        const VertexFit step = local_.fit(false);
-        place += step.way();
-        colour += step.colour_change();
-        local_.move_corner(place, colour);
-    }
+    fit_corner(place, colour);
     if (may_move(surface_, ring_, place)) {
         const double after = local_.measured();
         if (local_.max_distance2() <= max_distance2_) {
@@ -647,10 +626,8 @@ bool Optimizer::touch(HalfEdge split, HalfEdge collapsed) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     std::vector<std::uint32_t> near;
     for (const HalfEdge side : {split, mesh.twin(split)}) {
-        if (side != none) {
-            const Triangle corners = mesh.corners(face_of(side));
-            near.insert(near.end(), corners.begin(), corners.end());
-        }
+        const Triangle corners = mesh.corners(face_of(side));
+        near.insert(near.end(), corners.begin(), corners.end());
     }
     bool found = false;
     for (const std::uint32_t end : {mesh.origin(collapsed), mesh.target(collapsed)}) {
@@ -713,7 +690,8 @@ void Optimizer::try_split(HalfEdge h) {
     relocate(h, cheapest);
 }
 
-/// Collapses one edge and splits another one with the triangles that are free then.
+/// Collapses one edge and splits another one, neither of them a border, with the triangles that are
+/// free then.
 void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     CollapsibleMesh& mesh = surface_.mesh;
     const MadeVertex apart = split_vertex(split);
@@ -732,12 +710,8 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     const double work = local_.work();
     const std::uint32_t kept = mesh.origin(collapsed);
     const std::uint32_t gone = mesh.target(collapsed);
-    std::array<std::uint32_t, 2> free = {face_of(collapsed), none};
+    const std::array free = {face_of(collapsed), face_of(mesh.twin(collapsed))};
     for (const HalfEdge side : {collapsed, mesh.twin(collapsed)}) {
-        if (side == none) {
-            continue;
-        }
-        free[1] = face_of(side);
         for (const HalfEdge at : {side, next_of(side), previous_of(side)}) {
             const HalfEdge edge = mesh.edge_of(at);
             collapses_.remove(edge);
@@ -746,10 +720,7 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
         }
     }
     mesh.collapse(collapsed);
-    surface_.places[kept] = merged.place;
-    if (surface_.coloured()) {
-        surface_.colours[kept] = merged.colour;
-    }
+    surface_.set_vertex(kept, merged.place, merged.colour);
     local_.keep(faces_, ring_faces_, kept);
     queue_.remove(gone);
     // The split.
@@ -757,25 +728,16 @@ void Optimizer::relocate(HalfEdge split, HalfEdge collapsed) {
     local_.move_corner(apart.place, apart.colour);
     local_.measured();
     const std::uint32_t left = face_of(split);
-    const std::uint32_t right = mesh.twin(split) == none ? none : face_of(mesh.twin(split));
+    const std::uint32_t right = face_of(mesh.twin(split));
     mesh.split(split, gone, free);
-    std::vector<std::uint32_t> made = {left, free[0]};
-    if (right != none) {
-        made.insert(made.end(), {free[1], right});
-    }
     if (!surface_.materials.empty()) {
         surface_.materials[free[0]] = surface_.materials[left];
-        if (right != none) {
-            surface_.materials[free[1]] = surface_.materials[right];
-        }
+        surface_.materials[free[1]] = surface_.materials[right];
     }
-    surface_.places[gone] = apart.place;
-    if (surface_.coloured()) {
-        surface_.colours[gone] = apart.colour;
-    }
-    local_.keep(faces_, made, gone);
+    surface_.set_vertex(gone, apart.place, apart.colour);
+    changed_ = {left, free[0], free[1], right};
+    local_.keep(faces_, changed_, gone);
     spare_ = is_lowering_max_ ? std::max(0.0, spare_ + gain) : 0.0;
-    changed_ = made;
     mesh.around(kept, [&](HalfEdge h) { changed_.push_back(face_of(h)); });
     changed_around(kept, gain, work, true);
     changed_around(gone, gain, work, true);

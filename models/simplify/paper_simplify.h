@@ -3,9 +3,49 @@
 #include "models/simplify/simplify_options.h"
 #include "models/triangle_mesh.h"
 
+#include <array>
 #include <cstddef>
 
 namespace octant::models::simplify {
+
+/// A position and a weighted colour as one point: x, y, z (metres), w r, w g, w b; the last three 0
+/// where colour does not count.
+using Point6 = std::array<double, 6>;
+
+using Corners = std::array<Point6, 3>;
+
+/// Where the perpendicular from a point meets a triangle's plane, and the distance to the triangle.
+struct Foot {
+    /// The foot a P1 + b P2 + c P3 has 0 < a, b, c < 1. A foot on the border counts as outside.
+    bool inside = false;
+    /// The squared distance to the triangle: to the foot where that is inside, else to the border.
+    double distance2 = 0.0;
+};
+
+/// Drops the perpendicular from `x`. A triangle without area has no inside.
+Foot foot_on(const Corners& triangle, const Point6& x);
+
+/// A quadric error metric in six dimensions: the sum of squared distances to planes, x^T A x + 2
+/// b^T x + c with a symmetric A. The default one has no plane and is 0 everywhere.
+class PlaneQuadric {
+public:
+    /// The quadric of the plane in space through a triangle's corners, whatever their colours; that
+    /// of no plane for a triangle without area.
+    static PlaneQuadric of_plane(const Corners& triangle);
+
+    /// The quadric of the plane that a triangle spans in six dimensions, colours included.
+    static PlaneQuadric of_coloured_plane(const Corners& triangle);
+
+    void add(const PlaneQuadric& other);
+
+    /// The value at a point, at least 0 (rounding below is cut off).
+    double at(const Point6& x) const;
+
+private:
+    std::array<double, 21> a_{}; ///< The upper triangle of A, row after row.
+    Point6 b_{};
+    double c_ = 0.0;
+};
 
 /// The error measures that the 2005 paper compares.
 enum class PaperMeasure {

@@ -78,6 +78,15 @@ optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t 
     return how;
 }
 
+WorkingSurface working_surface(
+    const TriangleMesh& mesh, const WorkingUnits& units, const SimplifyOptions& options) {
+    WorkingSurface surface(mesh, units);
+    if (options.lock_border) {
+        surface.lock_border(mesh, units);
+    }
+    return surface;
+}
+
 /// For each sample the corner of its triangle that is nearest to it.
 std::vector<std::uint32_t>
 anchors_of(const WorkingSurface& surface, const SurfaceSamples& samples) {
@@ -152,47 +161,35 @@ TriangleMesh better_of(const TriangleMesh& original, TriangleMesh before, Triang
     return rms_m(before) < rms_m(optimized) ? std::move(before) : std::move(optimized);
 }
 
+CollapsingSurface collapsing_of(
+    const TriangleMesh& original, const SimplifyOptions& options, const EdgeWeights& weights) {
+    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
+    return {working_surface(original, units, options), units, weights};
+}
+
 /// Collapses of a mesh, with samples of what it was. A copy goes on from the same state.
 class Simplification {
 public:
-    /// The original must outlive this.
+    /// The original and the options must outlive this.
     Simplification(const TriangleMesh& original, const SimplifyOptions& options)
         : options_(options)
         , original_(original)
-        , units_(WorkingUnits::of(original_, options.colour_weight))
-        , surface_(original_, units_)
-        , target_(std::make_shared<const OriginalSurface>(surface_))
-        , collapsing_(surface_, units_, EdgeWeights{}) {
-        if (options.lock_border) {
-            surface_.lock_border(original_, units_);
-        }
-    }
-
-    Simplification(const Simplification& from)
-        : options_(from.options_)
-        , original_(from.original_)
-        , units_(from.units_)
-        , surface_(from.surface_)
-        , target_(from.target_)
-        , collapsing_(from.collapsing_, surface_, units_)
-        , samples_(from.samples_)
-        , shells_gone_(from.shells_gone_) {}
-
-    Simplification& operator=(const Simplification&) = delete;
+        , collapsing_(collapsing_of(original, options, EdgeWeights{}))
+        , target_(std::make_shared<const OriginalSurface>(surface())) {}
 
     /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
     /// left in the end.
     void approach(const Goal& near_goal, std::size_t faces) {
         SurfaceSamples samples(
-            surface_, wanted_samples(options_.effort, surface_.mesh.face_count(), faces));
-        std::vector<std::uint32_t> near = anchors_of(surface_, samples);
+            surface(), wanted_samples(options_.effort, surface().mesh.face_count(), faces));
+        std::vector<std::uint32_t> near = anchors_of(surface(), samples);
         collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
         for (std::uint32_t& anchor : near) {
-            anchor = surface_.mesh.face_at(slots[anchor]);
+            anchor = surface().mesh.face_at(slots[anchor]);
         }
-        assign_from(surface_, samples, near);
-        LocalError(surface_, samples, *target_).measure_all_back();
+        assign_from(surface(), samples, near);
+        LocalError(surface(), samples, *target_).measure_all_back();
         samples_.emplace(std::move(samples));
     }
 
@@ -203,14 +200,15 @@ public:
 
     /// Optimizes the mesh where that makes it better. Returns the number of steps.
     std::size_t optimize(const SimplifyOptions& options, TriangleMesh& mesh) {
-        mesh = surface_.to_mesh(original_, units_);
+        mesh = surface().to_mesh(original_, collapsing_.units());
         const std::size_t steps = simplify::optimize(
-            surface_,
+            surface(),
             *samples_,
             *target_,
             optimize_options(options, faces(), original_.triangles.size()));
         if (steps > 0) {
-            mesh = better_of(original_, std::move(mesh), surface_.to_mesh(original_, units_));
+            TriangleMesh made = surface().to_mesh(original_, collapsing_.units());
+            mesh = better_of(original_, std::move(mesh), std::move(made));
         }
         return steps;
     }
@@ -222,17 +220,17 @@ public:
         result.handles_cut = collapsing_.handles_cut();
     }
 
-    std::size_t faces() const { return surface_.mesh.face_count(); }
+    std::size_t faces() const { return collapsing_.surface().mesh.face_count(); }
 
     std::vector<Collapse>& collapses() { return collapsing_.collapses(); }
 
 private:
+    WorkingSurface& surface() { return collapsing_.surface(); }
+
     const SimplifyOptions& options_;
     const TriangleMesh& original_;
-    WorkingUnits units_;
-    WorkingSurface surface_;
-    std::shared_ptr<const OriginalSurface> target_;
     CollapsingSurface collapsing_;
+    std::shared_ptr<const OriginalSurface> target_;
     std::optional<SurfaceSamples> samples_;
     std::size_t shells_gone_ = 0;
 };
@@ -406,12 +404,7 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
 
 CollapseSequence fast_sequence(TriangleMesh original, const SimplifyOptions& options) {
     assert(!options.goal.error_m);
-    const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
-    WorkingSurface surface(original, units);
-    if (options.lock_border) {
-        surface.lock_border(original, units);
-    }
-    CollapsingSurface collapsing(surface, units, cost_weights);
+    CollapsingSurface collapsing = collapsing_of(original, options, cost_weights);
     SimplifyOptions keeping = options;
     keeping.keep_topology = true;
     collapse_by_quadrics(collapsing, options.goal, keeping);
@@ -428,10 +421,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
     const OriginalSurface target(fine);
     SurfaceSamples samples(
         fine, wanted_samples(options.effort, original.triangles.size(), mesh.triangles.size()));
-    WorkingSurface surface(mesh, units);
-    if (options.lock_border) {
-        surface.lock_border(mesh, units);
-    }
+    WorkingSurface surface = working_surface(mesh, units, options);
     const measure::TriangleBvh tree(surface.places, mesh.triangles);
     std::vector<std::uint32_t> faces(samples.size());
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/simplify/original_surface.h"
 #include "models/simplify/sample_block.h"
 #include "models/simplify/working_surface.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/measure/plane_frame.h"
 #include "models/simplify/collapsible_mesh.h"
 #include "models/triangle_mesh.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace octant::models::simplify {
@@ -76,6 +78,18 @@ struct WorkingSurface {
 
     bool coloured() const { return !colours.empty(); }
 
+    /// Black where there are no colours.
+    glm::dvec3 colour_of(std::uint32_t vertex) const {
+        return coloured() ? colours[vertex] : glm::dvec3(0.0);
+    }
+
+    void set_vertex(std::uint32_t vertex, const glm::dvec3& place, const glm::dvec3& colour) {
+        places[vertex] = place;
+        if (coloured()) {
+            colours[vertex] = colour;
+        }
+    }
+
     std::array<glm::dvec3, 3> corner_places(std::uint32_t face) const {
         const Triangle corners = mesh.corners(face);
         return {places[corners[0]], places[corners[1]], places[corners[2]]};
@@ -110,5 +124,77 @@ struct WorkingSurface {
 inline glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
     return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
+
+/// Whether a triangle with corners `before` may get the corners `after`: it turns by less than 90
+/// degrees and has an area. One without an area may become any that has one.
+bool may_become(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after);
+
+/// Whether the two triangles at an edge may become the two given ones when the edge is flipped,
+/// whichever new one is compared with whichever old one.
+bool may_flip_to(
+    const std::array<std::array<glm::dvec3, 3>, 2>& before,
+    const std::array<std::array<glm::dvec3, 3>, 2>& after);
+
+/// Whether every triangle of a ring may have its moving corner at `place`, by may_become.
+bool may_move(
+    const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
+
+/// The corners of a triangle of a ring when its moving corner is at `place`; that corner comes
+/// first.
+inline std::array<glm::dvec3, 3>
+moved_corners(const WorkingSurface& surface, const RingFace& face, const glm::dvec3& place) {
+    return {
+        place,
+        surface.places[surface.mesh.target(face.half_edge)],
+        surface.places[surface.mesh.origin(previous_of(face.half_edge))]};
+}
+
+/// A point of the original surface.
+struct OriginalPoint {
+    std::array<float, 3> place{};
+    std::uint32_t triangle = none; ///< That it lies on.
+};
+
+/// The surface that is approximated, in working units, for nearest points near a known one.
+class OriginalSurface {
+public:
+    explicit OriginalSurface(const WorkingSurface& surface);
+
+    /// A point of the surface that is nearer than all around it, found by going from triangle to
+    /// triangle, from `start` on, as long as that leads nearer. So the side of a thin part stays
+    /// the same. The squared distance goes to `distance2`.
+    OriginalPoint nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const;
+
+    /// The normal of a triangle, of any length.
+    glm::dvec3 normal(std::uint32_t triangle) const;
+
+    /// The squared distance to a triangle.
+    double distance2(std::uint32_t triangle, const glm::dvec3& point) const {
+        return nearest_on(triangle, point).distance2;
+    }
+
+    const std::vector<glm::dvec3>& places() const { return places_; }
+    const std::vector<Triangle>& triangles() const { return triangles_; }
+
+    /// The triangle beyond each side of a triangle, or none.
+    const std::array<std::uint32_t, 3>& beyond(std::uint32_t triangle) const {
+        return beyond_[triangle];
+    }
+
+private:
+    /// The nearest point of a triangle, and which of its sides or corners it lies on.
+    struct OnTriangle {
+        glm::dvec3 place{0.0};
+        double distance2 = 0.0;
+        std::uint32_t side = none;   ///< From this corner to the next one; none = inside.
+        std::uint32_t corner = none; ///< This one; `side` is none then.
+    };
+
+    OnTriangle nearest_on(std::uint32_t triangle, const glm::dvec3& point) const;
+
+    std::vector<glm::dvec3> places_;
+    std::vector<Triangle> triangles_;
+    std::vector<std::array<std::uint32_t, 3>> beyond_; ///< The triangle beyond each side, or none.
+};
 
 } // namespace octant::models::simplify

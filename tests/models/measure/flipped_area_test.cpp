@@ -1,4 +1,4 @@
-#include "models/measure/flipped_area.h"
+#include "models/measure/sampled_distance.h"
 #include "tests/models/measure/made_meshes.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,3 @@
-#include "models/measure/hausdorff.h"
 #include "models/measure/mesh_distance.h"
 #include "models/measure/triangle_bvh.h"
 #include "tests/models/measure/made_meshes.h"

@@ -1,4 +1,4 @@
-#include "models/simplify/foot_of_perpendicular.h"
+#include "models/simplify/paper_simplify.h"
 
 #include <catch2/catch.hpp>
 

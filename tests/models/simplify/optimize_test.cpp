@@ -1,7 +1,6 @@
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/collapsible_mesh.h"
 #include "models/simplify/local_error.h"
-#include "models/simplify/original_surface.h"
 #include "models/simplify/simplify.h"
 #include "models/simplify/surface_samples.h"
 #include "models/simplify/working_surface.h"

@@ -1,4 +1,4 @@
-#include "models/measure/flipped_area.h"
+#include "models/measure/sampled_distance.h"
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/attribute_seams.h"

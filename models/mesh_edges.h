@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace octant::models::repair {
+namespace octant::models {
 
 /// Things that are put together piece by piece (union-find); the smallest thing of a group names
 /// it.
@@ -45,6 +45,11 @@ struct Side {
     std::uint8_t corner = 0;
     bool rises = true; ///< from least to most
 
+    /// Its corners at the smaller and at the larger vertex.
+    std::uint32_t least_corner() const { return rises ? corner : (corner + 1U) % 3U; }
+
+    std::uint32_t most_corner() const { return rises ? (corner + 1U) % 3U : corner; }
+
     bool operator==(const Side&) const = default;
 };
 
@@ -72,4 +77,4 @@ std::size_t count_shells(const TriangleMesh& mesh);
 /// Closed runs of sides that one triangle has, of an oriented manifold.
 std::size_t count_boundary_loops(const TriangleMesh& mesh);
 
-} // namespace octant::models::repair
+} // namespace octant::models

@@ -1,11 +1,11 @@
-#include "models/repair/shell_pieces.h"
+#include "models/mesh_edges.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <tuple>
 
-namespace octant::models::repair {
+namespace octant::models {
 
 std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
     // By the smaller vertex sides are dealt out into the places that belong to it, and only the few
@@ -69,4 +69,4 @@ std::size_t count_boundary_loops(const TriangleMesh& mesh) {
     return count;
 }
 
-} // namespace octant::models::repair
+} // namespace octant::models
