@@ -41,6 +41,10 @@ constexpr double far_ground_rad = rad_from_deg(4.0);
 /// The band's elevations are limited to these: where the map's end is near, it is near ground.
 constexpr double lowest_band_rad = rad_from_deg(-30.0);
 constexpr double highest_band_rad = rad_from_deg(15.0);
+/// A picture whose border is nearer to its middle than this is widened by a smaller share of itself,
+/// down to the least one: a zoomed view of a tower would need most triangles for what it does not show.
+constexpr double wide_view_rad = rad_from_deg(20.0);
+constexpr double least_widening = 0.1;
 /// How far vertices may move in a turn, as a share of how far that moves the picture.
 constexpr double vertex_share_of_turn = 0.056;
 
@@ -136,7 +140,8 @@ std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& b
     // A picture with the band's middle in its own middle shows all that counts of the band.
     const double half_rad = std::min(
         way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
-        to_border_rad - margin_rad);
+        std::clamp(to_border_rad / wide_view_rad, least_widening, 1.0) *
+            (to_border_rad - margin_rad));
     const double whole_rad = way * (middle_rad - own_rad) + half_rad - to_border_rad + margin_rad;
     if (!(whole_rad > 0.0)) {
         return std::nullopt;
