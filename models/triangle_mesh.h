@@ -52,6 +52,10 @@ Bounds bounds_of(const TriangleMesh& mesh);
 /// Length of the diagonal of bounds_of: what errors are given as fractions of.
 double diagonal_m(const TriangleMesh& mesh);
 
+/// Gives vertices and triangles new numbers, so that those that are near in space are near in
+/// memory (along a Morton curve). The surface stays the same.
+void sort_in_space(TriangleMesh& mesh);
+
 /// Along a triangle's normal, as long as twice its area.
 glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle);
 

@@ -18,6 +18,11 @@
 // - Pieces are cut in two, not in four, and where they leave the part of space over one T. So a
 //   piece that lies flat on many triangles ends as the overlay of both meshes and not in pieces of
 //   the size of the distance. Elsewhere the cut is where the nearest triangle changes.
+// - Vertices are not searched for where the triangle found for the vertex before is near enough,
+// and
+//   triangles that such upper bounds bound well enough are left out without a search.
+// - Pieces that are much larger than the triangles near them are cut without a search from the
+// centre.
 // - Pieces are cut in batches, so that the result is the same on any number of threads.
 #include "models/measure/mesh_distance.h"
 
@@ -49,6 +54,7 @@ struct Sample {
     glm::dvec3 point{0.0};
     double distance_m = 0.0;
     std::uint32_t nearest = NearestOnMesh::none; ///< The triangle of the target that is nearest.
+    float edge_m = 0.0F;                         ///< The longest edge of that triangle.
 };
 
 /// The three corners of a triangular piece of a surface.
@@ -103,6 +109,21 @@ double length_m(const Corners& corners, std::size_t edge) {
     return glm::distance(corners[edge]->point, corners[(edge + 1) % 3]->point);
 }
 
+/// Whether a search from the centre can hardly bound a piece: where triangles of the target are so
+/// much smaller that the four parts of most_by_parts() reach far beyond them. Pieces that are cut
+/// without it are bounded by their halves.
+bool is_too_large(const Corners& corners, double enough_m) {
+    constexpr double beyond = 1.1; // As distances at the centre may be shorter.
+    constexpr double inner = 0.4;  // So far from its middle a triangle of edges 1 may reach.
+    const auto& [a, b, c] = corners;
+    const double longest_m =
+        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
+    const double mean_m = (a->distance_m + b->distance_m + c->distance_m) / 3.0;
+    const double edge_m = static_cast<double>(std::max({a->edge_m, b->edge_m, c->edge_m}));
+    const double aside_m = longest_m / 3.0 - inner * edge_m;
+    return aside_m > 0.0 && std::hypot(mean_m, aside_m) > beyond * enough_m;
+}
+
 bool share_vertex(const Triangle& one, const Triangle& other) {
     return std::ranges::any_of(
         one, [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); });
@@ -142,6 +163,17 @@ double crossing(const TargetSurface& target, const Sample& start, const Sample& 
         }
     }
     return along;
+}
+
+/// The midpoint of the longest edge.
+Cut longest_cut(const Corners& corners) {
+    Cut longest;
+    for (std::size_t edge = 1; edge < 3; ++edge) {
+        if (length_m(corners, edge) > length_m(corners, longest.edge)) {
+            longest.edge = edge;
+        }
+    }
+    return longest;
 }
 
 /// The cut where the nearest triangle changes between neighbouring triangles of the target, on the
@@ -245,12 +277,14 @@ PlaneCut edge_cut(
         std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     const std::array<std::uint32_t, 4> nearest = {
         corners[0]->nearest, corners[1]->nearest, corners[2]->nearest, middle};
+    const auto edge_m = [&](std::size_t i) {
+        return i < 3 ? static_cast<double>(corners[i]->edge_m) : target.longest_edge_m(middle);
+    };
     PlaneCut best;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
         const bool again =
             std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
-        if (nearest[i] != NearestOnMesh::none && !again &&
-            target.longest_edge_m(nearest[i]) >= least_size * longest_m) {
+        if (nearest[i] != NearestOnMesh::none && !again && edge_m(i) >= least_size * longest_m) {
             take_edge_cut(target, nearest[i], corners, least_depth_m, best);
         }
     }
@@ -261,23 +295,57 @@ PlaneCut edge_cut(
 /// time only.
 Sample measured(const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess) {
     const NearestOnMesh found = target.nearest(point, guess);
-    return {point, std::sqrt(found.distance2), found.triangle};
+    return {
+        point,
+        std::sqrt(found.distance2),
+        found.triangle,
+        static_cast<float>(target.longest_edge_m(found.triangle))};
 }
 
-/// Bounds a piece as tightly as is cheap. The bounds are not tightened any further once the upper
-/// one is at most `enough_m`.
+/// The same, but no search is made where the triangle `guess` is at most `enough_m` away: then that
+/// is taken for the nearest one, and the distance is an upper bound.
+Sample estimated(
+    const TargetSurface& target, const glm::dvec3& point, std::uint32_t guess, double enough_m) {
+    if (guess != NearestOnMesh::none) {
+        const double distance2 = target.distance2_to(guess, point);
+        if (distance2 <= enough_m * enough_m) {
+            return {point, std::sqrt(distance2), guess, 0.0F};
+        }
+    }
+    return measured(target, point, guess);
+}
+
+/// An upper bound of the largest distance from a piece's points to the target, without a search.
+/// The distances of the corners may be upper bounds. It is not tightened any further once it is at
+/// most `enough_m`.
+double bound_by_corners(const TargetSurface& target, const Corners& corners, double enough_m) {
+    const std::array<double, 3> edges_m = {
+        length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)};
+    double farthest_m = 0.0;
+    for (const Sample* corner : corners) {
+        farthest_m = std::max(farthest_m, corner->distance_m);
+    }
+    // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
+    double most_m = farthest_m + *std::ranges::max_element(edges_m) / std::numbers::sqrt3;
+    for (std::size_t i = 0; i < 3 && most_m > enough_m; ++i) {
+        // The other corners are at least this far from the triangle, by the triangle inequality.
+        const double away_m = std::max(edges_m[i], edges_m[(i + 2) % 3]) - corners[i]->distance_m -
+                              static_cast<double>(corners[i]->edge_m);
+        if (corners[i]->edge_m == 0.0F || away_m <= enough_m) {
+            most_m = std::min(most_m, most_to(target, corners[i]->nearest, corners));
+        }
+    }
+    return most_m;
+}
+
+/// Bounds a piece as tightly as is cheap. The distances of the corners must be exact. The bounds
+/// are not tightened any further once the upper one is at most `enough_m`.
 PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
     const auto& [a, b, c] = corners;
-    const double longest_m =
-        std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     PieceBounds bounds;
     bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
-    // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
-    bounds.most_m = bounds.least_m + longest_m / std::numbers::sqrt3;
-    for (std::size_t i = 0; i < 3 && bounds.most_m > enough_m; ++i) {
-        bounds.most_m = std::min(bounds.most_m, most_to(target, corners[i]->nearest, corners));
-    }
-    if (bounds.most_m <= enough_m) {
+    bounds.most_m = bound_by_corners(target, corners, enough_m);
+    if (bounds.most_m <= enough_m || is_too_large(corners, enough_m)) {
         return bounds;
     }
     const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
@@ -306,6 +374,16 @@ Cut cut_of(
     // A point this far beside a triangle is nearer to it than the plane suggests by 5e-5 of
     // enough_m.
     constexpr double ignored = 0.01;
+    // Near pieces that are not much larger than `enough_m` are bounded after a few halvings.
+    constexpr double near_share = 0.5;
+    constexpr double max_size = 8.0;
+    const Cut longest = longest_cut(corners);
+    if (length_m(corners, longest.edge) <= max_size * enough_m &&
+        std::ranges::all_of(corners, [&](const Sample* corner) {
+            return corner->distance_m <= near_share * enough_m;
+        })) {
+        return longest;
+    }
     const PlaneCut over_edge = edge_cut(target, corners, middle, ignored * enough_m);
     return over_edge.depth_m > 0.0 ? over_edge.cut : change_cut(target, corners);
 }
@@ -350,8 +428,11 @@ private:
 
     /// The samples at the corners of a piece; `between` stands for a fresh corner.
     Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
-    /// Measures the distances of all vertices that triangles use.
+    /// Measures the distances of all vertices that triangles use: exactly where they may raise the
+    /// lower bound, else an upper bound.
     void measure_vertices();
+    void take_least();
+    std::vector<std::uint32_t> triangles_in_question();
     /// Bounds all triangles and keeps those that may hold the largest distance.
     void take_triangles();
     /// Cuts a piece in two and bounds both parts. Changes nothing, so that threads may share the
@@ -374,6 +455,7 @@ private:
     const TargetSurface& target_;
     const HausdorffLimits& limits_;
     std::vector<Sample> samples_; ///< The mesh's vertices first, then one for each cut.
+    std::vector<char> is_exact_;  ///< For each vertex whether its distance is no upper bound only.
     std::vector<Piece> open_;     ///< A heap; the piece with the largest bound is on top.
     double least_m_ = 0.0;
     double left_out_m_ = 0.0; ///< The largest bound of the pieces that were left out.
@@ -396,18 +478,71 @@ void Search::measure_vertices() {
         }
     }
     samples_.resize(used.size());
+    is_exact_.resize(used.size(), 0);
+    in_chunks(used.size(), [&](std::size_t first, std::size_t) {
+        is_exact_[first] = 1;
+        if (used[first] != 0) {
+            samples_[first] = measured(target_, mesh_.vertices_m[first], NearestOnMesh::none);
+        }
+    });
+    take_least();
+    const double enough = std::max(limits_.negligible_m, least_m_);
     in_chunks(used.size(), [&](std::size_t first, std::size_t last) {
-        std::uint32_t guess = NearestOnMesh::none;
-        for (std::size_t i = first; i < last; ++i) {
+        std::uint32_t guess = samples_[first].nearest;
+        for (std::size_t i = first + 1; i < last; ++i) {
             if (used[i] != 0) {
-                samples_[i] = measured(target_, mesh_.vertices_m[i], guess);
+                samples_[i] = estimated(target_, mesh_.vertices_m[i], guess, enough);
+                is_exact_[i] = samples_[i].edge_m > 0.0F ? 1 : 0;
                 guess = samples_[i].nearest;
             }
         }
     });
-    for (const Sample& sample : samples_) {
-        least_m_ = std::max(least_m_, sample.distance_m);
+    take_least();
+}
+
+/// Raises the lower bound to the largest distance that was measured exactly.
+void Search::take_least() {
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        if (is_exact_[i] != 0) {
+            least_m_ = std::max(least_m_, samples_[i].distance_m);
+        }
     }
+}
+
+/// The triangles that their corners alone do not bound well enough, in order. Their corners are
+/// measured exactly then.
+std::vector<std::uint32_t> Search::triangles_in_question() {
+    const double enough = std::max(limits_.negligible_m, least_m_);
+    std::vector<double> most_m(mesh_.triangles.size());
+    in_chunks(most_m.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            most_m[i] =
+                bound_by_corners(target_, corners_of({.corners = mesh_.triangles[i]}), enough);
+        }
+    });
+    std::vector<std::uint32_t> open;
+    std::vector<std::uint32_t> inexact;
+    for (std::uint32_t i = 0; i < most_m.size(); ++i) {
+        if (most_m[i] <= enough) {
+            left_out_m_ = std::max(left_out_m_, most_m[i]);
+            continue;
+        }
+        open.push_back(i);
+        for (const std::uint32_t vertex : mesh_.triangles[i]) {
+            if (is_exact_[vertex] == 0) {
+                is_exact_[vertex] = 1;
+                inexact.push_back(vertex);
+            }
+        }
+    }
+    in_chunks(inexact.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            Sample& sample = samples_[inexact[i]];
+            sample = measured(target_, sample.point, sample.nearest);
+        }
+    });
+    take_least();
+    return open;
 }
 
 void Search::keep(const Piece& piece) {
@@ -420,17 +555,19 @@ void Search::keep(const Piece& piece) {
 }
 
 void Search::take_triangles() {
-    std::vector<PieceBounds> bounds(mesh_.triangles.size());
+    const std::vector<std::uint32_t> open = triangles_in_question();
+    std::vector<PieceBounds> bounds(open.size());
     in_chunks(bounds.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            bounds[i] = bounds_of(target_, corners_of({.corners = mesh_.triangles[i]}), enough_m());
+            bounds[i] =
+                bounds_of(target_, corners_of({.corners = mesh_.triangles[open[i]]}), enough_m());
         }
     });
     for (const PieceBounds& one : bounds) {
         least_m_ = std::max(least_m_, one.least_m);
     }
     for (std::size_t i = 0; i < bounds.size(); ++i) {
-        keep({mesh_.triangles[i], bounds[i].most_m, bounds[i].middle});
+        keep({mesh_.triangles[open[i]], bounds[i].most_m, bounds[i].middle});
     }
 }
 
@@ -553,7 +690,7 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     if (options.larger_alone) {
         wanted.negligible_m = std::max(wanted.negligible_m, found.there.least_hausdorff_m);
     }
-    found.back = one_way(b, TargetSurface(a), wanted, 2);
+    found.back = one_way(b, TargetSurface(a, options.tree_of_a), wanted, 2);
     return found;
 }
 

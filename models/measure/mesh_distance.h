@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace octant::models::measure {
 
@@ -80,6 +81,8 @@ struct DistanceOptions {
     int threads = 1; ///< The number of threads; it does not change the result.
     /// Only the larger one of the Hausdorff distances of the two ways need be tight.
     bool larger_alone = false;
+    /// A tree over the triangles of a, where there is one already.
+    std::shared_ptr<const TriangleBvh> tree_of_a{};
     /// Called between the steps of the work with how many of them are done; may be empty.
     std::function<void(int done, int steps)> progress{};
 };

@@ -9,11 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::models::measure {
@@ -51,6 +54,9 @@ public:
     /// point: for all that are, and for some that are a little farther, in the order of the tree.
     template <typename Take>
     void for_each_near(const glm::dvec3& point, double within_m, const Take& take) const;
+
+    /// The number of triangles.
+    std::size_t size() const { return triangles_.size(); }
 
     /// Distances from points within the mesh's bounding box are wrong by less than this, metres,
     /// because of rounding.
@@ -181,13 +187,17 @@ TriangleBvh::triangle_distances2(Floats& distances2, const Leaf& leaf, const Pro
 /// this.
 class TargetSurface {
 public:
-    explicit TargetSurface(const TriangleMesh& mesh)
+    /// `bvh` is a tree over the mesh's triangles (asserted by their number); null = one is built.
+    explicit TargetSurface(
+        const TriangleMesh& mesh, std::shared_ptr<const TriangleBvh> bvh = nullptr)
         : mesh_(&mesh)
-        , bvh_(mesh) {}
+        , bvh_(bvh ? std::move(bvh) : std::make_shared<const TriangleBvh>(mesh)) {
+        assert(bvh_->size() == mesh.triangles.size());
+    }
 
     const TriangleMesh& mesh() const { return *mesh_; }
 
-    const TriangleBvh& bvh() const { return bvh_; }
+    const TriangleBvh& bvh() const { return *bvh_; }
 
     /// The square of the distance from a point to one triangle.
     double distance2_to(std::uint32_t triangle, const glm::dvec3& point) const {
@@ -209,15 +219,15 @@ public:
     /// makes the search faster but never changes what is found.
     NearestOnMesh nearest(const glm::dvec3& point, std::uint32_t guess) const {
         if (guess == NearestOnMesh::none) {
-            return bvh_.nearest(point);
+            return bvh_->nearest(point);
         }
         constexpr double margin = 1.0 + 1e-12; // Makes up for the rounding of the square root.
-        return bvh_.nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
+        return bvh_->nearest(point, std::sqrt(distance2_to(guess, point)) * margin);
     }
 
 private:
     const TriangleMesh* mesh_;
-    TriangleBvh bvh_;
+    std::shared_ptr<const TriangleBvh> bvh_;
 };
 
 } // namespace octant::models::measure

@@ -163,12 +163,12 @@ public:
     CollapseEffect collapse(HalfEdge h);
 
     /// Splits an edge, which must have two triangles, at a new vertex, whose slot must be free, as
-    /// must be the slots of `faces`. `h` then runs from its origin to the new vertex; the first of the
-    /// new triangles takes the rest of its triangle, the second that of the twin's.
+    /// must be the slots of `faces`. `h` then runs from its origin to the new vertex; the first of
+    /// the new triangles takes the rest of its triangle, the second that of the twin's.
     void split(HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces);
 
-    /// Removes a triangle of a shell all of whose triangles are removed; in between nothing else may
-    /// be asked of the shell.
+    /// Removes a triangle of a shell all of whose triangles are removed; in between nothing else
+    /// may be asked of the shell.
     void remove(std::uint32_t face);
 
     /// Gives the slots of vertices and triangles that are gone back. All others get new numbers.

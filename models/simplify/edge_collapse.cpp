@@ -108,9 +108,9 @@ constexpr double max_shell_distance = 0.5;
 /// The connected pieces of a surface that collapses, and what it costs to drop one.
 class Shells {
 public:
-    /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the
-    /// usual max_shell_distance, for which only some samples are looked at, or less.
-    /// The samples must be in lists. All must outlive this.
+    /// A shell with a sample that is farther than `max_distance` from the others is not dropped:
+    /// the usual max_shell_distance, for which only some samples are looked at, or less. The
+    /// samples must be in lists. All must outlive this.
     Shells(
         CollapsingSurface& collapsing,
         SurfaceSamples& samples,
@@ -161,14 +161,13 @@ private:
     SurfaceSamples& samples_;
     const OriginalSurface& original_;
     double max_distance_;
-    std::vector<std::uint32_t> of_face_; ///< For each triangle slot.
+    std::vector<std::uint32_t> of_face_;            ///< For each triangle slot.
     std::vector<std::vector<std::uint32_t>> faces_; ///< Of each shell at first.
     std::vector<std::size_t> face_counts_;
     std::size_t count_left_ = 0;
     std::vector<std::uint32_t> of_original_; ///< For each triangle of the original.
     /// For each triangle of the original a sample on it or near it.
     std::vector<std::uint32_t> sample_near_;
-    std::unique_ptr<const measure::TriangleBvh> bvh_; ///< Null where there is only one shell.
 };
 
 /// The cost is estimated from about so many samples.
@@ -186,7 +185,7 @@ Shells::Shells(
     , original_(original)
     , max_distance_(max_distance)
     , of_face_(surface_.mesh.face_slots(), none)
-    , of_original_(original.triangles().size(), none) {
+    , of_original_(original.size(), none) {
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t triangle = 0; triangle < of_original_.size(); ++triangle) {
         if (of_original_[triangle] != none) {
@@ -219,7 +218,6 @@ Shells::Shells(
     if (count_left_ < 2) {
         return;
     }
-    bvh_ = std::make_unique<const measure::TriangleBvh>(original.places(), original.triangles());
     sample_near_.assign(of_original_.size(), none);
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
         const std::uint32_t triangle = samples[sample].triangle;
@@ -240,14 +238,14 @@ Shells::Shells(
 
 /// The nearest point of another shell of the original that was not dropped. There may be none where
 /// it is farther than `max_distance`.
-measure::NearestOnMesh Shells::nearest_other(
-    std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
+measure::NearestOnMesh
+Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
     measure::NearestOnMesh found;
     for (double within = std::min(1e-3, max_distance);
          found.triangle == none && within < 4.0 * max_distance;
          within *= 4.0) {
         found.distance2 = within * within;
-        bvh_->for_each_near(place, within, [&](std::uint32_t triangle) {
+        original_.for_each_near(place, within, [&](std::uint32_t triangle) {
             const std::uint32_t other = of_original_[triangle];
             if (other == shell || face_counts_[other] == 0) {
                 return;
@@ -310,7 +308,8 @@ double Shells::cost(std::uint32_t shell) const {
 void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers) {
     for (const std::uint32_t number : numbers) {
         const std::array<float, 3>& at = samples_[number].place;
-        // No two points are farther apart than the diagonal, which is 1, and each shell has samples.
+        // No two points are farther apart than the diagonal, which is 1, and each shell has
+        // samples.
         const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
         assert(other.triangle != none && sample_near_[other.triangle] != none);
         const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
@@ -342,6 +341,7 @@ public:
         , shells_(shells)
         , length_share2_(std::max(
               local == nullptr ? options.length_share * options.length_share : 0.0, length_share2))
+        , costs_only_grow_(local == nullptr && length_share2_ == length_share2)
         , show_progress_(options.show_progress)
         , changes_(allowed_changes(local, options))
         , edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3))
@@ -398,6 +398,9 @@ private:
     std::vector<double> shell_costs_;
     std::size_t wanted_faces_ = 0;
     double length_share2_;
+    /// Sums of quadrics only grow, so that a cost found before is a lower bound of the present one:
+    /// an edge is evaluated anew when that is the least of all.
+    bool costs_only_grow_;
     const ShowProgress& show_progress_;
     TopologyChanges changes_; ///< Those that are allowed.
     CollapseEffect effect_;   ///< Of the collapse that was looked at last.
@@ -496,8 +499,9 @@ HalfEdge EdgeCollapse::next_edge() {
     return none;
 }
 
-/// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a boundary,
-/// else the cheapest boundary edge, unless that costs more than `max_factor` times as much as `h`.
+/// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a
+/// boundary, else the cheapest boundary edge, unless that costs more than `max_factor` times as
+/// much as `h`.
 HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     constexpr float max_factor = 100.0F; // Some ten times as far off there.
     const CollapsibleMesh& mesh = surface_.mesh;
@@ -694,7 +698,14 @@ void EdgeCollapse::update_around(std::uint32_t vertex) {
             }
         });
     });
-    mesh.edges_around(vertex, [&](HalfEdge h) { update(mesh.edge_of(h), first_); });
+    mesh.edges_around(vertex, [&](HalfEdge h) {
+        const HalfEdge edge = mesh.edge_of(h);
+        if (costs_only_grow_ && heap_.holds(edge)) {
+            known_[edge] = Known::Old;
+        } else {
+            update(edge, first_);
+        }
+    });
 }
 
 /// Puts a shell into the heap, with its cost for each two of its triangles that are too many.

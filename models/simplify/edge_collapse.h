@@ -17,7 +17,8 @@ namespace octant::models::simplify {
 /// the record of what collapsed, in the numbers of the mesh that it was at first.
 class CollapsingSurface {
 public:
-    CollapsingSurface(WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights);
+    CollapsingSurface(
+        WorkingSurface surface, const WorkingUnits& units, const EdgeWeights& weights);
 
     WorkingSurface& surface() { return surface_; }
 

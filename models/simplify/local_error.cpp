@@ -3,10 +3,10 @@
 // instead of the mesh before: from samples of it, and back to it by a tree. The way back counts
 // more where the original faces against the triangle, so that no triangle folds over.
 //
-// VertexFit holds the normal equations of one vertex. A point at distance d from the surface wants the surface to
-// move by d along the direction to the point; the vertex takes part in that by its barycentric
-// weight. Three equations result, slightly damped (Levenberg-Marquardt), so that a vertex in a flat
-// surrounding does not slide.
+// VertexFit holds the normal equations of one vertex. A point at distance d from the surface wants
+// the surface to move by d along the direction to the point; the vertex takes part in that by its
+// barycentric weight. Three equations result, slightly damped (Levenberg-Marquardt), so that a
+// vertex in a flat surrounding does not slide.
 #include "models/simplify/local_error.h"
 
 #include <glm/geometric.hpp>
@@ -156,6 +156,9 @@ void LocalError::gather(std::span<const std::uint32_t> faces) {
     present_there_ = 0.0;
     present_back_ = 0.0;
     for (const std::uint32_t face : faces) {
+        samples_.prefetch(face);
+    }
+    for (const std::uint32_t face : faces) {
         samples_.gather(face, block_);
         present_there_ += samples_.error(face) - samples_.back_error(face);
         present_back_ += samples_.back_error(face);
@@ -181,6 +184,11 @@ void LocalError::set_ring(
              {colour, surface_.colour_of(next), surface_.colour_of(last)}});
         near_.push_back(face.face);
         turns_.push_back(face.half_edge % 3);
+        for (const WayBack& from : samples_.from_face(face.face)) {
+            if (from.foot.triangle != none) {
+                original_.prefetch(from.foot.triangle);
+            }
+        }
     }
     flatten();
 }
@@ -206,8 +214,7 @@ void LocalError::flatten() {
     flat_.clear();
     for (const ColouredTriangle& triangle : triangles_) {
         flat_.push_back(
-            surface_.coloured() ? flat(triangle.places, triangle.colours)
-                                : flat(triangle.places));
+            surface_.coloured() ? flat(triangle.places, triangle.colours) : flat(triangle.places));
     }
 }
 
@@ -270,8 +277,7 @@ double LocalError::measured_back(double limit) {
             mean += point_share * penalty.of(distance2);
         }
         for (const std::uint32_t vertex : triangles_[t].vertices) {
-            const WayBack& from =
-                vertex == none ? from_moving_ : samples_.from_vertex(vertex);
+            const WayBack& from = vertex == none ? from_moving_ : samples_.from_vertex(vertex);
             mean += corner_share * penalty.of(static_cast<double>(from.distance2));
         }
         if (is_close_) {
@@ -285,8 +291,6 @@ double LocalError::measured_back(double limit) {
 
 void LocalError::measure_closely() {
     is_close_ = true;
-    original_tree_ = std::make_unique<const measure::TriangleBvh>(
-        original_.places(), original_.triangles());
     const CollapsibleMesh& mesh = surface_.mesh;
     is_changed_.assign(mesh.face_slots(), 0);
     std::vector<Triangle> triangles;
@@ -305,7 +309,7 @@ WayBack LocalError::checked(const WayBack& from, const glm::dvec3& place) const 
     if (static_cast<double>(from.distance2) <= trusted2_) {
         return from;
     }
-    const measure::NearestOnMesh found = original_tree_->nearest(place);
+    const measure::NearestOnMesh found = original_.nearest(place);
     if (found.distance2 >= static_cast<double>(from.distance2)) {
         return from;
     }
@@ -323,7 +327,8 @@ void LocalError::measure_closely(std::uint32_t t) {
     };
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t vertex = triangles_[t].vertices[i];
-        add(vertex == none ? from_moving_ : samples_.from_vertex(vertex), corners[i],
+        add(vertex == none ? from_moving_ : samples_.from_vertex(vertex),
+            corners[i],
             i == 0 ? 1.0 : 0.0);
         add(inside[i], point_at(corners, i), i == 0 ? near_weight : far_weight);
         const std::size_t next = (i + 1) % 3;
@@ -359,8 +364,8 @@ glm::dvec3 LocalError::way_to_lower_max() {
 }
 
 /// A triangle of the original from which to look for the foot of a point on a present triangle:
-/// that of the nearest sample in the lists around it that faces its way. Of very many triangles around
-/// it some are left out.
+/// that of the nearest sample in the lists around it that faces its way. Of very many triangles
+/// around it some are left out.
 std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place) {
     constexpr std::size_t max_looked = 256;
     constexpr double against = 100.0; // A factor of the squared distance.
@@ -494,7 +499,8 @@ VertexFit LocalError::fit(bool with_back) const {
                 const WayBack& from = samples_.from_face(near_[t])[(turns_[t] + i) % 3];
                 const glm::dvec3 off = widen(from.foot.place) - point_at(triangles_[t].places, i);
                 const double weight = 0.5 * length * penalty.weight(glm::dot(off, off));
-                fit.add(off, normal / length, i == 0 ? near_weight : far_weight, point_share * weight);
+                fit.add(
+                    off, normal / length, i == 0 ? near_weight : far_weight, point_share * weight);
             }
             around += 0.5 * length;
         }

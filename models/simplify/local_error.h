@@ -71,15 +71,15 @@ public:
     void gather(std::span<const std::uint32_t> faces);
 
     /// Sets the new triangles: those of a ring with their moving corner at `place`, in `colour`.
-    void set_ring(
-        std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
+    void
+    set_ring(std::span<const RingFace> ring, const glm::dvec3& place, const glm::dvec3& colour);
 
     /// Moves corner 0 of all new triangles.
     void move_corner(const glm::dvec3& place, const glm::dvec3& colour);
 
     /// Sets the new triangles. Each is expected to be near the present one of `near`.
-    void set_triangles(
-        std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
+    void
+    set_triangles(std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
     /// Measures the ways back of all present triangles, and the colours of their samples. Returns
     /// the largest squared distance.
@@ -99,6 +99,7 @@ public:
 
     /// The sum of the present errors of the triangles that were loaded.
     double present() const { return present_there_ + present_back_; }
+
     double present_there() const { return present_there_; }
 
     /// Below this an error may be nothing but the rounding of the samples.
@@ -128,8 +129,8 @@ public:
 
     /// Accepts the step that was measured last, in full, after the mesh was changed: moves the
     /// samples to the lists of `faces`, the numbers of the new triangles in their order. `emptied`
-    /// are those that were loaded, and `vertex` is the number of the vertex that is new or moves, or
-    /// none.
+    /// are those that were loaded, and `vertex` is the number of the vertex that is new or moves,
+    /// or none.
     void keep(
         std::span<const std::uint32_t> emptied,
         std::span<const std::uint32_t> faces,
@@ -166,22 +167,21 @@ private:
     /// The corner of that one which is corner 0 of the new one, where known.
     std::vector<std::uint32_t> turns_;
     std::vector<FlatTriangle> flat_;
-    std::vector<double> back_errors_; ///< For each new triangle.
+    std::vector<double> back_errors_;                 ///< For each new triangle.
     std::vector<std::array<WayBack, 3>> from_points_; ///< By the corners of each new triangle.
-    WayBack from_moving_; ///< From corner 0 where that is new or moves.
+    WayBack from_moving_;                             ///< From corner 0 where that is new or moves.
     /// The vertex that moves, or is merged with another one; none = it is new.
     std::uint32_t moving_ = none;
     double max_back2_ = 0.0;
     bool is_close_ = false;
     double trusted2_ = 0.0;
-    std::unique_ptr<const measure::TriangleBvh> original_tree_;
     /// Of the present triangles when measure_closely() was called, their numbers, and for each
     /// number whether it changed since.
     std::unique_ptr<const measure::TriangleBvh> present_tree_;
     std::vector<std::uint32_t> present_faces_;
     std::vector<std::uint8_t> is_changed_;
     std::vector<std::uint32_t> gathered_; ///< The triangles that were loaded.
-    std::vector<BackPoint> back_points_; ///< Empty unless measured closely.
+    std::vector<BackPoint> back_points_;  ///< Empty unless measured closely.
     double work_done_ = 0.0;
     double present_there_ = 0.0;
     double present_back_ = 0.0;

@@ -11,9 +11,9 @@
 // it.
 #include "models/simplify/optimize.h"
 
-#include "models/simplify/working_surface.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
+#include "models/simplify/working_surface.h"
 
 #include <glm/geometric.hpp>
 
@@ -53,8 +53,7 @@ constexpr int max_failed = 8;
 
 class Optimizer {
 public:
-    Optimizer(
-        WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
+    Optimizer(WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
         : surface_(surface)
         , samples_(samples)
         , local_(surface, samples, original)
@@ -71,6 +70,7 @@ private:
     using Id = std::uint32_t;
 
     Id flip_of(HalfEdge edge) const { return static_cast<Id>(vertices_) + edge; }
+
     Id split_of(HalfEdge edge) const { return static_cast<Id>(vertices_ + edges_) + edge; }
 
     void measure_all();
@@ -136,8 +136,7 @@ void Optimizer::measure_all() {
     samples_.set_penalty({1.0 / std::max(high * high * samples_.mean2(), 1e-30)});
     max_distance2_ = local_.measure_all_back();
     for (std::uint32_t sample = 0; sample < samples_.size(); ++sample) {
-        max_distance2_ =
-            std::max(max_distance2_, static_cast<double>(samples_[sample].distance2));
+        max_distance2_ = std::max(max_distance2_, static_cast<double>(samples_[sample].distance2));
     }
 }
 
@@ -150,8 +149,8 @@ double Optimizer::error_at(HalfEdge edge) const {
 double Optimizer::work_at(HalfEdge edge) const {
     constexpr double fixed = 100.0;
     const HalfEdge twin = surface_.mesh.twin(edge);
-    const std::size_t count = samples_.count(face_of(edge)) +
-                              (twin == none ? 0 : samples_.count(face_of(twin)));
+    const std::size_t count =
+        samples_.count(face_of(edge)) + (twin == none ? 0 : samples_.count(face_of(twin)));
     return fixed + 8.0 * static_cast<double>(count);
 }
 
@@ -285,7 +284,8 @@ bool Optimizer::lower_max_at(std::uint32_t face) {
     }
     for (std::uint32_t side = 0; side < 3 && changed_.empty(); ++side) {
         const HalfEdge edge = mesh.edge_of(3 * face + side);
-        const HalfEdge collapse = surface_.is_border(edge) ? none : cheapest_collapse_away_from(edge);
+        const HalfEdge collapse =
+            surface_.is_border(edge) ? none : cheapest_collapse_away_from(edge);
         if (collapse != none) {
             relocate(edge, collapse);
         }
@@ -371,7 +371,8 @@ void Optimizer::try_step(Id id) {
     }
 }
 
-/// Moves a vertex, and changes its colour, if a full or a shorter step of the fit lessens the error.
+/// Moves a vertex, and changes its colour, if a full or a shorter step of the fit lessens the
+/// error.
 void Optimizer::try_move(std::uint32_t vertex) {
     surface_.mesh.ring_at(vertex, ring_, faces_);
     const glm::dvec3 place = surface_.places[vertex];
@@ -406,8 +407,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
 }
 
 /// Renews what is expected of the steps around a vertex at which something changed.
-void Optimizer::changed_around(
-    std::uint32_t vertex, double gain, double work, bool connectivity) {
+void Optimizer::changed_around(std::uint32_t vertex, double gain, double work, bool connectivity) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.around(vertex, [&](HalfEdge h) {
         for (const HalfEdge side : {h, next_of(h)}) {
@@ -486,7 +486,8 @@ void Optimizer::try_flip(HalfEdge h) {
     }
 }
 
-/// Loads the triangles around an edge that would split, no border, into a fan around the new vertex.
+/// Loads the triangles around an edge that would split, no border, into a fan around the new
+/// vertex.
 void Optimizer::load_split(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     faces_.clear();
@@ -608,8 +609,8 @@ HalfEdge Optimizer::cheapest_collapse() {
             return edge;
         }
         collapse_is_checked_[edge] = 1;
-        const bool is_edge = surface_.mesh.face_is_there(face_of(edge)) &&
-                             surface_.mesh.edge_of(edge) == edge;
+        const bool is_edge =
+            surface_.mesh.face_is_there(face_of(edge)) && surface_.mesh.edge_of(edge) == edge;
         const double change =
             is_edge ? collapsed_vertex(edge).change : std::numeric_limits<double>::infinity();
         if (std::isinf(change)) {
@@ -662,8 +663,7 @@ HalfEdge Optimizer::cheapest_collapse_away_from(HalfEdge split) {
 void Optimizer::try_split(HalfEdge h) {
     const Id id = split_of(h);
     const CollapsibleMesh& mesh = surface_.mesh;
-    if (!mesh.face_is_there(face_of(h)) || mesh.edge_of(h) != h ||
-        surface_.is_border(h)) {
+    if (!mesh.face_is_there(face_of(h)) || mesh.edge_of(h) != h || surface_.is_border(h)) {
         queue_.remove(id);
         return;
     }

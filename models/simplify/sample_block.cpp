@@ -44,7 +44,8 @@ template <typename F>
 OCTANT_INLINE void colour_errors(
     F& error2, SampleBlock& samples, std::size_t i, const FlatTriangle& t, const F& x, const F& y) {
     error2 = F{};
-    const std::array<const float*, 3> colours = {&samples.red[i], &samples.green[i], &samples.blue[i]};
+    const std::array<const float*, 3> colours = {
+        &samples.red[i], &samples.green[i], &samples.blue[i]};
     for (std::size_t part = 0; part < 3; ++part) {
         F colour;
         load(colour, colours[part]);
@@ -99,8 +100,8 @@ OCTANT_INLINE void nearest_to_all(SampleBlock& samples, std::span<const FlatTria
 
 /// The same operations, eight samples at a time. AVX2 alone does not fuse multiplications and
 /// additions, so that the bits are the same.
-[[gnu::target("avx2")]] void find_nearest_wide(
-    SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured) {
+[[gnu::target("avx2")]] void
+find_nearest_wide(SampleBlock& samples, std::span<const FlatTriangle> triangles, bool coloured) {
     if (coloured) {
         nearest_to_all<Wide, true>(samples, triangles);
     } else {
@@ -140,8 +141,7 @@ void SampleBlock::make_room(std::size_t samples) {
     if (samples + 8 > x.size()) {
         const std::size_t room = 2 * samples + 8;
         for (auto* values :
-             {&x, &y, &z, &weights, &red, &green, &blue,
-              &distances2, &colour_errors2}) {
+             {&x, &y, &z, &weights, &red, &green, &blue, &distances2, &colour_errors2}) {
             values->resize(room);
         }
         numbers.resize(room);

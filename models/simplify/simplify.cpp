@@ -145,12 +145,16 @@ void assign_from(
 /// An optimized mesh, or the one before where that is nearer to the original by the quadratic mean.
 /// The points for that are not those that the optimization has seen. Colours, where there are any,
 /// may have got better at the expense of places, so that they have no such bound.
-TriangleMesh better_of(const TriangleMesh& original, TriangleMesh before, TriangleMesh optimized) {
+TriangleMesh better_of(
+    const TriangleMesh& original,
+    const OriginalSurface& surface,
+    TriangleMesh before,
+    TriangleMesh optimized) {
     if (!original.colours.empty()) {
         return optimized;
     }
     constexpr std::size_t samples = 4'000;
-    const measure::TargetSurface target(original);
+    const measure::TargetSurface target(original, surface.tree());
     const auto rms_m = [&](const TriangleMesh& mesh) {
         const measure::SampleOptions how{.samples = samples};
         const measure::TargetSurface made(mesh);
@@ -175,7 +179,8 @@ public:
         : options_(options)
         , original_(original)
         , collapsing_(collapsing_of(original, options, EdgeWeights{}))
-        , target_(std::make_shared<const OriginalSurface>(surface())) {}
+        , target_(
+              std::make_shared<const OriginalSurface>(surface(), original, collapsing_.units())) {}
 
     /// Collapses by quadrics as long as the goal is far. `faces` is about how many triangles are
     /// left in the end.
@@ -183,6 +188,7 @@ public:
         SurfaceSamples samples(
             surface(), wanted_samples(options_.effort, surface().mesh.face_count(), faces));
         std::vector<std::uint32_t> near = anchors_of(surface(), samples);
+        samples.drop_lists(); // There is one for each triangle of the original.
         collapse_by_quadrics(collapsing_, near_goal, options_);
         const std::vector<std::uint32_t> slots = compacted(collapsing_);
         for (std::uint32_t& anchor : near) {
@@ -201,6 +207,7 @@ public:
     /// Optimizes the mesh where that makes it better. Returns the number of steps.
     std::size_t optimize(const SimplifyOptions& options, TriangleMesh& mesh) {
         mesh = surface().to_mesh(original_, collapsing_.units());
+        samples_->sort();
         const std::size_t steps = simplify::optimize(
             surface(),
             *samples_,
@@ -208,7 +215,7 @@ public:
             optimize_options(options, faces(), original_.triangles.size()));
         if (steps > 0) {
             TriangleMesh made = surface().to_mesh(original_, collapsing_.units());
-            mesh = better_of(original_, std::move(mesh), std::move(made));
+            mesh = better_of(original_, *target_, std::move(mesh), std::move(made));
         }
         return steps;
     }
@@ -223,6 +230,11 @@ public:
     std::size_t faces() const { return collapsing_.surface().mesh.face_count(); }
 
     std::vector<Collapse>& collapses() { return collapsing_.collapses(); }
+
+    /// A tree over the original's triangles; built where there was none so far.
+    const std::shared_ptr<const measure::TriangleBvh>& original_tree() const {
+        return target_->tree();
+    }
 
 private:
     WorkingSurface& surface() { return collapsing_.surface(); }
@@ -331,11 +343,13 @@ private:
              .negligible_m = 0.9 * error_m_,
              .samples = 100,
              .threads = options_.threads,
-             .larger_alone = true});
+             .larger_alone = true,
+             .tree_of_a = state.original_tree()});
         is_kept_ = distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
         if (is_kept_) {
             is_found_ = true;
             result_.mesh = std::move(mesh);
+            result_.original_tree = state.original_tree();
             state.tell(result_);
         }
         return distance.least_hausdorff_m();
@@ -374,12 +388,12 @@ private:
 
 } // namespace
 
-Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
+Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options) {
     const bool is_met =
         (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
         (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
     if (original.triangles.empty() || is_met) {
-        return {.mesh = original, .sequence = {std::move(original), {}}};
+        return {.mesh = original, .sequence = {original, {}}};
     }
     if (options.goal.error_m) {
         return ErrorSearch(original, options).find();
@@ -395,9 +409,10 @@ Simplified simplified(TriangleMesh original, const SimplifyOptions& options) {
     result.steps = work.optimize(options, result.mesh);
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
+    result.original_tree = result.steps > 0 ? work.original_tree() : nullptr;
     if (result.shells_gone == 0 && result.handles_cut == 0) {
         result.sequence.collapses = std::move(work.collapses());
-        result.sequence.original = std::move(original);
+        result.sequence.original = original;
     }
     return result;
 }
@@ -418,7 +433,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
     }
     const WorkingUnits units = WorkingUnits::of(original, options.colour_weight);
     const WorkingSurface fine(original, units);
-    const OriginalSurface target(fine);
+    const OriginalSurface target(fine, original, units);
     SurfaceSamples samples(
         fine, wanted_samples(options.effort, original.triangles.size(), mesh.triangles.size()));
     WorkingSurface surface = working_surface(mesh, units, options);
@@ -434,7 +449,7 @@ optimized(const TriangleMesh& mesh, const TriangleMesh& original, const Simplify
         samples,
         target,
         optimize_options(options, mesh.triangles.size(), original.triangles.size()));
-    return better_of(original, mesh, surface.to_mesh(mesh, units));
+    return better_of(original, target, mesh, surface.to_mesh(mesh, units));
 }
 
 } // namespace octant::models::simplify

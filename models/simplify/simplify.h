@@ -1,10 +1,12 @@
 #pragma once
 
 #include "models/collapse_sequence.h"
+#include "models/measure/triangle_bvh.h"
 #include "models/simplify/simplify_options.h"
 #include "models/triangle_mesh.h"
 
 #include <cstddef>
+#include <memory>
 
 namespace octant::models::simplify {
 
@@ -18,6 +20,8 @@ struct Simplified {
     std::size_t holes_closed = 0;
     std::size_t handles_cut = 0;
     std::size_t steps = 0; ///< That all optimizations tried.
+    /// A tree over the original's triangles, where one was built.
+    std::shared_ptr<const measure::TriangleBvh> original_tree{};
     double collapse_cpu_s = 0.0;
     double optimize_cpu_s = 0.0;
 };
@@ -27,7 +31,7 @@ struct Simplified {
 /// options keep them, shells are dropped, holes closed and handles cut where that is the cheapest
 /// step. The same input gives the
 /// same bytes on any number of threads. Lengths are in metres.
-Simplified simplified(TriangleMesh original, const SimplifyOptions& options);
+Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options);
 
 /// The collapse sequence by quadrics alone, of the same topology. The goal must not be an error
 /// (asserted).

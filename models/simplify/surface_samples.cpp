@@ -73,8 +73,8 @@ void SurfaceSamples::add_vertices(const WorkingSurface& from, std::span<const do
 }
 
 /// Adds points spread evenly over the area: point k at (k + 1/2) / count of the accumulated area.
-/// Where vertices are no samples by themselves, the point of a small triangle is a corner, as corners
-/// are what sticks out.
+/// Where vertices are no samples by themselves, the point of a small triangle is a corner, as
+/// corners are what sticks out.
 void SurfaceSamples::add_on_faces(
     const WorkingSurface& from,
     std::span<const double> areas,
@@ -106,8 +106,7 @@ void SurfaceSamples::add_on_faces(
 }
 
 /// Adds the middle of the largest triangle of each shell that has no sample.
-void SurfaceSamples::add_to_bare_shells(
-    const WorkingSurface& from, std::span<const double> areas) {
+void SurfaceSamples::add_to_bare_shells(const WorkingSurface& from, std::span<const double> areas) {
     const CollapsibleMesh& mesh = from.mesh;
     std::vector<bool> is_found(areas.size(), false);
     std::vector<std::uint32_t> shell;
@@ -145,8 +144,8 @@ void SurfaceSamples::add(
     const std::array<glm::dvec3, 3> corners = from.corner_places(face);
     const Triangle& vertices = from.mesh.corners(face);
     SurfaceSample sample;
-    sample.place = measure::narrow(
-        weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
+    sample.place =
+        measure::narrow(weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2]);
     sample.weight = static_cast<float>(area);
     if (from.coloured()) {
         colours_.push_back(measure::narrow(
@@ -238,12 +237,22 @@ void SurfaceSamples::assign_all(
     back_errors_ = std::vector<double>(face_slots, 0.0);
     from_faces_ = std::vector<std::array<WayBack, 3>>(face_slots);
     from_vertices_ = std::vector<WayBack>(mesh.vertex_slots());
-    std::vector<std::uint32_t> ends(face_slots + 1, 0);
-    for (const std::uint32_t face : faces) {
-        ++counts_[face];
-        ++ends[face + 1];
+    for (std::uint32_t number = 0; number < samples_.size(); ++number) {
+        samples_[number].face = faces[number];
+        samples_[number].distance2 = distances2[number];
     }
-    for (std::size_t face = 0; face < face_slots; ++face) {
+    sort();
+}
+
+void SurfaceSamples::sort() {
+    std::ranges::fill(first_, none);
+    std::ranges::fill(counts_, 0U);
+    std::vector<std::uint32_t> ends(first_.size() + 1, 0);
+    for (const SurfaceSample& sample : samples_) {
+        ++counts_[sample.face];
+        ++ends[sample.face + 1];
+    }
+    for (std::size_t face = 0; face < first_.size(); ++face) {
         ends[face + 1] += ends[face];
     }
     const std::vector<SurfaceSample> before = std::move(samples_);
@@ -251,19 +260,23 @@ void SurfaceSamples::assign_all(
     samples_.resize(before.size());
     colours_.resize(colours.size());
     for (std::uint32_t number = 0; number < before.size(); ++number) {
-        const std::uint32_t face = faces[number];
+        const std::uint32_t face = before[number].face;
         const std::uint32_t place = ends[face]++;
-        SurfaceSample& sample = samples_[place];
-        sample = before[number];
-        sample.face = face;
-        sample.distance2 = distances2[number];
-        sample.next = first_[face];
+        samples_[place] = before[number];
+        samples_[place].next = first_[face];
         first_[face] = place;
         if (!colours.empty()) {
             colours_[place] = colours[number];
         }
     }
     set_penalty(penalty_);
+}
+
+void SurfaceSamples::drop_lists() {
+    first_ = {};
+    counts_ = {};
+    errors_ = {};
+    back_errors_ = {};
 }
 
 void SurfaceSamples::set_penalty(const Penalty& penalty) {

@@ -48,10 +48,10 @@ struct WayBack {
 /// Steps only touch the lists of triangles that change.
 class SurfaceSamples {
 public:
-    /// About `wanted` samples of a mesh (working units), spread over the area: each triangle that is
-    /// larger than the area of one sample has some, and so has each shell. All vertices are samples
-    /// where they are fewer. At first each sample is in the list of a triangle that
-    /// it lies on.
+    /// About `wanted` samples of a mesh (working units), spread over the area: each triangle that
+    /// is larger than the area of one sample has some, and so has each shell. All vertices are
+    /// samples where they are fewer. At first each sample is in the list of a triangle that it lies
+    /// on.
     SurfaceSamples(const WorkingSurface& original, std::size_t wanted);
 
     std::size_t size() const { return samples_.size(); }
@@ -68,6 +68,22 @@ public:
         }
     }
 
+    /// Tells the processor that the samples of a triangle will be gathered. Mostly they lie in
+    /// memory one before the other.
+    void prefetch(std::uint32_t face) const {
+        constexpr std::uint32_t samples_a_line = 2;
+        const std::uint32_t first = first_[face];
+        for (std::uint32_t i = 0; i < counts_[face] && i <= first; i += samples_a_line) {
+            __builtin_prefetch(&samples_[first - i]);
+        }
+    }
+
+    /// Gives samples new numbers, so that those of a triangle follow each other.
+    void sort();
+
+    /// Gives the memory of lists back until assign_all() makes them anew.
+    void drop_lists();
+
     std::size_t count(std::uint32_t face) const { return counts_[face]; }
 
     /// The error of a triangle: the weighted penalties of its samples, colours included, and of its
@@ -79,6 +95,7 @@ public:
     /// The ways back from three points of a triangle, by its corners, and from a vertex
     /// (LocalError).
     std::array<WayBack, 3>& from_face(std::uint32_t face) { return from_faces_[face]; }
+
     WayBack& from_vertex(std::uint32_t vertex) { return from_vertices_[vertex]; }
 
     double back_error(std::uint32_t face) const { return back_errors_[face]; }
@@ -103,8 +120,8 @@ public:
     /// Makes room for triangles numbered below `count`.
     void make_face_room(std::size_t count);
 
-    /// Puts every sample into the list of triangle `faces[sample]`, at `distances2[sample]`. Samples
-    /// get new numbers, so that those of a triangle follow each other.
+    /// Puts every sample into the list of triangle `faces[sample]`, at `distances2[sample]`.
+    /// Samples get new numbers, so that those of a triangle follow each other.
     void assign_all(
         std::span<const std::uint32_t> faces,
         std::span<const float> distances2,
@@ -120,7 +137,8 @@ public:
 
 private:
     double error_of(const SurfaceSample& sample) const;
-    void add(const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area);
+    void
+    add(const WorkingSurface& from, std::uint32_t face, const glm::dvec3& weights, double area);
     void add_vertices(const WorkingSurface& from, std::span<const double> areas);
     void add_on_faces(
         const WorkingSurface& from,
@@ -131,7 +149,7 @@ private:
 
     std::vector<SurfaceSample> samples_;
     std::vector<std::array<float, 3>> colours_; ///< Empty = no colours.
-    std::vector<std::uint32_t> first_; ///< For each triangle the head of its list.
+    std::vector<std::uint32_t> first_;          ///< For each triangle the head of its list.
     std::vector<std::uint32_t> counts_;
     std::vector<double> errors_;
     std::vector<double> back_errors_;

@@ -28,13 +28,14 @@ constexpr double min_area_share2 = 1e-12;
 
 } // namespace
 
-OriginalSurface::OriginalSurface(const WorkingSurface& surface)
-    : places_(surface.places) {
+OriginalSurface::OriginalSurface(
+    const WorkingSurface& surface, const TriangleMesh& made_of, const WorkingUnits& units)
+    : mesh_(made_of)
+    , units_(units)
+    , places_(surface.places) {
     const CollapsibleMesh& mesh = surface.mesh;
-    triangles_.reserve(mesh.face_slots());
     beyond_.reserve(mesh.face_slots());
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        triangles_.push_back(mesh.corners(face));
         std::array<std::uint32_t, 3>& beyond = beyond_.emplace_back();
         for (std::uint32_t side = 0; side < 3; ++side) {
             const HalfEdge twin = mesh.twin(3 * face + side);
@@ -43,14 +44,28 @@ OriginalSurface::OriginalSurface(const WorkingSurface& surface)
     }
 }
 
+const std::shared_ptr<const measure::TriangleBvh>& OriginalSurface::tree() const {
+    if (!tree_) {
+        tree_ = std::make_shared<const measure::TriangleBvh>(mesh_);
+    }
+    return tree_;
+}
+
+measure::NearestOnMesh OriginalSurface::nearest(const glm::dvec3& place) const {
+    measure::NearestOnMesh found = tree()->nearest(units_.to_file(place));
+    found.point = units_.from_file(found.point);
+    found.distance2 /= units_.diagonal_m * units_.diagonal_m;
+    return found;
+}
+
 glm::dvec3 OriginalSurface::normal(std::uint32_t triangle) const {
-    const auto [a, b, c] = triangles_[triangle];
+    const auto [a, b, c] = mesh_.triangles[triangle];
     return area_vector({places_[a], places_[b], places_[c]});
 }
 
 OriginalSurface::OnTriangle
 OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) const {
-    const Triangle& t = triangles_[triangle];
+    const Triangle& t = mesh_.triangles[triangle];
     const glm::dvec3& a = places_[t[0]];
     const glm::dvec3 ab = places_[t[1]] - a;
     const glm::dvec3 ac = places_[t[2]] - a;
@@ -93,14 +108,15 @@ OriginalSurface::nearest_on(std::uint32_t triangle, const glm::dvec3& point) con
     }
     const double sum = va + vb + vc;
     if (!(sum > min_area_share2 * bb * cc)) {
-        const auto on_side = [&](std::uint32_t side, const glm::dvec3& from, const glm::dvec3& way) {
-            const double length2 = glm::dot(way, way);
-            const double along = glm::dot(ap - from, way);
-            const bool ends = !(along > 0.0 && along < length2);
-            const std::uint32_t corner = along > 0.0 ? (side + 1) % 3 : side;
-            const double share = ends ? (along > 0.0 ? 1.0 : 0.0) : along / length2;
-            return made(from + share * way, ends ? none : side, ends ? corner : none);
-        };
+        const auto on_side =
+            [&](std::uint32_t side, const glm::dvec3& from, const glm::dvec3& way) {
+                const double length2 = glm::dot(way, way);
+                const double along = glm::dot(ap - from, way);
+                const bool ends = !(along > 0.0 && along < length2);
+                const std::uint32_t corner = along > 0.0 ? (side + 1) % 3 : side;
+                const double share = ends ? (along > 0.0 ? 1.0 : 0.0) : along / length2;
+                return made(from + share * way, ends ? none : side, ends ? corner : none);
+            };
         const OnTriangle sides[] = {
             on_side(0, glm::dvec3(0.0), ab), on_side(1, ab, ac - ab), on_side(2, ac, -ac)};
         return *std::ranges::min_element(sides, {}, &OnTriangle::distance2);
@@ -127,12 +143,12 @@ OriginalPoint OriginalSurface::nearest_from(
             look(beyond_[at][best.side]);
         } else if (best.corner != none) {
             // Around the corner, first one way and at a boundary then the other way.
-            const std::uint32_t corner = triangles_[at][best.corner];
+            const std::uint32_t corner = mesh_.triangles[at][best.corner];
             for (const bool forward : {true, false}) {
                 std::uint32_t triangle = at;
                 do {
                     std::uint32_t i = 0;
-                    while (triangles_[triangle][i] != corner) {
+                    while (mesh_.triangles[triangle][i] != corner) {
                         ++i;
                     }
                     triangle = beyond_[triangle][forward ? (i + 2) % 3 : i];

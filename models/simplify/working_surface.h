@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/measure/plane_frame.h"
+#include "models/measure/triangle_bvh.h"
 #include "models/simplify/collapsible_mesh.h"
 #include "models/triangle_mesh.h"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -158,12 +160,21 @@ struct OriginalPoint {
 /// The surface that is approximated, in working units, for nearest points near a known one.
 class OriginalSurface {
 public:
-    explicit OriginalSurface(const WorkingSurface& surface);
+    /// `surface` is what `mesh`, which must outlive this, was made into, before any change.
+    OriginalSurface(
+        const WorkingSurface& surface, const TriangleMesh& mesh, const WorkingUnits& units);
 
     /// A point of the surface that is nearer than all around it, found by going from triangle to
     /// triangle, from `start` on, as long as that leads nearer. So the side of a thin part stays
     /// the same. The squared distance goes to `distance2`.
-    OriginalPoint nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const;
+    OriginalPoint
+    nearest_from(std::uint32_t start, const glm::dvec3& point, double& distance2) const;
+
+    /// Tells the processor that a triangle will be asked for.
+    void prefetch(std::uint32_t triangle) const {
+        __builtin_prefetch(&mesh_.triangles[triangle]);
+        __builtin_prefetch(&beyond_[triangle]);
+    }
 
     /// The normal of a triangle, of any length.
     glm::dvec3 normal(std::uint32_t triangle) const;
@@ -173,8 +184,22 @@ public:
         return nearest_on(triangle, point).distance2;
     }
 
-    const std::vector<glm::dvec3>& places() const { return places_; }
-    const std::vector<Triangle>& triangles() const { return triangles_; }
+    /// The number of triangles.
+    std::size_t size() const { return beyond_.size(); }
+
+    /// A tree over the triangles in the mesh's own units, for whoever measures distances to it. It
+    /// is built when it is first needed.
+    const std::shared_ptr<const measure::TriangleBvh>& tree() const;
+
+    /// The nearest point of the whole surface.
+    measure::NearestOnMesh nearest(const glm::dvec3& place) const;
+
+    /// Calls `take(triangle)` for all triangles that are at most `within` away, and for some that
+    /// are a little farther.
+    template <typename Take>
+    void for_each_near(const glm::dvec3& place, double within, const Take& take) const {
+        tree()->for_each_near(units_.to_file(place), within * units_.diagonal_m, take);
+    }
 
     /// The triangle beyond each side of a triangle, or none.
     const std::array<std::uint32_t, 3>& beyond(std::uint32_t triangle) const {
@@ -192,8 +217,10 @@ private:
 
     OnTriangle nearest_on(std::uint32_t triangle, const glm::dvec3& point) const;
 
+    const TriangleMesh& mesh_;
+    WorkingUnits units_;
     std::vector<glm::dvec3> places_;
-    std::vector<Triangle> triangles_;
+    mutable std::shared_ptr<const measure::TriangleBvh> tree_; ///< Null = not built so far.
     std::vector<std::array<std::uint32_t, 3>> beyond_; ///< The triangle beyond each side, or none.
 };
 

@@ -96,7 +96,7 @@ TEST_CASE("the present error of coloured triangles is what measuring them again 
     const WorkingUnits units = WorkingUnits::of(red, 0.1);
     const WorkingSurface fine(red, units);
     const WorkingSurface surface(blue, units);
-    const OriginalSurface original(fine);
+    const OriginalSurface original(fine, red, units);
     SurfaceSamples samples(fine, 500);
     std::vector<std::uint32_t> faces;
     for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
@@ -194,7 +194,7 @@ TEST_CASE("the way back keeps to the side of a thin part from which it starts") 
                         {0.0, 0.0, 0.1}, {1.0, 0.0, 0.1}, {1.0, 1.0, 0.1}, {0.0, 1.0, 0.1}};
     sheet.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
     const WorkingSurface surface(sheet, WorkingUnits{});
-    const OriginalSurface original(surface);
+    const OriginalSurface original(surface, sheet, WorkingUnits{});
     double distance2 = 0.0;
     const OriginalPoint upper = original.nearest_from(2, {0.25, 0.75, 0.02}, distance2);
     CHECK(upper.triangle == 3);
@@ -217,7 +217,8 @@ TEST_CASE("nearest points on triangles without area are numbers") {
                 coordinate(scale), coordinate(i % 2 == 0 ? 0.0 : scale), coordinate(1e-9 * scale));
         }
         thin.triangles = {{0, 1, 2}};
-        const OriginalSurface original(WorkingSurface(thin, WorkingUnits{}));
+        const OriginalSurface original(
+            WorkingSurface(thin, WorkingUnits{}), thin, WorkingUnits{});
         const glm::dvec3 point(coordinate(scale), coordinate(0.5 * scale), coordinate(scale));
         double distance2 = -1.0;
         original.nearest_from(0, point, distance2);
