@@ -10,7 +10,7 @@
 // The upper bound of a piece: the distance to a convex set is a convex function, so that over a
 // triangular piece it is at most its largest value at the corners. A single triangle T of the
 // target is convex, and the distance to the target is at most that to T. Asked are the T nearest to
-// the corners and to the centre of the piece. Beside that, the distance changes no faster than a
+// the corners and to the centre of the piece. In addition, the distance changes no faster than a
 // point moves.
 //
 // Deviations:
@@ -266,7 +266,7 @@ void take_edge_cut(
 }
 
 /// The deepest such cut over the triangles nearest to the corners and the centre. Triangles that
-/// are small beside the piece do not count.
+/// are small compared with the piece do not count.
 PlaneCut edge_cut(
     const TargetSurface& target,
     const Corners& corners,

@@ -19,8 +19,8 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// How much the distance along the triangle counts, beside that across it. 0 would be a
-/// Gauss-Newton step (point-to-plane); 1 the slower convergence of iterated closest points.
+/// The weight of the distance along the triangle; the distance across it has the weight 1. 0 would
+/// be a Gauss-Newton step (point-to-plane); 1 the slower convergence of iterated closest points.
 constexpr double sideways = 0.1;
 
 /// The point of a triangle nearest to a point of its plane, in the plane's coordinates.

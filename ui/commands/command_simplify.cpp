@@ -366,19 +366,18 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
          read_option(
              {"max-seconds",
               "S",
-              "all optimization ends this long after the work begins, whose collapses and "
-              "certificates may take longer; a note says which --steps repeat the result [no "
-              "limit]",
+              "stop optimizing after this time; a note gives the --steps that repeat the result. "
+              "Collapses and "
+              "certificates may take longer [no limit]",
               1e-3,
               1e6},
              command.max_seconds),
          read_option(
              {"steps",
               "N",
-              "so many steps of the optimization, with --error or bounds of attributes all tries "
-              "together, each at most those of --effort; with --chain and --chart each level "
-              "[those "
-              "of --effort]",
+              "number of optimization steps, over all tries where --error or a bound needs "
+              "several; with "
+              "--chain and --chart for each level [given by --effort]",
               0,
               2e9},
              command.steps),
@@ -390,7 +389,11 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
              {"surface", "fast", "plane", "triangle", "bidirectional"},
              command.method),
          read_option(
-             {"threads", "N", "that work; change no result [all processors]", 1, 1024},
+             {"threads",
+              "N",
+              "number of threads; the result does not depend on it [all processors]",
+              1,
+              1024},
              command.threads)});
     add_group(
         table,
