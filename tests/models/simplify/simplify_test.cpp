@@ -1,6 +1,6 @@
-#include "models/measure/sampled_distance.h"
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
+#include "models/measure/sampled_distance.h"
 #include "models/simplify/attribute_seams.h"
 #include "models/simplify/simplify.h"
 #include "tests/models/simplify/simplify_meshes.h"
@@ -9,7 +9,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::simplify;
@@ -213,8 +218,7 @@ TEST_CASE("corner normals come from the original, on both sides of a sharp edge"
         fine.corner_normals.push_back({number, number, number});
     }
     const AttributeSeams seams(fine, {});
-    const TriangleMesh mesh =
-        seams.with_attributes(simplified(seams.marked(), to_faces(12)).mesh);
+    const TriangleMesh mesh = seams.with_attributes(simplified(seams.marked(), to_faces(12)).mesh);
     REQUIRE(mesh.corner_normals.size() == 12);
     CHECK(mesh.normals.size() == 6);
     for (std::size_t t = 0; t < 12; ++t) {
@@ -316,4 +320,39 @@ TEST_CASE("next to nothing of a thin sheet's surface is turned over") {
     CHECK(euler_number(made) == 0);
     // By quadrics alone it is 0.013.
     CHECK(measure::flipped_area_share(made, fine, {.samples = 20'000}) < 0.0115);
+}
+
+TEST_CASE("a mesh that is sorted in space is the same surface with the same attributes") {
+    TriangleMesh mesh = ball(12);
+    for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+        mesh.colours.emplace_back(static_cast<float>(i) / 1000.0F, 0.5F, 0.25F);
+    }
+    mesh.materials.resize(mesh.triangles.size());
+    for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
+        mesh.texture_coordinates.emplace_back(static_cast<float>(face), 0.0F);
+        mesh.corner_texture_coordinates.push_back({face, face, face});
+        mesh.triangle_materials.push_back(face);
+    }
+    using Corner = std::array<double, 4>;
+    using Face = std::tuple<std::array<Corner, 3>, float, std::uint32_t>;
+    const auto faces = [](const TriangleMesh& of) {
+        std::vector<Face> all;
+        for (std::size_t i = 0; i < of.triangles.size(); ++i) {
+            Face face;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t vertex = of.triangles[i][k];
+                const glm::dvec3& at = of.vertices_m[vertex];
+                std::get<0>(face)[k] = {at.x, at.y, at.z, of.colours[vertex].x};
+            }
+            std::get<1>(face) = of.texture_coordinates[of.corner_texture_coordinates[i][0]].x;
+            std::get<2>(face) = of.triangle_materials[i];
+            all.push_back(face);
+        }
+        std::ranges::sort(all);
+        return all;
+    };
+    TriangleMesh sorted = mesh;
+    sort_in_space(sorted);
+    CHECK(sorted.triangles != mesh.triangles);
+    CHECK(faces(sorted) == faces(mesh));
 }
