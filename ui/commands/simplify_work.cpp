@@ -733,6 +733,24 @@ struct TogetherFile {
     }
 };
 
+/// The first file whose triangles of the original are all gone in what was made of it, or none.
+std::optional<std::size_t> vanished_file(
+    const std::vector<TogetherFile>& files,
+    const std::vector<std::uint32_t>& original_materials,
+    const std::vector<std::uint32_t>& made_materials) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto is_of_file = [&](std::uint32_t material) {
+            return material >= files[i].first_material &&
+                   material < files[i].first_material + files[i].materials;
+        };
+        if (std::ranges::any_of(original_materials, is_of_file) &&
+            std::ranges::none_of(made_materials, is_of_file)) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
 /// Reads all files of a command into one mesh.
 models::TriangleMesh
 read_joined(const std::vector<std::string>& names, std::vector<TogetherFile>& files) {
@@ -846,6 +864,18 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     const models::TriangleMesh original = seams.with_colours(marked);
     const base::Stopwatch watch;
     simplify::Simplified result = simplified_with_bounds(command, seams, options);
+    if (const std::optional<std::size_t> file = vanished_file(
+            files,
+            original.triangle_materials,
+            seams.with_colours(result.mesh).triangle_materials)) {
+        base::say(
+            command.quiet,
+            fmt::format(
+                "note: no triangle of {} would be left, so --keep-shells is taken",
+                command.files[*file]));
+        options.keep_shells = true;
+        result = simplified_with_bounds(command, seams, options);
+    }
     const double time_s = watch.s();
     figures["faces_before"] = marked.triangles.size();
     figures["faces"] = result.mesh.triangles.size();

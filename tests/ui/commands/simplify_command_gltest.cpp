@@ -299,6 +299,33 @@ TEST_CASE("files simplified together keep their common border to the byte") {
     CHECK(models::repair::repaired(joined).counts.boundary_loops == 1);
 }
 
+TEST_CASE("no file of --shared-border is left without triangles") {
+    const auto box = [](const std::string& name, double side_m, double x_m) {
+        const std::string file = file_named(name);
+        std::string text;
+        for (int i = 0; i < 8; ++i) {
+            text += fmt::format(
+                "v {} {} {}\n", x_m + side_m * (i / 4), side_m * (i / 2 % 2), side_m * (i % 2));
+        }
+        text += "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+        write_file(file, text);
+        return file;
+    };
+    const std::string folder = file_named("boxes");
+    const tests::ProgramRun run = run_octant(
+        {"simplify",
+         box("large-box.obj", 10.0, 0.0),
+         box("small-box.obj", 0.1, 10.2),
+         "--shared-border",
+         "--out-dir",
+         folder,
+         "--faces",
+         "12"});
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Catch::Contains("small-box.obj would be left, so --keep-shells is taken"));
+    CHECK_FALSE(models::meshfile::read_mesh(folder + "/small-box.obj").triangles.empty());
+}
+
 TEST_CASE("texture coordinates keep their bound at an error as large as the mesh's tube") {
     constexpr std::uint32_t around = 24;
     constexpr std::uint32_t along = 12;
