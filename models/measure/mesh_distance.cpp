@@ -18,11 +18,9 @@
 // - Pieces are cut in two, not in four, and where they leave the part of space over one T. So a
 //   piece that lies flat on many triangles ends as the overlay of both meshes and not in pieces of
 //   the size of the distance. Elsewhere the cut is where the nearest triangle changes.
-// - Vertices are not searched for where the triangle found for the vertex before is near enough,
-// and
-//   triangles that such upper bounds bound well enough are left out without a search.
-// - Pieces that are much larger than the triangles near them are cut without a search from the
-// centre.
+// - A vertex is not searched from where the triangle that was found for the vertex before is near
+//   enough, and triangles that such upper bounds bound well enough are left out without a search.
+// - Pieces much larger than the triangles near them are cut without a search from the centre.
 // - Pieces are cut in batches, so that the result is the same on any number of threads.
 #include "models/measure/mesh_distance.h"
 
@@ -179,16 +177,12 @@ Cut longest_cut(const Corners& corners) {
 /// The cut where the nearest triangle changes between neighbouring triangles of the target, on the
 /// longest edge on which it does; otherwise the midpoint of the longest edge.
 Cut change_cut(const TargetSurface& target, const Corners& corners) {
-    Cut longest;
+    const Cut longest = longest_cut(corners);
+    const double longest_m = length_m(corners, longest.edge);
     Cut changing;
-    double longest_m = -1.0;
     double changing_m = -1.0;
     for (std::size_t edge = 0; edge < 3; ++edge) {
         const double edge_m = length_m(corners, edge);
-        if (edge_m > longest_m) {
-            longest = {edge, 0.5};
-            longest_m = edge_m;
-        }
         if (corners[edge]->nearest != corners[(edge + 1) % 3]->nearest && edge_m > changing_m) {
             changing = {edge, 0.5};
             changing_m = edge_m;

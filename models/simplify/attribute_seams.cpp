@@ -662,7 +662,7 @@ std::array<AttributeSeams::Squares, 3> AttributeSeams::squares(
     return squares;
 }
 
-AttributeErrors AttributeSeams::errors(const TriangleMesh& made) const {
+AttributeErrors AttributeSeams::errors(const TriangleMesh& made, LookAt which) const {
     constexpr std::size_t enough = 8'000;
     if (charts_.empty() || is_marked(made)) {
         return {};
@@ -674,7 +674,9 @@ AttributeErrors AttributeSeams::errors(const TriangleMesh& made) const {
             colours[vertex] = glm::dvec3(made.colours[vertex]);
         }
     }
-    const std::size_t stride = std::max<std::size_t>(1, made.triangles.size() / enough);
+    const std::size_t stride = which == LookAt::AllTriangles
+                                   ? 1
+                                   : std::max<std::size_t>(1, made.triangles.size() / enough);
     AttributeErrors errors;
     const std::array<AttributeError*, 3> kinds = {
         &errors.texture, &errors.normal_deg, &errors.colour};

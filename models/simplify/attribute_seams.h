@@ -34,6 +34,10 @@ struct AttributeBounds {
     double colour = std::numeric_limits<double>::infinity();
 };
 
+/// Where errors of attributes are looked for: in at least 8,000 triangles (in all where there are
+/// fewer), which takes less time on large meshes, or in all, so that a bound is known to be kept.
+enum class LookAt : std::uint8_t { SomeTriangles, AllTriangles };
+
 /// Attributes of a mesh, and the seams along which its colours or texture coordinates break, kept
 /// through its simplification. Seams part the surface into charts. The simplifier sees them as
 /// borders of materials, which it keeps where they are; its result then takes the attributes of
@@ -64,8 +68,7 @@ public:
     TriangleMesh with_attributes(TriangleMesh made) const;
 
     /// The errors of the attributes that with_attributes gives to a result of simplifying marked().
-    /// Samples of at least 1,000 triangles are looked at, of all where there are fewer.
-    AttributeErrors errors(const TriangleMesh& made) const;
+    AttributeErrors errors(const TriangleMesh& made, LookAt which = LookAt::SomeTriangles) const;
 
     /// Divides triangles of a result of simplifying marked() at the midpoints of edges, which moves
     /// no point of its surface, until no sample of an attribute is farther off than its bound, or

@@ -321,14 +321,9 @@ bool keeps_goals(
     return is_kept;
 }
 
-/// A simplified mesh whose attributes keep their bounds: triangles are divided until they do, and
-/// fewer are left for that before, where their number is the goal.
-simplify::Simplified simplified_with_bounds(
-    const SimplifyCommand& command,
-    const simplify::AttributeSeams& seams,
-    simplify::SimplifyOptions options) {
-    constexpr int max_tries = 5;
-    constexpr double enough = 0.98; // of the goal
+/// The bounds of attributes that the mesh has; none where no such bound is given.
+std::optional<simplify::AttributeBounds>
+attribute_bounds(const SimplifyCommand& command, const simplify::AttributeSeams& seams) {
     simplify::AttributeBounds bounds;
     bool is_bounded = false;
     for (const auto& [bound, wanted, is_there] :
@@ -340,48 +335,143 @@ simplify::Simplified simplified_with_bounds(
             is_bounded = true;
         }
     }
-    const std::size_t most = seams.marked().triangles.size();
-    const std::size_t goal = simplify::wanted_faces(options.goal);
-    options.effort_limits_each = is_bounded;
-    std::optional<simplify::Simplified> best;
-    bool is_kept = false;
-    simplify::Simplified sums; // of all tries
-    for (int tries = 0; tries < max_tries; ++tries) {
-        simplify::Simplified result = simplify::simplified(seams.marked(), options);
-        if (!is_bounded) {
-            return result;
-        }
-        sums.collapse_cpu_s += result.collapse_cpu_s;
-        sums.optimize_cpu_s += result.optimize_cpu_s;
-        sums.steps += result.steps;
-        if (options.steps) {
-            *options.steps -= std::min(*options.steps, result.steps);
-        }
-        const auto before = static_cast<double>(result.mesh.triangles.size());
-        models::TriangleMesh divided = seams.divided(result.mesh, bounds, most);
-        const auto after = static_cast<double>(divided.triangles.size());
-        const bool fits = goal == 0 || divided.triangles.size() <= goal;
-        if (fits && (!is_kept || divided.triangles.size() > best->mesh.triangles.size())) {
-            is_kept = true;
-            result.mesh = std::move(divided);
-            best = std::move(result);
-        } else if (!best) {
-            best = std::move(result); // Undivided, unless a later try fits.
-        }
-        const double share = static_cast<double>(goal) / after;
-        // Where steps may run out, a later try may have none and be worse.
-        const bool is_enough =
-            enough * static_cast<double>(goal) <= after || options.steps || options.deadline;
-        if (goal == 0 || (fits && is_enough) || before < 8.0) {
-            break;
-        }
-        options.goal.vertices.reset();
-        options.goal.faces = static_cast<std::size_t>(std::max(4.0, before * std::min(share, 2.0)));
+    return is_bounded ? std::optional(bounds) : std::nullopt;
+}
+
+/// Searches for a simplified mesh whose attributes keep their bounds: each try simplifies the mesh
+/// and divides triangles of the result until the bounds are kept.
+class BoundedSearch {
+public:
+    /// All must outlive this.
+    BoundedSearch(
+        const simplify::AttributeSeams& seams,
+        const simplify::AttributeBounds& bounds,
+        const simplify::SimplifyOptions& options)
+        : seams_(seams)
+        , bounds_(bounds)
+        , options_(options)
+        , goal_(simplify::wanted_faces(options.goal)) {
+        options_.effort_limits_each = true;
     }
-    best->collapse_cpu_s = sums.collapse_cpu_s;
-    best->optimize_cpu_s = sums.optimize_cpu_s;
-    best->steps = sums.steps;
-    return std::move(*best);
+
+    /// The best try. Where none keeps the bounds: for a number of triangles the first one, else the
+    /// mesh itself.
+    simplify::Simplified find() {
+        constexpr int max_tries = 5;
+        for (int tries = 0; tries < max_tries && attempt(); ++tries) {
+        }
+        if (goal_ == 0 && rank_ < Rank::KeepsBounds) {
+            best_ = {.mesh = seams_.marked(), .sequence = {}};
+        }
+        best_.collapse_cpu_s = sums_.collapse_cpu_s;
+        best_.optimize_cpu_s = sums_.optimize_cpu_s;
+        best_.steps = sums_.steps;
+        return std::move(best_);
+    }
+
+    /// The fewest triangles of a try that kept the bounds; 0 = none did.
+    std::size_t min_keeping() const { return min_keeping_; }
+
+private:
+    enum class Rank : std::uint8_t { None, Undivided, Divided, KeepsBounds };
+
+    /// Makes a try with the present goal, and sets the next one. Returns false where no further try
+    /// can help.
+    bool attempt() {
+        simplify::Simplified result = simplify::simplified(seams_.marked(), options_);
+        sums_.collapse_cpu_s += result.collapse_cpu_s;
+        sums_.optimize_cpu_s += result.optimize_cpu_s;
+        sums_.steps += result.steps;
+        if (options_.steps) {
+            *options_.steps -= std::min(*options_.steps, result.steps);
+        }
+        const std::size_t before = result.mesh.triangles.size();
+        const std::size_t max_faces = seams_.marked().triangles.size();
+        models::TriangleMesh divided = seams_.divided(result.mesh, bounds_, max_faces);
+        const std::size_t after = divided.triangles.size();
+        const bool keeps = is_kept(seams_.errors(divided, simplify::LookAt::AllTriangles));
+        if (keeps) {
+            min_keeping_ = min_keeping_ == 0 ? after : std::min(min_keeping_, after);
+        }
+        Rank rank = keeps ? Rank::KeepsBounds : Rank::Divided;
+        if (goal_ != 0 && after > goal_) {
+            rank = Rank::Undivided;
+        } else {
+            result.mesh = std::move(divided);
+        }
+        const bool is_fewer = result.mesh.triangles.size() < best_.mesh.triangles.size();
+        const bool is_better =
+            rank > rank_ || (rank == rank_ && rank > Rank::Undivided && is_fewer == (goal_ == 0));
+        if (is_better) {
+            rank_ = rank;
+            best_ = std::move(result);
+        }
+        return goal_ == 0 ? set_error(is_better, before, after) : set_faces(rank, before, after);
+    }
+
+    bool is_kept(const simplify::AttributeErrors& errors) const {
+        return errors.texture.max <= bounds_.texture &&
+               errors.normal_deg.max <= bounds_.normal_deg && errors.colour.max <= bounds_.colour;
+    }
+
+    /// Sets a smaller error to try next, where that may take fewer triangles than dividing did.
+    bool set_error(bool is_better, std::size_t before, std::size_t after) {
+        constexpr double finer = 0.3;
+        const bool is_enough =
+            rank_ == Rank::KeepsBounds && (!is_better || 2 * after <= 3 * before);
+        *options_.goal.error_m *= finer;
+        return !is_enough && before < seams_.marked().triangles.size();
+    }
+
+    /// Sets the number of triangles to try next, so that as many as are wanted are left after they
+    /// were divided.
+    bool set_faces(Rank rank, std::size_t before, std::size_t after) {
+        constexpr double enough = 0.98; // of the goal
+        const auto goal = static_cast<double>(goal_);
+        const auto faces = static_cast<double>(after);
+        // Where steps may run out, a later try may have none and be worse.
+        const bool is_enough = rank > Rank::Undivided &&
+                               (enough * goal <= faces || options_.steps || options_.deadline);
+        options_.goal.vertices.reset();
+        options_.goal.faces = static_cast<std::size_t>(
+            std::max(4.0, static_cast<double>(before) * std::min(goal / faces, 2.0)));
+        return !is_enough && before >= 8;
+    }
+
+    const simplify::AttributeSeams& seams_;
+    const simplify::AttributeBounds& bounds_;
+    simplify::SimplifyOptions options_; ///< Of the next try.
+    std::size_t goal_;                  ///< The wanted triangles; 0 = an error is wanted.
+    Rank rank_ = Rank::None;            ///< Of the best try so far.
+    simplify::Simplified best_;
+    simplify::Simplified sums_; ///< Times and steps of all tries.
+    std::size_t min_keeping_ = 0;
+};
+
+/// A simplified mesh whose attributes keep their bounds, where that can be reached.
+simplify::Simplified simplified_with_bounds(
+    const SimplifyCommand& command,
+    const simplify::AttributeSeams& seams,
+    const simplify::SimplifyOptions& options) {
+    const std::optional<simplify::AttributeBounds> bounds = attribute_bounds(command, seams);
+    if (!bounds) {
+        return simplify::simplified(seams.marked(), options);
+    }
+    BoundedSearch search(seams, *bounds, options);
+    simplify::Simplified found = search.find();
+    const std::size_t goal = simplify::wanted_faces(options.goal);
+    if (goal != 0 && search.min_keeping() > goal) {
+        base::say(
+            command.quiet,
+            fmt::format(
+                "note: the fewest triangles found that keep the bounds of attributes: {}",
+                search.min_keeping()));
+    } else if (goal == 0 && found.mesh.triangles.size() == seams.marked().triangles.size()) {
+        base::say(
+            command.quiet,
+            "note: no fewer triangles were found that keep the bounds of attributes");
+    }
+    return found;
 }
 
 /// Says how a result of --max-seconds is repeated.
@@ -395,8 +485,14 @@ void tell_steps(const SimplifyCommand& command, const simplify::Simplified& resu
 
 /// Adds how far attributes are off. The RMS of colours comes with the distance.
 void add_attribute_errors(
-    Figures& figures, const simplify::AttributeSeams& seams, const models::TriangleMesh& made) {
-    const simplify::AttributeErrors errors = seams.errors(made);
+    const SimplifyCommand& command,
+    Figures& figures,
+    const simplify::AttributeSeams& seams,
+    const models::TriangleMesh& made) {
+    const simplify::AttributeErrors errors = seams.errors(
+        made,
+        attribute_bounds(command, seams) ? simplify::LookAt::AllTriangles
+                                         : simplify::LookAt::SomeTriangles);
     if (seams.has_texture_coordinates()) {
         figures["uv_error"] = errors.texture.max;
         figures["uv_rms"] = errors.texture.rms;
@@ -533,7 +629,7 @@ bool simplify_mesh(
     figures["shells_gone"] = result.shells_gone;
     figures["holes_closed"] = result.holes_closed;
     figures["handles_cut"] = result.handles_cut;
-    add_attribute_errors(figures, seams, result.mesh);
+    add_attribute_errors(command, figures, seams, result.mesh);
     const double measured_from_s = base::process_cpu_s();
     models::TriangleMesh coloured;
     if (!original.colours.empty()) {
@@ -636,6 +732,24 @@ struct TogetherFile {
         return part;
     }
 };
+
+/// The first file whose triangles of the original are all gone in what was made of it, or none.
+std::optional<std::size_t> vanished_file(
+    const std::vector<TogetherFile>& files,
+    const std::vector<std::uint32_t>& original_materials,
+    const std::vector<std::uint32_t>& made_materials) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto is_of_file = [&](std::uint32_t material) {
+            return material >= files[i].first_material &&
+                   material < files[i].first_material + files[i].materials;
+        };
+        if (std::ranges::any_of(original_materials, is_of_file) &&
+            std::ranges::none_of(made_materials, is_of_file)) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
 
 /// Reads all files of a command into one mesh.
 models::TriangleMesh
@@ -750,13 +864,25 @@ bool simplify_together(const SimplifyCommand& command, Figures& figures) {
     const models::TriangleMesh original = seams.with_colours(marked);
     const base::Stopwatch watch;
     simplify::Simplified result = simplified_with_bounds(command, seams, options);
+    if (const std::optional<std::size_t> file = vanished_file(
+            files,
+            original.triangle_materials,
+            seams.with_colours(result.mesh).triangle_materials)) {
+        base::say(
+            command.quiet,
+            fmt::format(
+                "note: no triangle of {} would be left, so --keep-shells is taken",
+                command.files[*file]));
+        options.keep_shells = true;
+        result = simplified_with_bounds(command, seams, options);
+    }
     const double time_s = watch.s();
     figures["faces_before"] = marked.triangles.size();
     figures["faces"] = result.mesh.triangles.size();
     figures["vertices"] = result.mesh.vertices_m.size();
     figures["steps"] = result.steps;
     tell_steps(command, result);
-    add_attribute_errors(figures, seams, result.mesh);
+    add_attribute_errors(command, figures, seams, result.mesh);
     bool is_reached =
         keeps_goals(command, {options.goal.vertices, options.goal.faces, {}}, 0.0, figures);
     straighten_common_borders(command, seams, files, original, result.mesh);
@@ -860,12 +986,14 @@ void write_simplify_chart(
     const std::size_t coarsest = std::clamp<std::size_t>(faces_before / 2, 2, 32);
     std::vector<ChartLevel> levels{
         {.faces = faces_before, .error_m = 0.0, .made_by = "the mesh itself"}};
+    SimplifyCommand quiet = command; // Notes are on the mesh that is written.
+    quiet.quiet = true;
     base::Progress progress("making levels", 100, command.quiet, "percent");
     for (std::size_t goal = faces_before / 2; goal >= coarsest;
          goal = goal == coarsest ? 0 : std::max(goal / 2, coarsest)) {
         simplify::SimplifyOptions options = options_of(command, diagonal_m);
         options.goal = {.vertices = {}, .faces = goal, .error_m = {}};
-        const models::TriangleMesh mesh = simplified_with_bounds(command, seams, options).mesh;
+        const models::TriangleMesh mesh = simplified_with_bounds(quiet, seams, options).mesh;
         if (mesh.triangles.size() >= levels.back().faces) {
             break;
         }

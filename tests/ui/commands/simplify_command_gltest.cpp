@@ -299,6 +299,71 @@ TEST_CASE("files simplified together keep their common border to the byte") {
     CHECK(models::repair::repaired(joined).counts.boundary_loops == 1);
 }
 
+TEST_CASE("no file of --shared-border is left without triangles") {
+    const auto box = [](const std::string& name, double side_m, double x_m) {
+        const std::string file = file_named(name);
+        std::string text;
+        for (int i = 0; i < 8; ++i) {
+            text += fmt::format(
+                "v {} {} {}\n", x_m + side_m * (i / 4), side_m * (i / 2 % 2), side_m * (i % 2));
+        }
+        text += "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+        write_file(file, text);
+        return file;
+    };
+    const std::string folder = file_named("boxes");
+    const tests::ProgramRun run = run_octant(
+        {"simplify",
+         box("large-box.obj", 10.0, 0.0),
+         box("small-box.obj", 0.1, 10.2),
+         "--shared-border",
+         "--out-dir",
+         folder,
+         "--faces",
+         "12"});
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Catch::Contains("small-box.obj would be left, so --keep-shells is taken"));
+    CHECK_FALSE(models::meshfile::read_mesh(folder + "/small-box.obj").triangles.empty());
+}
+
+TEST_CASE("texture coordinates keep their bound at an error as large as the mesh's tube") {
+    constexpr std::uint32_t around = 24;
+    constexpr std::uint32_t along = 12;
+    models::TriangleMesh torus;
+    for (std::uint32_t i = 0; i <= around; ++i) {
+        for (std::uint32_t j = 0; j <= along; ++j) {
+            const double turn = 2.0 * std::acos(-1.0) * (i % around) / around;
+            const double tube = 2.0 * std::acos(-1.0) * (j % along) / along;
+            const double radius_m = 3.0 + std::cos(tube);
+            torus.vertices_m.push_back(
+                {radius_m * std::cos(turn), radius_m * std::sin(turn), std::sin(tube)});
+            torus.texture_coordinates.emplace_back(1.0 * i / around, 1.0 * j / along);
+        }
+    }
+    for (std::uint32_t i = 0; i < around; ++i) {
+        for (std::uint32_t j = 0; j < along; ++j) {
+            const std::uint32_t at = i * (along + 1) + j;
+            torus.triangles.push_back({at, at + along + 1, at + along + 2});
+            torus.triangles.push_back({at, at + along + 2, at + 1});
+        }
+    }
+    torus.corner_texture_coordinates = torus.triangles;
+    const std::string in = file_named("torus.obj");
+    models::meshfile::write_mesh(in, torus);
+    // Dividing a mesh so far off ended at 576 triangles whose coordinates were off by 0.7.
+    const auto made = simplify_figures(
+        {in,
+         file_named("torus-small.obj"),
+         "--error",
+         "10%",
+         "--method",
+         "fast",
+         "--uv-error",
+         "0.05"});
+    CHECK(made["uv_error"] <= 0.05);
+    CHECK(made["faces"] < 300);
+}
+
 TEST_CASE("texture coordinates keep the bound that is asked for") {
     models::TriangleMesh mesh = models::meshfile::read_mesh(waves(24));
     for (const glm::dvec3& at_m : mesh.vertices_m) {
@@ -334,6 +399,10 @@ TEST_CASE("texture coordinates keep the bound that is asked for") {
         simplify_figures({in, out, "--faces", "300", "--method", "fast", "--uv-error", "0.005"});
     CHECK(few["faces"] <= 300);
     CHECK(few["uv_error"] <= 0.005);
+    const tests::ProgramRun unreached = run_octant(
+        {"simplify", in, out, "--faces", "20", "--method", "fast", "--uv-error", "0.005"});
+    CHECK(unreached.exit_code == 1);
+    CHECK_THAT(unreached.err, Catch::Contains("found that keep the bounds of attributes: "));
     const tests::ProgramRun run =
         run_octant({"simplify", in, file_named("t.stl"), "--faces", "300", "--method", "fast"});
     CHECK_THAT(run.err, Catch::Contains("the format holds no texture coordinates"));
