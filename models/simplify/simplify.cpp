@@ -387,9 +387,9 @@ private:
 };
 
 /// Where the wanted number of triangles cannot be met, this share of a result's area may be turned
-/// against the original; so many larger numbers, each a tenth larger, are tried until it is.
+/// against the original; so many larger numbers, a quarter larger each, are tried until it is less.
 constexpr double max_folded_share = 0.003;
-constexpr int max_unfolding_tries = 8;
+constexpr int max_unfolding_tries = 4;
 
 bool is_folded(const TriangleMesh& mesh, const TriangleMesh& original) {
     constexpr std::size_t samples = 20'000;
@@ -442,7 +442,7 @@ Simplified simplified(const TriangleMesh& original, const SimplifyOptions& optio
         (options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices);
     for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original);
          ++tries) {
-        *fewer.goal.faces += *fewer.goal.faces / 10 + 2;
+        *fewer.goal.faces += *fewer.goal.faces / 4 + 2;
         if (*fewer.goal.faces >= original.triangles.size()) {
             break;
         }
