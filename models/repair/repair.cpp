@@ -1,18 +1,23 @@
 #include "models/repair/repair.h"
 
+#include "models/mesh_edges.h"
 #include "models/no_index.h"
 #include "models/repair/agreeing_turns.h"
 #include "models/repair/edge_joints.h"
 #include "models/repair/near_rims.h"
-#include "models/mesh_edges.h"
 #include "models/repair/vertex_twins.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -118,8 +123,8 @@ private:
     }
 
     /// The triangles at each edge between vertices that are marked, but for those left out.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> triangles_at_edges(
-        const std::vector<bool>& marked, const std::vector<bool>& left_out) const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>>
+    triangles_at_edges(const std::vector<bool>& marked, const std::vector<bool>& left_out) const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> found;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
             for (std::size_t i = 0; i < 3 && !(t < left_out.size() && left_out[t]); ++i) {
@@ -157,6 +162,49 @@ private:
         }
     }
 
+    /// A vertex on a side of a triangle.
+    struct OnSide {
+        std::uint32_t vertex = 0;
+        std::uint32_t name = 0; ///< of the vertex, in named_
+        float part = 0.5F;      ///< of the side's length, from its first corner
+        glm::vec3 colour;       ///< of the corners there
+    };
+
+    /// Divides a triangle at a vertex on its side from corner `from` to the next one. The part at
+    /// `from` stays in place, the other one comes last.
+    void divide_side(std::uint32_t triangle, std::size_t from, const OnSide& middle) {
+        const std::size_t to = (from + 1) % 3;
+        const auto divide_corners = [&](auto& list, const auto& at_middle) {
+            list.push_back(list[triangle]);
+            list.back()[from] = at_middle;
+            list[triangle][to] = at_middle;
+        };
+        divide_corners(mesh_.triangles, middle.vertex);
+        divide_corners(named_, middle.name);
+        if (!corner_colours_.empty()) {
+            divide_corners(corner_colours_, middle.colour);
+        }
+        if (!mesh_.corner_normals.empty()) {
+            divide_corners(
+                mesh_.corner_normals, std::uint32_t(mesh_.corner_normals[triangle][from]));
+        }
+        if (!mesh_.corner_texture_coordinates.empty()) {
+            const Triangle corners = mesh_.corner_texture_coordinates[triangle];
+            auto at_middle = no_index;
+            if (corners[from] != no_index && corners[to] != no_index) {
+                at_middle = static_cast<std::uint32_t>(mesh_.texture_coordinates.size());
+                mesh_.texture_coordinates.push_back(glm::mix(
+                    mesh_.texture_coordinates[corners[from]],
+                    mesh_.texture_coordinates[corners[to]],
+                    middle.part));
+            }
+            divide_corners(mesh_.corner_texture_coordinates, at_middle);
+        }
+        if (!mesh_.triangle_materials.empty()) {
+            mesh_.triangle_materials.push_back(std::uint32_t(mesh_.triangle_materials[triangle]));
+        }
+    }
+
     /// Splits the neighbour at the longest side of a triangle without an area, if it is the only
     /// one there, has an area and was not split in this round.
     bool split_neighbour(
@@ -179,8 +227,7 @@ private:
         if (found == at_edges.end() || found->second.size() != 2) {
             return false;
         }
-        const std::uint32_t other =
-            found->second[0] == thin ? found->second[1] : found->second[0];
+        const std::uint32_t other = found->second[0] == thin ? found->second[1] : found->second[0];
         if (other == thin || touched[other] || is_degenerate(mesh_.triangles[other])) {
             return false;
         }
@@ -189,49 +236,117 @@ private:
                mesh_.triangles[other][(from + 2) % 3] == corners[(side + 1) % 3]) {
             ++from;
         }
-        const std::size_t to = (from + 1) % 3;
         touched[other] = done[thin] = true;
-        const auto split = [&](auto& list, const auto& at_middle) {
-            if (!list.empty()) {
-                list.push_back(list[other]);
-                list.back()[from] = at_middle;
-                list[other][to] = at_middle;
-            }
-        };
-        split(mesh_.triangles, corners[middle]);
-        split(named_, std::uint32_t(named_[thin][middle]));
-        if (!corner_colours_.empty()) {
-            split(corner_colours_, glm::vec3(corner_colours_[thin][middle]));
-        }
-        if (!mesh_.corner_normals.empty()) {
-            split(mesh_.corner_normals, std::uint32_t(mesh_.corner_normals[other][from]));
-        }
-        if (!mesh_.triangle_materials.empty()) {
-            mesh_.triangle_materials.push_back(std::uint32_t(mesh_.triangle_materials[other]));
-        }
+        const std::uint32_t begin = mesh_.triangles[other][from];
+        divide_side(
+            other,
+            from,
+            {corners[middle],
+             named_[thin][middle],
+             static_cast<float>(
+                 glm::distance(mesh_.vertices_m[begin], mesh_.vertices_m[corners[middle]]) /
+                 length_m(side)),
+             corner_colours_.empty() ? glm::vec3(0.0F) : corner_colours_[thin][middle]});
         return true;
+    }
+
+    /// Whether a triangle names its vertices in the order of `rising` or of a rotation of it.
+    bool turns_as(std::uint32_t triangle, const Triangle& rising) const {
+        const Triangle& corners = mesh_.triangles[triangle];
+        const auto at =
+            static_cast<std::size_t>(std::ranges::find(corners, rising[0]) - corners.begin());
+        return corners[(at + 1) % 3] == rising[1];
+    }
+
+    /// Triangles with the same three vertices.
+    struct Doubles {
+        std::span<const std::pair<Triangle, std::uint32_t>> all; ///< sorted vertices, triangle
+        std::ptrdiff_t rising = 0; ///< as many more turn as the sorted vertices do
+    };
+
+    /// Triangles that hang together by edges.
+    struct WrittenShell {
+        std::ptrdiff_t times = 0; ///< it was written: the common divisor of Doubles::rising
+        bool is_closed = true;    ///< as many triangles pass each edge one way as the other
+    };
+
+    /// By the group of their triangles.
+    std::vector<WrittenShell>
+    written_shells(std::span<const Doubles> doubles, Groups& groups) const {
+        std::vector<WrittenShell> shells(mesh_.triangles.size());
+        const std::vector<Side> sides = sorted_sides(mesh_.triangles);
+        for_each_edge(sides, [&](std::span<const Side> edge) {
+            for (const Side& side : edge) {
+                groups.join(edge[0].triangle, side.triangle);
+            }
+        });
+        for_each_edge(sides, [&](std::span<const Side> edge) {
+            const auto rising = std::ranges::count_if(edge, &Side::rises);
+            if (2 * rising != std::ranges::ssize(edge)) {
+                shells[groups.group_of(edge[0].triangle)].is_closed = false;
+            }
+        });
+        for (const Doubles& one : doubles) {
+            std::ptrdiff_t& times = shells[groups.group_of(one.all[0].second)].times;
+            times = std::gcd(times, one.rising);
+        }
+        return shells;
+    }
+
+    /// Of triangles of a closed shell with the same three vertices as many stay as keep it closed:
+    /// a triangle and its back are a wall between two bodies, or a sheet. A shell that was written
+    /// several times stays once. Of an open shell the first one of the turn that more of them have
+    /// stays.
+    void take_out_doubles(std::span<const Doubles> found) {
+        std::vector<bool> stays(mesh_.triangles.size(), true);
+        Groups groups(mesh_.triangles.size());
+        const std::vector<WrittenShell> shells = written_shells(found, groups);
+        for (const auto& [all, rising] : found) {
+            if (all.size() == 1) {
+                continue;
+            }
+            const auto turns = [&](const auto& one) { return turns_as(one.second, one.first); };
+            const bool most = rising == 0 ? turns(all.front()) : rising > 0;
+            const WrittenShell& shell = shells[groups.group_of(all.front().second)];
+            std::array<std::ptrdiff_t, 2> wanted{1, 1}; // falling, rising
+            if (!shell.is_closed || rising != 0) {
+                wanted[most ? 1 : 0] = shell.is_closed ? std::abs(rising) / shell.times : 1;
+                wanted[most ? 0 : 1] = 0;
+            }
+            for (const auto& one : all) {
+                stays[one.second] = wanted[turns(one) ? 1 : 0]-- > 0;
+                counts_.doubled_triangles += static_cast<std::size_t>(!stays[one.second]);
+            }
+        }
+        keep_triangles(stays);
     }
 
     void take_out_triangles() {
         std::vector<bool> stays(mesh_.triangles.size(), true);
-        std::vector<std::pair<Triangle, std::uint32_t>> sorted; // vertices, triangle
-        sorted.reserve(mesh_.triangles.size());
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
             stays[t] = !is_degenerate(mesh_.triangles[t]);
             counts_.degenerate_triangles += static_cast<std::size_t>(!stays[t]);
-            if (stays[t]) {
-                sorted.emplace_back(mesh_.triangles[t], t);
-                std::ranges::sort(sorted.back().first);
-            }
-        }
-        std::ranges::sort(sorted);
-        for (std::size_t i = 1; i < sorted.size(); ++i) {
-            if (sorted[i].first == sorted[i - 1].first) {
-                stays[sorted[i].second] = false;
-                ++counts_.doubled_triangles;
-            }
         }
         keep_triangles(stays);
+        std::vector<std::pair<Triangle, std::uint32_t>> sorted; // vertices, triangle
+        sorted.reserve(mesh_.triangles.size());
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            sorted.emplace_back(mesh_.triangles[t], t);
+            std::ranges::sort(sorted.back().first);
+        }
+        std::ranges::sort(sorted);
+        std::vector<Doubles> found;
+        for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
+            found.emplace_back();
+            while (last < sorted.size() && sorted[last].first == sorted[first].first) {
+                found.back().rising += turns_as(sorted[last].second, sorted[last].first) ? 1 : -1;
+                ++last;
+            }
+            found.back().all = std::span(sorted).subspan(first, last - first);
+        }
+        if (found.size() < sorted.size()) {
+            take_out_doubles(found);
+        }
     }
 
     template <typename T>
@@ -263,62 +378,162 @@ private:
         turned_ = std::move(turns.turned);
         counts_.turned_triangles += turns.count;
         counts_.split_edges += turns.crowded_edges;
-        join_fans(sides);
+        join_fans();
         turn_triangles();
     }
 
     /// Joins the corners of triangles around each vertex into fans. Fans may meet again elsewhere,
-    /// so that a side would come twice: then its later triangle stays apart.
-    void join_fans(const std::vector<Side>& sides) {
+    /// so that a side would come twice: then a pair of triangles is divided at the middle of the
+    /// side, so that nothing opens, and a triangle without a neighbour there stays apart.
+    void join_fans() {
         is_apart_.assign(mesh_.triangles.size(), false);
         const std::size_t split_before = counts_.split_edges;
         do {
             counts_.split_edges = split_before;
-            join_but_apart(sides);
-        } while (keep_crowded_apart());
+            join_but_apart(sorted_sides(mesh_.triangles));
+        } while (part_repeated_sides());
     }
+
+    /// Whether a side runs from its smaller vertex to its larger one once its triangle is turned.
+    bool rises(const Side& side) const { return side.rises != (turned_[side.triangle] != 0); }
 
     /// Joins the corners of two triangles at both ends of the edge they share and agree about. A
     /// corner's number is three times its triangle's plus its place.
     void join_but_apart(const std::vector<Side>& sides) {
         fans_ = Groups(mesh_.triangles.size() * 3);
+        mates_.assign(mesh_.triangles.size(), {no_index, no_index, no_index});
         for_each_joint(sides, named_, [&](std::span<const Side> edge) {
-            if (edge.size() != 2) {
-                return;
-            }
-            const auto rises = [&](const Side& side) {
-                return side.rises != (turned_[side.triangle] != 0);
-            };
-            if (rises(edge[0]) == rises(edge[1]) || is_apart_[edge[0].triangle] ||
-                is_apart_[edge[1].triangle]) {
+            if (edge.size() > 2) {
+                join_bodies(edge);
+            } else if (edge.size() == 2 && !join(edge[0], edge[1])) {
                 ++counts_.split_edges;
-                return;
             }
-            fans_.join(corner_of(edge[0], true), corner_of(edge[1], true));
-            fans_.join(corner_of(edge[0], false), corner_of(edge[1], false));
         });
     }
 
-    /// Marks the later triangles of each side that would come twice; false where there is none.
-    bool keep_crowded_apart() {
-        std::vector<std::array<std::uint32_t, 3>> ends; // of a side: from, to; its triangle
-        ends.reserve(mesh_.triangles.size() * 3);
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t from = fans_.group_of(t * 3 + k);
-                const std::uint32_t to = fans_.group_of(t * 3 + (k + 1) % 3);
-                ends.push_back(turned_[t] != 0 ? std::array{to, from, t} : std::array{from, to, t});
+    bool join(const Side& one, const Side& other) {
+        if (rises(one) == rises(other) || is_apart_[one.triangle] || is_apart_[other.triangle]) {
+            return false;
+        }
+        fans_.join(corner_of(one, true), corner_of(other, true));
+        fans_.join(corner_of(one, false), corner_of(other, false));
+        mates_[one.triangle][one.corner] = other.triangle;
+        mates_[other.triangle][other.corner] = one.triangle;
+        return true;
+    }
+
+    /// Joins two triangles each at an edge where bodies touch: those with the inside of one body
+    /// between them. Nothing where the triangles at the edge bound no bodies.
+    void join_bodies(std::span<const Side> edge) {
+        const glm::dvec3& from_m = mesh_.vertices_m[edge[0].least];
+        const glm::dvec3 along_m = mesh_.vertices_m[edge[0].most] - from_m;
+        const auto outwards_m = [&](const Side& side) {
+            return mesh_.vertices_m[mesh_.triangles[side.triangle][(side.corner + 2U) % 3U]] -
+                   from_m;
+        };
+        const glm::dvec3 up = glm::cross(along_m, outwards_m(edge[0]));
+        const glm::dvec3 right = glm::cross(up, along_m) / glm::length(along_m);
+
+        struct Turn {
+            double turn; ///< around the edge from its first triangle on, rises from 0 to 4
+            bool enters; ///< the body lies behind it
+            Side side;
+        };
+
+        std::vector<Turn> around;
+        for (const Side& side : edge) {
+            const glm::dvec3 out_m = outwards_m(side);
+            const double x = glm::dot(out_m, right);
+            const double y = glm::dot(out_m, up);
+            const double part =
+                y / std::max(std::abs(x) + std::abs(y), std::numeric_limits<double>::min());
+            around.push_back(
+                {x < 0.0 ? 2.0 - part : (y < 0.0 ? 4.0 + part : part), !rises(side), side});
+        }
+        // Of two that coincide the one that leaves a body comes first: none has its back in it.
+        std::ranges::stable_sort(
+            around, {}, [](const Turn& one) { return std::pair(one.turn, one.enters); });
+        if (2 * std::ranges::count_if(around, &Turn::enters) != std::ranges::ssize(around)) {
+            return;
+        }
+        std::vector<Side> entered;
+        for (int round = 0; round < 2; ++round) {
+            for (const Turn& one : around) {
+                if (one.enters && round == 0) {
+                    entered.push_back(one.side);
+                } else if (
+                    !one.enters && !entered.empty() &&
+                    mates_[one.side.triangle][one.side.corner] == no_index) {
+                    join(entered.back(), one.side);
+                    entered.pop_back();
+                }
             }
+        }
+    }
+
+    /// Of each side that would come twice the later one is parted; false where there is none.
+    bool part_repeated_sides() {
+        std::vector<std::array<std::uint32_t, 3>> ends; // of a side: from, to; its corner
+        ends.reserve(mesh_.triangles.size() * 3);
+        for (std::uint32_t corner = 0; corner < mesh_.triangles.size() * 3; ++corner) {
+            const std::uint32_t t = corner / 3;
+            const std::uint32_t from = fans_.group_of(corner);
+            const std::uint32_t to = fans_.group_of(t * 3 + (corner + 1) % 3);
+            ends.push_back(
+                turned_[t] != 0 ? std::array{to, from, corner} : std::array{from, to, corner});
         }
         std::ranges::sort(ends);
         bool any = false;
+        std::vector<bool> touched(mesh_.triangles.size(), false);
         for (std::size_t i = 1; i < ends.size(); ++i) {
-            if (ends[i][0] == ends[i - 1][0] && ends[i][1] == ends[i - 1][1]) {
-                is_apart_[ends[i][2]] = true;
-                any = true;
+            if (ends[i][0] != ends[i - 1][0] || ends[i][1] != ends[i - 1][1]) {
+                continue;
+            }
+            any = true;
+            const auto mate_of = [&](const std::array<std::uint32_t, 3>& end) {
+                return mates_[end[2] / 3][end[2] % 3];
+            };
+            const std::uint32_t triangle = ends[i][2] / 3;
+            const std::uint32_t mate = mate_of(ends[i]);
+            if (mate == no_index) {
+                is_apart_[triangle] = true;
+            } else if (mate_of(ends[i - 1]) == no_index) {
+                is_apart_[ends[i - 1][2] / 3] = true;
+            } else if (ends[i][0] < ends[i][1] && !touched[triangle] && !touched[mate]) {
+                touched[triangle] = touched[mate] = true;
+                divide(ends[i][2]); // each pair has the side both ways
             }
         }
         return any;
+    }
+
+    /// Divides a triangle and its mate at the middle of the side that a corner begins.
+    void divide(std::uint32_t corner) {
+        const std::uint32_t triangle = corner / 3;
+        const std::uint32_t mate = mates_[triangle][corner % 3];
+        const std::uint32_t from = mesh_.triangles[triangle][corner % 3];
+        const std::uint32_t to = mesh_.triangles[triangle][(corner + 1) % 3];
+        std::size_t mate_from = 0;
+        while (std::minmax(
+                   mesh_.triangles[mate][mate_from], mesh_.triangles[mate][(mate_from + 1) % 3]) !=
+               std::minmax(from, to)) {
+            ++mate_from;
+        }
+        const std::uint32_t middle = copy_of(from);
+        mesh_.vertices_m[middle] = 0.5 * (mesh_.vertices_m[from] + mesh_.vertices_m[to]);
+        if (!mesh_.colours.empty()) {
+            mesh_.colours[middle] = 0.5F * (mesh_.colours[from] + mesh_.colours[to]);
+        }
+        for (const auto& [at, k] :
+             {std::pair<std::uint32_t, std::size_t>(triangle, corner % 3), {mate, mate_from}}) {
+            const glm::vec3 colour =
+                corner_colours_.empty()
+                    ? glm::vec3(0.0F)
+                    : 0.5F * (corner_colours_[at][k] + corner_colours_[at][(k + 1) % 3]);
+            divide_side(at, k, {middle, middle, 0.5F, colour});
+            turned_.push_back(std::uint8_t(turned_[at]));
+            is_apart_.push_back(false);
+        }
     }
 
     /// At the smaller or the larger vertex of a side.
@@ -423,6 +638,8 @@ private:
     std::vector<CornerColours> corner_colours_;
     std::vector<std::uint8_t> turned_; ///< 1 for triangles that are to be turned
     std::vector<bool> is_apart_;       ///< triangles that share no vertex with others
+    std::vector<Triangle>
+        mates_; ///< the triangle joined at each side that a corner begins, or no_index
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
     Groups fans_{0}; ///< of corners
 };

@@ -24,7 +24,9 @@ struct RepairedMesh {
 /// Makes an oriented manifold, perhaps with boundary and of several shells, out of a mesh as found
 /// in the field. Vertices and triangles that stay keep their order. Nothing but rims that nearly
 /// touch moves; triangles that are only degenerate by area are taken out too. Where shells touch
-/// along an edge each keeps its own, if their triangles named it by vertices of their own.
+/// along an edge each keeps its own, if their triangles named it by vertices of their own or if each
+/// is closed. A closed shell stays closed; where it touches itself along an edge, a vertex in the
+/// middle of the edge is added.
 RepairedMesh repaired(TriangleMesh mesh, Seams seams = Seams::Welded);
 
 } // namespace octant::models::repair

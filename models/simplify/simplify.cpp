@@ -386,18 +386,22 @@ private:
     Simplified result_;
 };
 
-} // namespace
+/// Where the wanted number of triangles cannot be met, this share of a result's area may be turned
+/// against the original; so many larger numbers, a quarter larger each, are tried until it is less.
+constexpr double max_folded_share = 0.003;
+constexpr int max_unfolding_tries = 4;
 
-Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options) {
-    const bool is_met =
-        (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
-        (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
-    if (original.triangles.empty() || is_met) {
-        return {.mesh = original, .sequence = {original, {}}};
-    }
-    if (options.goal.error_m) {
-        return ErrorSearch(original, options).find();
-    }
+bool is_folded(const TriangleMesh& mesh, const TriangleMesh& original) {
+    constexpr std::size_t samples = 20'000;
+    const double rms_m =
+        measure::sampled_distance(mesh, measure::TargetSurface(original), {.samples = samples})
+            .rms_m;
+    return measure::flipped_area_share(mesh, original, {.reach_m = rms_m, .samples = samples}) >
+           max_folded_share;
+}
+
+/// Simplifies a mesh to a number of triangles or vertices, or as far as edges can collapse.
+Simplified to_count(const TriangleMesh& original, const SimplifyOptions& options) {
     Simplified result;
     const double start_s = cpu_s();
     Simplification work(original, options);
@@ -413,6 +417,36 @@ Simplified simplified(const TriangleMesh& original, const SimplifyOptions& optio
     if (result.shells_gone == 0 && result.handles_cut == 0) {
         result.sequence.collapses = std::move(work.collapses());
         result.sequence.original = original;
+    }
+    return result;
+}
+
+} // namespace
+
+Simplified simplified(const TriangleMesh& original, const SimplifyOptions& options) {
+    const bool is_met =
+        (options.goal.faces && original.triangles.size() <= *options.goal.faces) ||
+        (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
+    if (original.triangles.empty() || is_met) {
+        return {.mesh = original, .sequence = {original, {}}};
+    }
+    if (options.goal.error_m) {
+        return ErrorSearch(original, options).find();
+    }
+    Simplified result = to_count(original, options);
+    // Where no edge can collapse any more, the last collapses have mostly folded the surface.
+    SimplifyOptions fewer = options;
+    fewer.goal = {{}, result.mesh.triangles.size(), {}};
+    const bool is_stuck =
+        (options.goal.faces && result.mesh.triangles.size() > *options.goal.faces) ||
+        (options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices);
+    for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original);
+         ++tries) {
+        *fewer.goal.faces += *fewer.goal.faces / 4 + 2;
+        if (*fewer.goal.faces >= original.triangles.size()) {
+            break;
+        }
+        result = to_count(original, fewer);
     }
     return result;
 }

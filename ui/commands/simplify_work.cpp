@@ -314,9 +314,10 @@ bool keeps_goals(
     if ((goal.faces && figure("faces") > static_cast<double>(*goal.faces)) ||
         (goal.vertices && figure("vertices") > static_cast<double>(*goal.vertices))) {
         const std::string held = holding_options(command);
-        refuse(
-            "no edge can collapse any more without folding the surface" +
-            (held.empty() ? "" : " or losing what is held by " + held));
+        refuse(fmt::format(
+            "no edge can collapse any more without folding the surface{}: {:.0f} triangles are left",
+            held.empty() ? "" : " or losing what is held by " + held,
+            figure("faces")));
     }
     return is_kept;
 }

@@ -4,8 +4,13 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <random>
 #include <utility>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::repair;
@@ -19,6 +24,54 @@ double volume_m3(const TriangleMesh& mesh) {
         sum += glm::dot(mesh.vertices_m[a], glm::cross(mesh.vertices_m[b], mesh.vertices_m[c]));
     }
     return sum / 6.0;
+}
+
+/// Vertices at one place made one.
+TriangleMesh named_by_place(TriangleMesh mesh) {
+    std::map<std::array<double, 3>, std::uint32_t> places;
+    std::vector<glm::dvec3> vertices_m;
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle) {
+            const glm::dvec3 at_m = mesh.vertices_m[vertex];
+            const auto next = static_cast<std::uint32_t>(places.size());
+            const auto [place, is_new] = places.try_emplace({at_m.x, at_m.y, at_m.z}, next);
+            if (is_new) {
+                vertices_m.push_back(at_m);
+            }
+            vertex = place->second;
+        }
+    }
+    mesh.vertices_m = std::move(vertices_m);
+    return mesh;
+}
+
+/// Takes out triangles that come twice: those between boxes.
+void take_out_walls(TriangleMesh& mesh) {
+    std::map<Triangle, int> times;
+    const auto sorted = [](Triangle triangle) {
+        std::ranges::sort(triangle);
+        return triangle;
+    };
+    for (const Triangle& triangle : mesh.triangles) {
+        ++times[sorted(triangle)];
+    }
+    std::erase_if(mesh.triangles, [&](const Triangle& one) { return times[sorted(one)] > 1; });
+}
+
+/// Boxes of one metre with these lowest corners; they share vertices.
+TriangleMesh boxes(const std::vector<glm::dvec3>& corners_m) {
+    TriangleMesh mesh;
+    for (const glm::dvec3& corner_m : corners_m) {
+        const TriangleMesh one = cube();
+        const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+        for (const glm::dvec3& vertex_m : one.vertices_m) {
+            mesh.vertices_m.push_back(vertex_m + corner_m);
+        }
+        for (const auto& [a, b, c] : one.triangles) {
+            mesh.triangles.push_back({a + first, b + first, c + first});
+        }
+    }
+    return named_by_place(mesh);
 }
 
 RepairedMesh checked(TriangleMesh mesh, Seams seams = Seams::Welded) {
@@ -162,10 +215,31 @@ TEST_CASE("triangles without an area go, and what only they had goes with them")
 
 TEST_CASE("a triangle without an area that closes a T-junction opens nothing when it goes") {
     TriangleMesh box; // its edge from corner 0 to 1 has a vertex in the middle, on one side
-    box.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
-                      {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0, 0}};
-    box.triangles = {{0, 3, 2}, {0, 2, 1}, {0, 8, 4}, {8, 1, 5}, {8, 5, 4}, {0, 1, 8}, {1, 2, 6},
-                     {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 6}, {4, 6, 7}};
+    box.vertices_m = {
+        {0, 0, 0},
+        {1, 0, 0},
+        {1, 1, 0},
+        {0, 1, 0},
+        {0, 0, 1},
+        {1, 0, 1},
+        {1, 1, 1},
+        {0, 1, 1},
+        {0.5, 0, 0}};
+    box.triangles = {
+        {0, 3, 2},
+        {0, 2, 1},
+        {0, 8, 4},
+        {8, 1, 5},
+        {8, 5, 4},
+        {0, 1, 8},
+        {1, 2, 6},
+        {1, 6, 5},
+        {2, 3, 7},
+        {2, 7, 6},
+        {3, 0, 4},
+        {3, 4, 7},
+        {4, 5, 6},
+        {4, 6, 7}};
     const RepairedMesh closed = checked(box);
     CHECK(closed.mesh.triangles.size() == 14);
     CHECK(closed.counts.degenerate_triangles == 1);
@@ -191,6 +265,96 @@ TEST_CASE("a triangle that comes again, either way round, is taken out; material
     CHECK(after.counts == RepairCounts{.doubled_triangles = 2, .shells = 1});
     CHECK(after.mesh.triangles == tetrahedron().triangles);
     CHECK(after.mesh.triangle_materials == std::vector<std::uint32_t>{0, 1, 0, 1});
+}
+
+TEST_CASE("a closed mesh stays closed where bodies touch, whatever came twice") {
+    SECTION("two boxes with a wall between them") {
+        const RepairedMesh after = checked(boxes({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}));
+        CHECK(after.counts.boundary_loops == 0);
+        CHECK(after.counts.doubled_triangles == 0);
+        CHECK(after.counts.shells == 2);
+        CHECK(volume_m3(after.mesh) == Approx(2.0));
+    }
+    SECTION("two boxes that touch along an edge, and a ring that touches itself") {
+        const RepairedMesh two = checked(boxes({{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}}));
+        CHECK(two.counts.boundary_loops == 0);
+        CHECK(two.counts.shells == 2);
+        // A ring of boxes without the walls between them that touches itself along an edge.
+        TriangleMesh ring = boxes(
+            {{0.0, 0.0, 0.0},
+             {0.0, 0.0, 1.0},
+             {0.0, 1.0, 1.0},
+             {0.0, 2.0, 1.0},
+             {0.0, 2.0, 0.0},
+             {1.0, 2.0, 0.0},
+             {1.0, 1.0, 0.0}});
+        take_out_walls(ring);
+        const RepairedMesh one = checked(ring);
+        CHECK(one.counts.boundary_loops == 0);
+        CHECK(one.counts.shells == 1);
+        CHECK(volume_m3(one.mesh) == Approx(7.0));
+    }
+    SECTION("a box that was written twice, with a sheet that has a back") {
+        TriangleMesh mesh = boxes({{0.0, 0.0, 0.0}});
+        mesh.vertices_m.emplace_back(5.0, 0.0, 0.0);
+        mesh.vertices_m.emplace_back(5.0, 1.0, 0.0);
+        mesh.vertices_m.emplace_back(5.0, 1.0, 1.0);
+        mesh.vertices_m.emplace_back(5.0, 0.0, 1.0);
+        const std::vector<Triangle> once = mesh.triangles;
+        mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+        for (const Triangle& one : {Triangle{8, 9, 10}, Triangle{8, 10, 11}}) {
+            mesh.triangles.push_back(one);
+            mesh.triangles.push_back({one[0], one[2], one[1]});
+        }
+        const RepairedMesh after = checked(mesh);
+        CHECK(after.counts.boundary_loops == 0);
+        CHECK(after.counts.doubled_triangles == 12);
+        // Both ends of the sheet's diagonal are on its rim, so one side gets a vertex in its
+        // middle.
+        CHECK(after.mesh.triangles.size() == 12 + 4 + 2);
+        CHECK(after.counts.shells == 2);
+        CHECK(volume_m3(after.mesh) == Approx(1.0));
+    }
+}
+
+TEST_CASE("boxes at random in a grid stay closed, with and without the walls between them") {
+    std::mt19937 random(7);
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<glm::dvec3> corners_m;
+        for (int cell = 0; cell < 27; ++cell) {
+            if (random() % 2 == 0) {
+                corners_m.emplace_back(cell % 3, cell / 3 % 3, cell / 9);
+            }
+        }
+        TriangleMesh mesh = boxes(corners_m);
+        if (trial % 2 == 1) {
+            take_out_walls(mesh);
+        }
+        const RepairedMesh after = repaired(mesh);
+        CHECK(manifold_fault(after.mesh).empty());
+        CHECK(after.counts.boundary_loops == 0);
+        CHECK(volume_m3(after.mesh) == Approx(static_cast<double>(corners_m.size())));
+    }
+}
+
+TEST_CASE("a triangle that is divided at a junction keeps its attributes") {
+    TriangleMesh mesh; // a triangle, and one without an area that has a vertex on its side
+    mesh.vertices_m = {{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, {1.0, 0.0, 0.0}};
+    mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+    mesh.texture_coordinates = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
+    mesh.corner_texture_coordinates = {{0, 1, 2}, {1, 0, 0}};
+    const RepairedMesh after = checked(mesh);
+    REQUIRE(after.mesh.triangles.size() == 2);
+    REQUIRE(after.mesh.corner_texture_coordinates.size() == 2);
+    for (std::size_t t = 0; t < 2; ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3& at_m = after.mesh.vertices_m[after.mesh.triangles[t][k]];
+            const glm::vec2& uv =
+                after.mesh.texture_coordinates[after.mesh.corner_texture_coordinates[t][k]];
+            CHECK(uv.x == Approx(at_m.x / 4.0));
+            CHECK(uv.y == Approx(at_m.y / 3.0));
+        }
+    }
 }
 
 TEST_CASE("of two directions the one that fewer triangles have is turned, with its normals") {
