@@ -119,7 +119,7 @@ std::vector<std::string> notes_of(const Omitted& omitted, const std::filesystem:
     tell(omitted.others, "objects that are no aircraft");
     tell(omitted.once, "aircraft that are seen at one time alone");
     tell(omitted.far, "aircraft more than 1,000 km away");
-    tell(omitted.many, fmt::format("aircraft beyond {}", most_taped_aircraft));
+    tell(omitted.many, fmt::format("aircraft beyond {}", max_taped_aircraft));
     tell(omitted.samples, "samples off the earth or faster than 3,000 m/s");
     return notes;
 }
@@ -152,7 +152,7 @@ AcmiTape acmi_tape(std::string_view text, const std::filesystem::path& file) {
     AcmiTape tape{{}, {first.latitude_deg, first.longitude_deg}, {}};
     const TransverseMercator frame(tape.origin);
     for (TapedObject& object : objects) {
-        if (tape.aircraft.size() == most_taped_aircraft) {
+        if (tape.aircraft.size() == max_taped_aircraft) {
             ++omitted.many;
             continue;
         }

@@ -29,7 +29,7 @@ struct AcmiTape {
     std::vector<std::string> notes;
 };
 
-inline constexpr std::size_t most_taped_aircraft = 256;
+inline constexpr std::size_t max_taped_aircraft = 256;
 
 /// Reads Tacview's ACMI 2.x text ("Technical Reference - ACMI flight recordings 2.2"): objects
 /// whose tags have Air among them, or that have none. What moves by fewer than 2 samples, lies more

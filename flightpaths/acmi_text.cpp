@@ -19,9 +19,9 @@ namespace octant::flightpaths {
 namespace {
 
 constexpr double longest_s = 86400.0;
-constexpr std::size_t most_objects = 1000000;
+constexpr std::size_t max_objects = 1000000;
 /// The most places of all objects together.
-constexpr std::size_t most_places = 20000000;
+constexpr std::size_t max_places = 20000000;
 
 struct Source {
     const std::filesystem::path& file;
@@ -126,8 +126,8 @@ private:
         }
         const auto [found, is_new] = now_.try_emplace(id, Present{objects_.size(), {}, false});
         if (is_new) {
-            if (objects_.size() == most_objects) {
-                at.refuse(fmt::format("at most {} objects", most_objects), line);
+            if (objects_.size() == max_objects) {
+                at.refuse(fmt::format("at most {} objects", max_objects), line);
             }
             objects_.emplace_back();
         }
@@ -194,8 +194,8 @@ private:
         object.has_attitude = object.has_attitude || count >= turned;
         place.time_s = time_s_;
         if (present.has_place) {
-            if (++places_ > most_places) {
-                at.refuse(fmt::format("at most {} places", most_places), text);
+            if (++places_ > max_places) {
+                at.refuse(fmt::format("at most {} places", max_places), text);
             }
             object.places.push_back(place);
         }

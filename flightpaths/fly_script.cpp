@@ -61,8 +61,8 @@ private:
     PointMass start() {
         const LimitsCheck::Subject speed{script_.start_line, "starting speed", " m/s"};
         const double speed_mps = check_.at_least(
-            check_.at_most(script_.speed_mps, limits_.most_speed_mps, speed),
-            least_flown_speed_mps(limits_),
+            check_.at_most(script_.speed_mps, limits_.max_speed_mps, speed),
+            min_flown_speed_mps(limits_),
             speed);
         return point_mass_at(
             {script_.east_m, script_.north_m, script_.height_m},
@@ -162,8 +162,8 @@ private:
     double within_energy(double acceleration_mps2) {
         const double climb_mps = velocity_mps(mass_).z;
         const double sustained_mps = climb_mps + mass_.speed_mps * acceleration_mps2 / gravity_mps2;
-        const double most_mps = limits_.climb_rate_mps;
-        if (sustained_mps <= most_mps + climb_slack_mps) {
+        const double max_mps = limits_.climb_rate_mps;
+        if (sustained_mps <= max_mps + climb_slack_mps) {
             return acceleration_mps2;
         }
         if (!lenient_ || !clipped_climb_) {
@@ -173,24 +173,24 @@ private:
                 sustained_mps - climb_mps + mass_.speed_mps * std::sin(leg.climb_rad.value_or(0.0));
             check_.at_most(
                 std::max(sustained_mps, aimed_mps),
-                most_mps,
+                max_mps,
                 {leg.line, "sustained climb rate", " m/s"});
             clipped_climb_ = true;
         }
-        return (most_mps - climb_mps) * gravity_mps2 / mass_.speed_mps;
+        return (max_mps - climb_mps) * gravity_mps2 / mass_.speed_mps;
     }
 
     double within_speeds(double acceleration_mps2) {
         const double next_mps = mass_.speed_mps + sim::step_s * acceleration_mps2;
-        const double most_mps = limits_.most_speed_mps;
-        const double least_mps = least_flown_speed_mps(limits_);
-        const double allowed_mps = std::clamp(next_mps, least_mps, most_mps);
+        const double max_mps = limits_.max_speed_mps;
+        const double min_mps = min_flown_speed_mps(limits_);
+        const double allowed_mps = std::clamp(next_mps, min_mps, max_mps);
         if (std::abs(next_mps - allowed_mps) <= 1e-6) {
             return acceleration_mps2;
         }
         if (!lenient_ || !clipped_speed_) {
             const LimitsCheck::Subject speed{legs_[leg_].line, "speed", " m/s"};
-            check_.at_least(check_.at_most(next_mps, most_mps, speed), least_mps, speed);
+            check_.at_least(check_.at_most(next_mps, max_mps, speed), min_mps, speed);
             clipped_speed_ = true;
         }
         return (allowed_mps - mass_.speed_mps) / sim::step_s;

@@ -34,7 +34,7 @@ struct Lift {
 };
 
 /// Largest value within `half` places to either side; the ends are repeated.
-std::vector<double> running_most(const std::vector<double>& values, std::size_t half) {
+std::vector<double> running_max(const std::vector<double>& values, std::size_t half) {
     std::vector<double> most(values.size());
     std::deque<std::size_t> falling;
     std::size_t next = 0;
@@ -53,11 +53,11 @@ std::vector<double> running_most(const std::vector<double>& values, std::size_t 
     return most;
 }
 
-std::vector<double> running_least(std::vector<double> values, std::size_t half) {
+std::vector<double> running_min(std::vector<double> values, std::size_t half) {
     for (double& value : values) {
         value = -value;
     }
-    values = running_most(values, half);
+    values = running_max(values, half);
     for (double& value : values) {
         value = -value;
     }
@@ -105,9 +105,9 @@ Slopes slopes_along(const sim::Trajectory& path, std::size_t steps, double climb
         const double speed_mps = glm::length(now);
         const double gain_mps2 = (glm::length(next) - speed_mps) / sim::step_s;
         const double spent_mps = std::max(0.0, now.z + speed_mps * gain_mps2 / gravity_mps2);
-        const double most_mps = std::min(climb_mps, steepest * speed_mps);
-        slopes.up_m.push_back(std::clamp(climb_mps - spent_mps, 0.0, most_mps) * sim::step_s);
-        slopes.down_m.push_back(most_mps * sim::step_s);
+        const double max_mps = std::min(climb_mps, steepest * speed_mps);
+        slopes.up_m.push_back(std::clamp(climb_mps - spent_mps, 0.0, max_mps) * sim::step_s);
+        slopes.down_m.push_back(max_mps * sim::step_s);
     }
     return slopes;
 }
@@ -116,9 +116,9 @@ Lift rounded_lift(const std::vector<double>& needed_m, const Slopes& slopes, std
     // Two means reach 2 * half to either side; one more for the slopes at the ends.
     const std::size_t pad = 2 * half + 1;
     const std::vector<double> envelope = slope_limited(
-        running_most(padded(needed_m, pad), 2 * half),
-        running_least(padded(slopes.up_m, pad), 2 * half),
-        running_least(padded(slopes.down_m, pad), 2 * half));
+        running_max(padded(needed_m, pad), 2 * half),
+        running_min(padded(slopes.up_m, pad), 2 * half),
+        running_min(padded(slopes.down_m, pad), 2 * half));
     const std::vector<double> smooth = running_mean(running_mean(envelope, half), half);
     Lift lift;
     for (std::size_t i = 1; i + 1 < smooth.size(); ++i) {
@@ -131,9 +131,9 @@ Lift rounded_lift(const std::vector<double>& needed_m, const Slopes& slopes, std
 }
 
 Lift level_lift(const std::vector<double>& needed_m) {
-    const double most_m = *std::max_element(needed_m.begin(), needed_m.end());
+    const double max_m = *std::max_element(needed_m.begin(), needed_m.end());
     const std::vector<double> zeros(needed_m.size(), 0.0);
-    return {std::vector<double>(needed_m.size(), most_m), zeros, zeros};
+    return {std::vector<double>(needed_m.size(), max_m), zeros, zeros};
 }
 
 bool is_level(const Lift& lift) {
@@ -171,14 +171,14 @@ double step_of(const sim::Trajectory& path, double time_s) {
 }
 
 bool within(const sim::Trajectory& path, const Lift& lift, const sim::AircraftLimits& limits) {
-    const double half_most = 0.5 * (1.0 + limits.most_load_factor);
-    const double half_least = 0.5 * (1.0 + limits.least_load_factor);
+    const double half_max = 0.5 * (1.0 + limits.max_load_factor);
+    const double half_min = 0.5 * (1.0 + limits.min_load_factor);
     for (const sim::AircraftState& state : path.samples()) {
         const double own = state.load_factor;
         const double most = std::min(
-            std::max(half_most, own + small_change_g), std::max(limits.most_load_factor, own));
+            std::max(half_max, own + small_change_g), std::max(limits.max_load_factor, own));
         const double least = std::max(
-            std::min(half_least, own - small_change_g), std::min(limits.least_load_factor, own));
+            std::min(half_min, own - small_change_g), std::min(limits.min_load_factor, own));
         const double got = lifted(state, lift, step_of(path, state.time_s)).load_factor;
         if (got > most + 1e-9 || got < least - 1e-9) {
             return false;

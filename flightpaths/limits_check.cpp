@@ -29,8 +29,8 @@ std::string short_number(double value) {
 struct Peaks {
     double bank_rad = 0.0;
     double roll_rate_radps = 0.0;
-    double most_load_factor = 1.0;
-    double least_load_factor = 1.0;
+    double max_load_factor = 1.0;
+    double min_load_factor = 1.0;
     double load_factor_rate_gps = 0.0;
 };
 
@@ -41,8 +41,8 @@ Peaks peaks_of(const Leg& weave) {
         const Aim aim = weave_aim(weave, sim::time_of_step(step), 0.0);
         peaks.bank_rad = std::max(peaks.bank_rad, std::abs(aim.bank_rad));
         peaks.roll_rate_radps = std::max(peaks.roll_rate_radps, std::abs(aim.bank_rate_radps));
-        peaks.most_load_factor = std::max(peaks.most_load_factor, aim.load_factor);
-        peaks.least_load_factor = std::min(peaks.least_load_factor, aim.load_factor);
+        peaks.max_load_factor = std::max(peaks.max_load_factor, aim.load_factor);
+        peaks.min_load_factor = std::min(peaks.min_load_factor, aim.load_factor);
         peaks.load_factor_rate_gps =
             std::max(peaks.load_factor_rate_gps, std::abs(aim.load_factor_rate_gps));
     }
@@ -115,15 +115,15 @@ Leg LimitsCheck::checked(const Leg& leg) const {
     if (flown.to_speed_mps) {
         const LimitsCheck::Subject speed{leg.line, "speed", " m/s"};
         flown.to_speed_mps = at_least(
-            at_most(*flown.to_speed_mps, limits_.most_speed_mps, speed),
-            least_flown_speed_mps(limits_),
+            at_most(*flown.to_speed_mps, limits_.max_speed_mps, speed),
+            min_flown_speed_mps(limits_),
             speed);
     }
     if (flown.load_factor) {
         const LimitsCheck::Subject load{leg.line, "load factor", ""};
         flown.load_factor = at_least(
-            at_most(*flown.load_factor, limits_.most_load_factor, load),
-            limits_.least_load_factor,
+            at_most(*flown.load_factor, limits_.max_load_factor, load),
+            limits_.min_load_factor,
             load);
     }
     check_turn(flown);
@@ -149,7 +149,7 @@ void LimitsCheck::check_turn(Leg& leg) const {
     }
     if (turn) {
         const double by_load =
-            deg_from_rad(std::acos(std::min(1.0, level / limits_.most_load_factor)));
+            deg_from_rad(std::acos(std::min(1.0, level / limits_.max_load_factor)));
         limit = std::min(limit, by_load);
     }
     if (leg.bank_rad) {
@@ -170,11 +170,11 @@ std::string LimitsCheck::weave_fault(const Leg& leg) const {
             short_number(got));
     };
     constexpr double most = 1.0 + slack;
-    if (peaks.most_load_factor > limits_.most_load_factor * most) {
-        return fault("load factor", "most", limits_.most_load_factor, peaks.most_load_factor);
+    if (peaks.max_load_factor > limits_.max_load_factor * most) {
+        return fault("load factor", "most", limits_.max_load_factor, peaks.max_load_factor);
     }
-    if (peaks.least_load_factor < limits_.least_load_factor - slack) {
-        return fault("load factor", "least", limits_.least_load_factor, peaks.least_load_factor);
+    if (peaks.min_load_factor < limits_.min_load_factor - slack) {
+        return fault("load factor", "least", limits_.min_load_factor, peaks.min_load_factor);
     }
     if (peaks.bank_rad > limits_.bank_rad * most) {
         return fault(
@@ -225,8 +225,8 @@ void LimitsCheck::check_weave(Leg& leg) const {
     leg = shrunk(fits);
 }
 
-double least_flown_speed_mps(const sim::AircraftLimits& limits) {
-    return std::max(limits.least_speed_mps, 5.0);
+double min_flown_speed_mps(const sim::AircraftLimits& limits) {
+    return std::max(limits.min_speed_mps, 5.0);
 }
 
 std::string
@@ -258,11 +258,11 @@ beyond_limits(const sim::AircraftLimits& limits, const sim::Trajectory& path, bo
         return std::abs(euler_from_body_to_world(state.body_to_world).roll_rad);
     };
     const double kt = kt_from_mps(1.0);
-    check("speed in kt", limits.most_speed_mps, speed_mps, kt, true);
+    check("speed in kt", limits.max_speed_mps, speed_mps, kt, true);
     if (is_smooth) {
-        check("speed in kt", limits.least_speed_mps, speed_mps, kt, false);
-        check("load factor", limits.most_load_factor, load, 1.0, true);
-        check("load factor", limits.least_load_factor, load, 1.0, false);
+        check("speed in kt", limits.min_speed_mps, speed_mps, kt, false);
+        check("load factor", limits.max_load_factor, load, 1.0, true);
+        check("load factor", limits.min_load_factor, load, 1.0, false);
         check("bank in degrees", limits.bank_rad, bank_rad, deg_from_rad(1.0), true);
     }
     return fmt::format("{}", fmt::join(beyond, ", "));

@@ -51,7 +51,7 @@ private:
 
 /// The slowest speed that legs may be flown at: lift bends the path of a point mass only while it
 /// moves, so a hover is no leg.
-double least_flown_speed_mps(const sim::AircraftLimits& limits);
+double min_flown_speed_mps(const sim::AircraftLimits& limits);
 
 /// What of a motion lies more than 5 % beyond the limits of an aircraft that it was not made for,
 /// as "speed in kt up to 486 (at most 152), load factor up to 4 (at most 2)"; empty where all is

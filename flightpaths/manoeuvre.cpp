@@ -66,7 +66,7 @@ Controls LegPilot::controls(const PointMass& now, double since_s) const {
     Controls controls;
     controls.roll_rate_radps = roll_rate(now, to);
     const double aimed =
-        std::clamp(to.load_factor, limits_.least_load_factor, limits_.most_load_factor);
+        std::clamp(to.load_factor, limits_.min_load_factor, limits_.max_load_factor);
     controls.load_factor_rate_gps = std::clamp(
         to.load_factor_rate_gps + (aimed - now.load_factor) / load_factor_lag_s,
         -limits_.load_factor_rate_gps,

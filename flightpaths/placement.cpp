@@ -105,7 +105,7 @@ struct Choice {
 };
 
 /// The heading of least height difference on the ground; nothing when every heading leaves the map.
-std::optional<Choice> least_relief(
+std::optional<Choice> min_relief(
     const std::vector<glm::dvec3>& places_m,
     const glm::dvec2& pivot_m,
     const glm::dvec2& place_m,
@@ -148,9 +148,9 @@ Choice chosen(
     if (placement.heading_rad) {
         return {wrapped_to_two_pi(*placement.heading_rad), placement.place_m};
     }
-    auto best = least_relief(places_m, glm::dvec2(0.0), placement.place_m, ground);
+    auto best = min_relief(places_m, glm::dvec2(0.0), placement.place_m, ground);
     if (!best) {
-        best = least_relief(places_m, middle_of(places_m), placement.place_m, ground);
+        best = min_relief(places_m, middle_of(places_m), placement.place_m, ground);
     }
     if (best) {
         return *best;
@@ -217,13 +217,13 @@ void check_clear(
         std::max(0.0, -clearance_m)));
 }
 
-double least_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
-    double least_m = std::numeric_limits<double>::infinity();
+double min_added_m(const sim::Trajectory& before, const sim::Trajectory& after) {
+    double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < before.samples().size(); ++i) {
-        least_m =
-            std::min(least_m, after.samples()[i].position_m.z - before.samples()[i].position_m.z);
+        min_m =
+            std::min(min_m, after.samples()[i].position_m.z - before.samples()[i].position_m.z);
     }
-    return least_m;
+    return min_m;
 }
 
 LiftedPath following(
@@ -284,7 +284,7 @@ PlacedPath place_over_ground(
         lowest = lowest_of(places_m, ground_m);
     }
     check_clear(times_s, places_m, ground_m);
-    const double offset_m = least_added_m(over, placed);
+    const double offset_m = min_added_m(over, placed);
     std::vector<std::string> notes;
     if (!follows) {
         notes.push_back(fmt::format(

@@ -46,9 +46,9 @@ struct Side {
     bool rises = true; ///< from least to most
 
     /// Its corners at the smaller and at the larger vertex.
-    std::uint32_t least_corner() const { return rises ? corner : (corner + 1U) % 3U; }
+    std::uint32_t min_corner() const { return rises ? corner : (corner + 1U) % 3U; }
 
-    std::uint32_t most_corner() const { return rises ? (corner + 1U) % 3U : corner; }
+    std::uint32_t max_corner() const { return rises ? (corner + 1U) % 3U : corner; }
 
     bool operator==(const Side&) const = default;
 };

@@ -28,14 +28,14 @@ std::uint64_t spread_bits(std::uint64_t number) {
 std::vector<std::uint64_t> morton_places(const TriangleMesh& mesh) {
     constexpr double cells = (1U << 21U) - 1;
     const Bounds bounds = bounds_of(mesh);
-    const glm::dvec3 size_m = bounds.most_m - bounds.least_m;
+    const glm::dvec3 size_m = bounds.max_m - bounds.min_m;
     const double longest_m = std::max({size_m.x, size_m.y, size_m.z, 1e-300});
     std::vector<std::uint64_t> places;
     places.reserve(mesh.vertices_m.size());
     for (const glm::dvec3& vertex_m : mesh.vertices_m) {
         std::uint64_t place = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            const double share = (vertex_m[axis] - bounds.least_m[axis]) / longest_m;
+            const double share = (vertex_m[axis] - bounds.min_m[axis]) / longest_m;
             const double cell =
                 share > 0.0 ? std::min(share, 1.0) * cells : 0.0; // Also if no number.
             place |= spread_bits(static_cast<std::uint64_t>(cell)) << axis;
@@ -85,8 +85,8 @@ Bounds bounds_of(const TriangleMesh& mesh) {
     Bounds bounds{first_m, first_m};
     for (const Triangle& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
-            bounds.least_m = glm::min(bounds.least_m, mesh.vertices_m[vertex]);
-            bounds.most_m = glm::max(bounds.most_m, mesh.vertices_m[vertex]);
+            bounds.min_m = glm::min(bounds.min_m, mesh.vertices_m[vertex]);
+            bounds.max_m = glm::max(bounds.max_m, mesh.vertices_m[vertex]);
         }
     }
     return bounds;
@@ -94,7 +94,7 @@ Bounds bounds_of(const TriangleMesh& mesh) {
 
 double diagonal_m(const TriangleMesh& mesh) {
     const Bounds bounds = bounds_of(mesh);
-    return glm::distance(bounds.least_m, bounds.most_m);
+    return glm::distance(bounds.min_m, bounds.max_m);
 }
 
 void sort_in_space(TriangleMesh& mesh) {

@@ -43,8 +43,8 @@ struct TriangleMesh {
 
 /// Smallest and largest coordinates of the vertices that triangles use; both 0 without triangles.
 struct Bounds {
-    glm::dvec3 least_m{0.0};
-    glm::dvec3 most_m{0.0};
+    glm::dvec3 min_m{0.0};
+    glm::dvec3 max_m{0.0};
 };
 
 Bounds bounds_of(const TriangleMesh& mesh);

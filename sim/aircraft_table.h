@@ -20,7 +20,7 @@ struct AircraftKind {
     std::string_view name;
     AircraftLimits limits;
     FlightModel flight_model = FlightModel::FixedWing;
-    /// Slowest level flight that is handed to a pilot; not below limits.least_speed_mps.
+    /// Slowest level flight that is handed to a pilot; not below limits.min_speed_mps.
     double slowest_handed_over_mps = 0.0;
     /// Where the pilot's eye is, in body axes.
     glm::dvec3 pilot_eye_m{0.0};
@@ -54,13 +54,13 @@ in_detail(AircraftKind kind, std::string_view name, std::string_view file, doubl
 inline constexpr AircraftKind f15_kind{
     .name = "f15",
     .limits =
-        {.least_load_factor = -3.0,
-         .most_load_factor = 7.33,
+        {.min_load_factor = -3.0,
+         .max_load_factor = 7.33,
          .load_factor_rate_gps = 6.0,
          .roll_rate_radps = rad_from_deg(200.0),
          .bank_rad = pi,
-         .least_speed_mps = 80.0,
-         .most_speed_mps = mps_from_kt(800.0),
+         .min_speed_mps = 80.0,
+         .max_speed_mps = mps_from_kt(800.0),
          .climb_rate_mps = 254.0,
          .acceleration_mps2 = 8.0},
     .flight_model = FlightModel::FixedWing,
@@ -79,13 +79,13 @@ inline constexpr AircraftKind f15_kind{
 inline constexpr AircraftKind md500_kind{
     .name = "500md",
     .limits =
-        {.least_load_factor = 0.3,
-         .most_load_factor = 2.0,
+        {.min_load_factor = 0.3,
+         .max_load_factor = 2.0,
          .load_factor_rate_gps = 2.0,
          .roll_rate_radps = rad_from_deg(60.0),
          .bank_rad = rad_from_deg(60.0),
-         .least_speed_mps = 0.0,
-         .most_speed_mps = mps_from_kt(152.0),
+         .min_speed_mps = 0.0,
+         .max_speed_mps = mps_from_kt(152.0),
          .climb_rate_mps = 8.6,
          .acceleration_mps2 = 3.0},
     .flight_model = FlightModel::Helicopter,

@@ -59,7 +59,7 @@ double lift_coefficient(double alpha_rad) {
     double lift = lift_slope * size_rad;
     if (size_rad > linear_alpha_rad) {
         const double to_peak = stall_alpha_rad - std::min(size_rad, stall_alpha_rad);
-        lift = most_lift_coefficient - 0.5 * lift_slope / bend_rad * to_peak * to_peak;
+        lift = max_lift_coefficient - 0.5 * lift_slope / bend_rad * to_peak * to_peak;
     }
     if (size_rad > stall_alpha_rad) {
         const double plate = plate_drag * std::sin(size_rad) * std::abs(std::cos(size_rad));
@@ -69,12 +69,12 @@ double lift_coefficient(double alpha_rad) {
 }
 
 double alpha_of_lift(double coefficient) {
-    const double size = std::min(std::abs(coefficient), most_lift_coefficient);
+    const double size = std::min(std::abs(coefficient), max_lift_coefficient);
     const double alpha_rad =
         size <= lift_slope * linear_alpha_rad
             ? size / lift_slope
             : stall_alpha_rad -
-                  std::sqrt((most_lift_coefficient - size) * 2.0 * bend_rad / lift_slope);
+                  std::sqrt((max_lift_coefficient - size) * 2.0 * bend_rad / lift_slope);
     return std::copysign(alpha_rad, coefficient);
 }
 

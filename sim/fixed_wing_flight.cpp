@@ -51,7 +51,7 @@ constexpr double recovery_lag_s = 2.0;
 constexpr double fastest_recovery_radps = rad_from_deg(8.0);
 /// Of the wing's lift; the rest is the margin to the next stall.
 constexpr double recovery_share = 0.7;
-constexpr double least_upright = 0.4;
+constexpr double min_upright = 0.4;
 constexpr double moved_stick = 0.05;
 constexpr double level_again_rad = rad_from_deg(0.2);
 
@@ -86,7 +86,7 @@ Trim level_trim(double speed_mps, const Air& air) {
     for (int i = 0; i < 60; ++i) {
         const double lift_n = weight_n - thrust_n * std::sin(trim.alpha_rad);
         trim.alpha_rad = f15::alpha_of_lift(
-            std::clamp(lift_n / scale_n, -f15::most_lift_coefficient, f15::most_lift_coefficient));
+            std::clamp(lift_n / scale_n, -f15::max_lift_coefficient, f15::max_lift_coefficient));
         thrust_n =
             scale_n * f15::drag_coefficient(trim.alpha_rad, 0.0, mach) / std::cos(trim.alpha_rad);
     }
@@ -113,7 +113,7 @@ FixedWingFlight::FixedWingFlight(const AircraftLimits& limits, const AircraftSta
     lever_ = trim_lever_;
     now_ = flow(start.velocity_mps, start.body_to_world, 0.0);
     asked_load_factor_ =
-        std::clamp(start.load_factor, limits_.least_load_factor, limits_.most_load_factor);
+        std::clamp(start.load_factor, limits_.min_load_factor, limits_.max_load_factor);
     asked_alpha_rad_ = wanted_alpha_rad(asked_load_factor_, now_.speed_mps, 0.0);
     warnings_ = {}; // nothing has been flown yet
     if (now_.speed_mps > full_authority_mps) {
@@ -149,8 +149,8 @@ FixedWingFlight::Flow FixedWingFlight::flow(
     flow.thrust_lift_n = glm::dot(thrust_n, lifting);
     const double lift_n = std::clamp(
         scale_n * f15::lift_coefficient(alpha_rad),
-        limits_.least_load_factor * weight_n - flow.thrust_lift_n,
-        limits_.most_load_factor * weight_n - flow.thrust_lift_n);
+        limits_.min_load_factor * weight_n - flow.thrust_lift_n,
+        limits_.max_load_factor * weight_n - flow.thrust_lift_n);
     const double drag_n = scale_n * f15::drag_coefficient(alpha_rad, flow.beta_rad, mach);
     const double side_n = scale_n * f15::side_coefficient(flow.beta_rad);
     flow.load_factor = (lift_n + flow.thrust_lift_n) / weight_n;
@@ -165,13 +165,13 @@ FixedWingFlight::Flow FixedWingFlight::flow(
 double FixedWingFlight::wanted_alpha_rad(double load_factor, double speed_mps, double pull) {
     const double scale_n = std::max(1.0, lift_scale_n(air_, speed_mps));
     const double wanted = (load_factor * weight_n - now_.thrust_lift_n) / scale_n;
-    const double share = std::abs(wanted) / f15::most_lift_coefficient;
+    const double share = std::abs(wanted) / f15::max_lift_coefficient;
     warnings_.stalled = share > 1.0;
     double alpha_rad = f15::alpha_of_lift(wanted);
     if (warnings_.stalled) {
-        const double most_rad =
+        const double max_rad =
             centred_beyond_rad + (pulled_beyond_rad - centred_beyond_rad) * std::abs(pull);
-        const double beyond_rad = std::min(most_rad, (share - 1.0) * 10.0 * beyond_stall_rad);
+        const double beyond_rad = std::min(max_rad, (share - 1.0) * 10.0 * beyond_stall_rad);
         alpha_rad += std::copysign(beyond_rad, wanted);
     }
     return alpha_rad * authority(speed_mps);
@@ -204,22 +204,22 @@ glm::dvec3 FixedWingFlight::turn_radps(
 }
 
 /// The load factor at which the wing stalls.
-double FixedWingFlight::most_load_factor() const {
-    return lift_scale_n(air_, now_.speed_mps) * f15::most_lift_coefficient / weight_n;
+double FixedWingFlight::max_load_factor() const {
+    return lift_scale_n(air_, now_.speed_mps) * f15::max_lift_coefficient / weight_n;
 }
 
 bool FixedWingFlight::is_safe(double climb_rad) const {
-    return std::abs(climb_rad) < level_again_rad && most_load_factor() > safe_load_factor;
+    return std::abs(climb_rad) < level_again_rad && max_load_factor() > safe_load_factor;
 }
 
 /// The load factor of a centred stick after a stall: it brings the climb angle to one at which the
 /// aircraft gathers the speed it lacks, and to level flight once it has that.
 double FixedWingFlight::recovering_load_factor(double climb_rad, double centred) const {
-    const double most = most_load_factor();
+    const double most = max_load_factor();
     const double wanted_rad =
         -std::clamp((safe_load_factor - most) * dive_rad_per_g, 0.0, steepest_recovery_rad);
     const double up = -glm::dot(state_.body_to_world * body_down, glm::dvec3(0.0, 0.0, 1.0));
-    if (up < least_upright) {
+    if (up < min_upright) {
         return centred;
     }
     const double turning_radps = std::clamp(
@@ -240,24 +240,24 @@ void FixedWingFlight::ask(const PilotControls& controls) {
     if (recovers_ && !warnings_.stalled) {
         centred = recovering_load_factor(climb_rad, centred);
     }
-    const double range = controls.pitch >= 0.0 ? limits_.most_load_factor - centred
-                                               : centred - limits_.least_load_factor;
+    const double range = controls.pitch >= 0.0 ? limits_.max_load_factor - centred
+                                               : centred - limits_.min_load_factor;
     asked_load_factor_ = lagged(
         asked_load_factor_,
         centred + controls.pitch * range,
         load_factor_lag_s,
         limits_.load_factor_rate_gps);
-    const double most_roll_radps =
+    const double max_roll_radps =
         limits_.roll_rate_radps * std::min(1.0, speed_mps / full_roll_mps) *
         (1.0 -
          0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(now_.alpha_rad)));
-    roll_radps_ = lagged(roll_radps_, controls.roll * most_roll_radps, roll_lag_s);
-    roll_radps_ = std::clamp(roll_radps_, -most_roll_radps, most_roll_radps);
+    roll_radps_ = lagged(roll_radps_, controls.roll * max_roll_radps, roll_lag_s);
+    roll_radps_ = std::clamp(roll_radps_, -max_roll_radps, max_roll_radps);
     asked_beta_rad_ = lagged(asked_beta_rad_, -controls.yaw * full_rudder_rad, rudder_lag_s);
-    warnings_.at_a_limit = asked_load_factor_ > limits_.most_load_factor - 0.02 ||
-                           asked_load_factor_ < limits_.least_load_factor + 0.02 ||
-                           std::abs(roll_radps_) > 0.99 * most_roll_radps ||
-                           speed_mps > limits_.most_speed_mps;
+    warnings_.at_a_limit = asked_load_factor_ > limits_.max_load_factor - 0.02 ||
+                           asked_load_factor_ < limits_.min_load_factor + 0.02 ||
+                           std::abs(roll_radps_) > 0.99 * max_roll_radps ||
+                           speed_mps > limits_.max_speed_mps;
 }
 
 void FixedWingFlight::move(const Pitching& pitching) {

@@ -52,7 +52,7 @@ private:
     glm::dvec3 turn_radps(
         const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const;
     void ask(const PilotControls& controls);
-    double most_load_factor() const;
+    double max_load_factor() const;
     bool is_safe(double climb_rad) const;
     double recovering_load_factor(double climb_rad, double centred) const;
     double wanted_alpha_rad(double load_factor, double speed_mps, double pull);

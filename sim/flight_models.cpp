@@ -36,7 +36,7 @@ double reheat_share(const AircraftKind* kind, const AircraftState& state) {
     const double scale_n = 0.5 * air.density_kgpm3 * speed_mps * speed_mps * f15::wing_m2;
     const double lift_n = state.load_factor * f15::mass_kg * gravity_mps2;
     const double alpha_rad = f15::alpha_of_lift(
-        std::clamp(lift_n / scale_n, -f15::most_lift_coefficient, f15::most_lift_coefficient));
+        std::clamp(lift_n / scale_n, -f15::max_lift_coefficient, f15::max_lift_coefficient));
     const double drag_n = scale_n * f15::drag_coefficient(alpha_rad, 0.0, mach);
     const double along_mps2 =
         state.speed_rate_mps2 + gravity_mps2 * state.velocity_mps.z / speed_mps;

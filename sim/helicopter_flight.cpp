@@ -45,7 +45,7 @@ constexpr double fast_mps = 18.0;
 /// Nose-down cyclic fades out over this range below the never-exceed speed.
 constexpr double speed_margin_mps = 5.0;
 constexpr double pull_up_rad_per_mps = rad_from_deg(2.0);
-constexpr double most_pull_up_rad = rad_from_deg(20.0);
+constexpr double max_pull_up_rad = rad_from_deg(20.0);
 
 const glm::dvec3 body_up(0.0, 0.0, -1.0);
 
@@ -117,7 +117,7 @@ void HelicopterFlight::settle_downwash() {
     const glm::dvec3 drag = drag_n(body_mps, air_);
     const double felt_n = std::abs(state_.load_factor) * weight_n;
     const double along_n = std::sqrt(std::max(0.0, felt_n * felt_n - drag.x * drag.x));
-    const double thrust_n = std::clamp(along_n + drag.z, 0.0, limits_.most_load_factor * weight_n);
+    const double thrust_n = std::clamp(along_n + drag.z, 0.0, limits_.max_load_factor * weight_n);
     md500::RotorFlow rotor{-body_mps.z, std::hypot(body_mps.x, body_mps.y), 0.0};
     for (int i = 0; i < 200; ++i) {
         rotor.induced_mps +=
@@ -133,10 +133,10 @@ HelicopterFlight::flow(const glm::dvec3& velocity_mps, const glm::dquat& attitud
     Flow flow;
     flow.rotor = {-body_mps.z, std::hypot(body_mps.x, body_mps.y), induced_mps_};
     const double blades_n = md500::blade_thrust_n(collective_, flow.rotor, air_);
-    const double most_n =
-        std::min(md500::powered_thrust_n(flow.rotor, air_), limits_.most_load_factor * weight_n);
-    flow.thrust_n = std::clamp(blades_n, 0.0, most_n);
-    flow.held = blades_n > most_n;
+    const double max_n =
+        std::min(md500::powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
+    flow.thrust_n = std::clamp(blades_n, 0.0, max_n);
+    flow.held = blades_n > max_n;
     const glm::dvec3 force_n = drag_n(body_mps, air_) + flow.thrust_n * body_up;
     flow.load_factor = std::hypot(force_n.x, force_n.z) / weight_n;
     flow.acceleration_mps2 =
@@ -151,13 +151,13 @@ double HelicopterFlight::asked_pitch_rad(const PilotControls& controls, double h
                                smooth_step(still_mps, moving_mps, std::abs(forward_mps));
     // Near the never-exceed speed the nose goes down less and less, above it up.
     const double speed_mps = glm::length(velocity);
-    const double left = (limits_.most_speed_mps - speed_mps) / speed_margin_mps;
+    const double left = (limits_.max_speed_mps - speed_mps) / speed_margin_mps;
     const double range_rad =
         controls.pitch < 0.0 ? pitch_range_rad * std::clamp(left, 0.0, 1.0) : pitch_range_rad;
-    const double above_mps = std::max(0.0, speed_mps - limits_.most_speed_mps);
+    const double above_mps = std::max(0.0, speed_mps - limits_.max_speed_mps);
     warnings_.at_a_limit = above_mps > 0.0 || (controls.pitch < 0.0 && left < 1.0);
     const double pull_up_rad =
-        forward_mps > 0.0 ? std::min(most_pull_up_rad, pull_up_rad_per_mps * above_mps) : 0.0;
+        forward_mps > 0.0 ? std::min(max_pull_up_rad, pull_up_rad_per_mps * above_mps) : 0.0;
     return std::clamp(
         centred_rad + controls.pitch * range_rad + pull_up_rad,
         -steepest_pitch_rad,

@@ -29,7 +29,7 @@ constexpr double hardest_load_factor = 4.5;
 constexpr double diving_rad = rad_from_deg(-12.0);
 constexpr double throttle_per_mps = 0.02;
 constexpr double collective_per_mps = 0.04;
-constexpr double least_power_mps = mps_from_kt(60.0);
+constexpr double min_power_mps = mps_from_kt(60.0);
 constexpr double speeding_up_pitch = 0.5;
 
 double bank_rad(const AircraftState& state) {
@@ -48,7 +48,7 @@ Levelling::Levelling(const AircraftKind& kind, const AircraftState& start)
     , speed_mps_(std::clamp(
           glm::length(start.velocity_mps),
           kind.slowest_handed_over_mps,
-          std::max(kind.slowest_handed_over_mps, 0.9 * kind.limits.most_speed_mps))) {}
+          std::max(kind.slowest_handed_over_mps, 0.9 * kind.limits.max_speed_mps))) {}
 
 /// What holds height and speed in level flight at that height.
 double Levelling::trim_throttle(const AircraftState& state, double speed_mps) const {
@@ -75,11 +75,11 @@ PilotControls Levelling::fixed_wing(const AircraftState& state) const {
         load_factor = (centred + speed_mps * turning_radps / gravity_mps2) / std::cos(bank);
     }
     // What the wing has at this speed, with a margin to its stall.
-    const double fast = speed_mps / limits.least_speed_mps;
+    const double fast = speed_mps / limits.min_speed_mps;
     const double most = std::clamp(fast * fast, gentlest_load_factor, hardest_load_factor);
     load_factor = std::clamp(load_factor, gentlest_load_factor, most);
-    const double range = load_factor > centred ? limits.most_load_factor - centred
-                                               : centred - limits.least_load_factor;
+    const double range = load_factor > centred ? limits.max_load_factor - centred
+                                               : centred - limits.min_load_factor;
     controls.pitch = std::clamp((load_factor - centred) / range, -1.0, 1.0);
     return controls;
 }
@@ -90,7 +90,7 @@ PilotControls Levelling::helicopter(const AircraftState& state) const {
     const double speed_mps = std::hypot(state.velocity_mps.x, state.velocity_mps.y);
     PilotControls controls;
     controls.throttle = trim_throttle(state, speed_mps) - collective_per_mps * state.velocity_mps.z;
-    if (speed_mps < least_power_mps) {
+    if (speed_mps < min_power_mps) {
         controls.pitch = -std::clamp(controls.throttle - 1.0, 0.0, speeding_up_pitch);
     }
     return controls;

@@ -28,7 +28,7 @@ constexpr double tip_mps = 203.0;
 constexpr double solidity = 5.0 * 0.171 / (pi * radius_m);
 constexpr double lift_slope = 5.7; // lift of a blade section per radian
 constexpr double blade_drag = 0.010;
-constexpr double most_pitch_rad = 0.22;
+constexpr double max_pitch_rad = 0.22;
 constexpr double induced_loss = 1.15;
 constexpr double shaft_w = 375.0 * 745.7;
 constexpr double engine_w = 420.0 * 745.7;
@@ -55,13 +55,13 @@ double profile_w(double across_mps, const Air& air) {
 double blade_thrust_n(double collective, const RotorFlow& flow, const Air& air) {
     const double inflow = (flow.through_mps + flow.induced_mps) / tip_mps;
     return thrust_scale_n(air) *
-           (collective * most_pitch_rad * pitch_share(flow.across_mps) - 0.5 * inflow);
+           (collective * max_pitch_rad * pitch_share(flow.across_mps) - 0.5 * inflow);
 }
 
 double collective_of_thrust(double newtons, const RotorFlow& flow, const Air& air) {
     const double inflow = (flow.through_mps + flow.induced_mps) / tip_mps;
     return (newtons / thrust_scale_n(air) + 0.5 * inflow) /
-           (most_pitch_rad * pitch_share(flow.across_mps));
+           (max_pitch_rad * pitch_share(flow.across_mps));
 }
 
 double powered_thrust_n(const RotorFlow& flow, const Air& air) {
@@ -78,8 +78,8 @@ double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air)
     const double hover2 = std::max(0.0, newtons) / (2.0 * air.density_kgpm3 * disc_m2);
     const double through_mps = flow.through_mps + flow.induced_mps;
     // Where the rotor sinks into its own wake momentum theory has no answer.
-    const double least_mps = 0.5 * std::sqrt(hover2);
-    const double wind_mps = std::max(std::hypot(flow.across_mps, through_mps), least_mps);
+    const double min_mps = 0.5 * std::sqrt(hover2);
+    const double wind_mps = std::max(std::hypot(flow.across_mps, through_mps), min_mps);
     return wind_mps > 0.0 ? hover2 / wind_mps : 0.0;
 }
 

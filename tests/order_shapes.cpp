@@ -141,25 +141,25 @@ Placed shape_of(const Body& body) {
 
 /// Gap between the two along a direction; negative where they overlap.
 double gap_along(const Placed& a, const Placed& b, const glm::dvec3& direction) {
-    double most_a = -1e9;
-    double least_b = 1e9;
+    double max_a = -1e9;
+    double min_b = 1e9;
     for (const glm::dvec3& point : a.points) {
-        most_a = std::max(most_a, glm::dot(point + a.middle, direction));
+        max_a = std::max(max_a, glm::dot(point + a.middle, direction));
     }
     for (const glm::dvec3& point : b.points) {
-        least_b = std::min(least_b, glm::dot(point + b.middle, direction));
+        min_b = std::min(min_b, glm::dot(point + b.middle, direction));
     }
-    return least_b - most_a;
+    return min_b - max_a;
 }
 
 /// By separating axes: the normals of both, and edges of one across edges of the other.
 bool apart(const Placed& a, const Placed& b) {
-    constexpr double least_gap_m = 0.02;
-    if (glm::distance(a.middle, b.middle) > a.radius_m + b.radius_m + least_gap_m) {
+    constexpr double min_gap_m = 0.02;
+    if (glm::distance(a.middle, b.middle) > a.radius_m + b.radius_m + min_gap_m) {
         return true;
     }
     const auto parts = [&](const glm::dvec3& n) {
-        return gap_along(a, b, n) > least_gap_m || gap_along(b, a, n) > least_gap_m;
+        return gap_along(a, b, n) > min_gap_m || gap_along(b, a, n) > min_gap_m;
     };
     if (std::ranges::any_of(a.normals, parts) || std::ranges::any_of(b.normals, parts)) {
         return true;

@@ -8,7 +8,7 @@ namespace octant::models::aircraft {
 
 namespace {
 
-constexpr double least_area_m2 = 1e-7;
+constexpr double min_area_m2 = 1e-7;
 
 } // namespace
 
@@ -34,7 +34,7 @@ Outline without_repeats(const Outline& corners) {
 }
 
 bool has_area(const Outline& corners) {
-    return corners.size() >= 3 && glm::length(area_vector(corners)) > least_area_m2;
+    return corners.size() >= 3 && glm::length(area_vector(corners)) > min_area_m2;
 }
 
 Outline in_front(const Outline& corners, const Plane& plane) {

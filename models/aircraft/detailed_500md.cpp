@@ -38,7 +38,7 @@ Stencil on_side(const std::vector<glm::dvec2>& corners_su, double side) {
     }
     Stencil stencil = outline(corners, 1);
     stencil.facing = side * right;
-    stencil.least_cosine = 0.3;
+    stencil.min_cosine = 0.3;
     return stencil;
 }
 

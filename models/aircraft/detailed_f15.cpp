@@ -59,13 +59,13 @@ PaintedSolid forebody() {
          {10.4 - 4.5, -0.4}}};
     Stencil inside = outline(tub, 2);
     inside.facing = up;
-    inside.least_cosine = 0.9;
+    inside.min_cosine = 0.9;
     paint(solid, inside, "tub");
     const std::array<glm::dvec2, 4> door{
         {{10.4 - 4.3, -0.28}, {10.4 - 4.3, 0.28}, {10.4 - 6.1, 0.28}, {10.4 - 6.1, -0.28}}};
     Stencil gear = outline(door, 2);
     gear.facing = down;
-    gear.least_cosine = 0.9;
+    gear.min_cosine = 0.9;
     paint(solid, gear, "panel");
     for (const double side : {1.0, -1.0}) {
         paint_roundel(
@@ -148,7 +148,7 @@ PaintedSolid body() {
     for (const double side : {1.0, -1.0}) {
         Stencil seam = stripe(at(0.0, side * 0.72, 0.0), right, stations.panel_line_m);
         seam.facing = up;
-        seam.least_cosine = 0.7;
+        seam.min_cosine = 0.7;
         paint(solid, seam, "line");
         const std::array<glm::dvec2, 4> bay{
             {{10.4 - 10.4, side * 0.85},
@@ -157,7 +157,7 @@ PaintedSolid body() {
              {10.4 - 12.0, side * 0.85}}};
         Stencil gear = outline(bay, 2);
         gear.facing = down;
-        gear.least_cosine = 0.9;
+        gear.min_cosine = 0.9;
         paint(solid, gear, "panel");
     }
     return solid;
@@ -179,7 +179,7 @@ PaintedSolid intake() {
         {{0.86, 0.11 - 0.28}, {1.30, 0.11 - 0.28}, {1.40, 0.11 + 0.80}, {0.86, 0.11 + 0.88}}};
     Stencil dark = outline(mouth, 0);
     dark.facing = -inward;
-    dark.least_cosine = 0.9;
+    dark.min_cosine = 0.9;
     paint(solid, dark, "dark");
     std::erase_if(solid, [](const PaintedFace& face) { // its rear lies on the body
         return std::ranges::all_of(
@@ -188,7 +188,7 @@ PaintedSolid intake() {
     stations.ring_line(solid, 7.3);
     Stencil ramp = stripe(at(6.3, 0.0, 0.0), {1.0, 0.0, 0.0}, stations.panel_line_m);
     ramp.facing = up;
-    ramp.least_cosine = 0.9;
+    ramp.min_cosine = 0.9;
     paint(solid, ramp, "line");
     return solid;
 }

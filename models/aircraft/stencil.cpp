@@ -32,7 +32,7 @@ void paint(PaintedSolid& solid, const Stencil& stencil, const std::string& mater
     for (PaintedFace& face : solid) {
         const glm::dvec3 normal = glm::normalize(area_vector(face.corners_m));
         if (stencil.facing != glm::dvec3(0.0) &&
-            glm::dot(normal, glm::normalize(stencil.facing)) < stencil.least_cosine) {
+            glm::dot(normal, glm::normalize(stencil.facing)) < stencil.min_cosine) {
             out.push_back(std::move(face));
             continue;
         }

@@ -13,11 +13,11 @@
 namespace octant::models::aircraft {
 
 /// Where to paint: what lies in front of all planes, on faces that are turned towards `facing` (by
-/// at least `least_cosine`; a zero vector: all).
+/// at least `min_cosine`; a zero vector: all).
 struct Stencil {
     std::vector<Plane> planes;
     glm::dvec3 facing{0.0};
-    double least_cosine = 0.2;
+    double min_cosine = 0.2;
 };
 
 /// Cuts faces along the stencil and gives what is inside a material.

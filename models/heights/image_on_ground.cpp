@@ -18,7 +18,7 @@ namespace octant::models::heights {
 
 namespace {
 
-constexpr double most_error_px = 0.125;
+constexpr double max_error_px = 0.125;
 
 struct CloseTransformer {
     void operator()(void* transformer) const { GDALDestroyTransformer(transformer); }
@@ -105,7 +105,7 @@ void warp(const Image& image, const Dataset& from, Image& to, const GdalSession&
         error_unplaced(image, gdal);
     }
     const Transformer near(
-        GDALCreateApproxTransformer(GDALGenImgProjTransform, exact.get(), most_error_px));
+        GDALCreateApproxTransformer(GDALGenImgProjTransform, exact.get(), max_error_px));
     const std::unique_ptr<GDALWarpOptions, DestroyOptions> options(GDALCreateWarpOptions());
     options->hSrcDS = from.get();
     options->hDstDS = target.get();

@@ -68,7 +68,7 @@ void SpikeFinder::take(int first_row, std::span<const float> heights_m) {
 
 void SpikeFinder::look_at_row(int row) {
     // Quick: few samples differ so much from others of their row, and lie beyond both neighbours.
-    const float least_m = pit_share * relief_m_[1];
+    const float min_m = pit_share * relief_m_[1];
     const auto width = static_cast<std::size_t>(columns_);
     const auto line =
         std::span(band_).subspan(static_cast<std::size_t>(row % (2 * reach + 1)) * width, width);
@@ -78,7 +78,7 @@ void SpikeFinder::look_at_row(int row) {
         const float east_m = line[x + 1 < width ? x + 1 : x - 1];
         const float far_m = line[x < reach ? std::min(x + reach, width - 1) : x - reach];
         const bool is_alike =
-            std::abs(height_m - west_m) <= least_m && std::abs(height_m - far_m) <= least_m;
+            std::abs(height_m - west_m) <= min_m && std::abs(height_m - far_m) <= min_m;
         const bool is_between =
             (west_m < height_m && height_m < east_m) || (west_m > height_m && height_m > east_m);
         if (!is_alike && !is_between && !std::isnan(height_m)) { // neighbours may be voids
@@ -134,9 +134,9 @@ void SpikeFinder::look_at(int column, int row) {
         }
         const bool is_spike = height_m > highest_m;
         const float gap_m = is_spike ? height_m - highest_m : lowest_m - height_m;
-        const float least_m =
+        const float min_m =
             relief_m_[static_cast<std::size_t>(k)] * (is_spike ? 1.0F : pit_share);
-        if (known >= std::max<double>(min_ring, ring_share * within) && gap_m > least_m) {
+        if (known >= std::max<double>(min_ring, ring_share * within) && gap_m > min_m) {
             add({column, row, height_m, is_spike ? gap_m : -gap_m, k - 1});
             return;
         }
@@ -326,8 +326,8 @@ std::optional<SeamStep> step_of(const Placed& a, const Placed& b, Measured at, d
     }
     constexpr double sure = 6.0; // standard errors
     const double step_m = median_of(at.steps_m);
-    const double least_m = std::max(1.0, 0.01 * cell_m);
-    if (std::abs(step_m) < std::max(least_m, sure * error_of_median(at.steps_m, step_m))) {
+    const double min_m = std::max(1.0, 0.01 * cell_m);
+    if (std::abs(step_m) < std::max(min_m, sure * error_of_median(at.steps_m, step_m))) {
         return std::nullopt;
     }
     return SeamStep{

@@ -28,7 +28,7 @@ using std::filesystem::path;
 constexpr std::array<std::string_view, 4> archives = {
     "/vsizip/", "/vsitar/", "/vsigzip/", "/vsi7z/"};
 constexpr unsigned open_flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-constexpr std::size_t most_named = 6; ///< sub-datasets in a message
+constexpr std::size_t max_named = 6; ///< sub-datasets in a message
 
 /// Strings that GDAL owns, as ours; they are released.
 std::vector<std::string> taken(char** list) {
@@ -124,8 +124,8 @@ std::string chosen_subdataset(
             heights.push_back(name);
         }
     }
-    const bool is_cut = variables.size() > most_named;
-    variables.resize(std::min(variables.size(), most_named));
+    const bool is_cut = variables.size() > max_named;
+    variables.resize(std::min(variables.size(), max_named));
     if (!band && heights.size() == 1) {
         notes.push_back({fmt::format(
             "{}: {} is taken for heights, of {}{}: --band NAME chooses another",

@@ -61,23 +61,23 @@ double fit(RunwayStrip& strip, const HeightField& field) {
             spread += from_middle_m * from_middle_m;
         }
     }
-    strip.rise = std::clamp(moment / spread, -most_rise, most_rise);
+    strip.rise = std::clamp(moment / spread, -max_rise, max_rise);
     strip.height_m = mean_m - 0.5 * strip.length_m * strip.rise;
-    double least_m = std::numeric_limits<double>::infinity();
-    double most_m = -least_m;
+    double min_m = std::numeric_limits<double>::infinity();
+    double max_m = -min_m;
     for (int i = 0; i < stations; ++i) {
         const double plane_m = strip.height_m + strip.rise * strip.length_m * i / (stations - 1);
         for (const double height_m : heights_m[static_cast<std::size_t>(i)]) {
-            least_m = std::min(least_m, height_m - plane_m);
-            most_m = std::max(most_m, height_m - plane_m);
+            min_m = std::min(min_m, height_m - plane_m);
+            max_m = std::max(max_m, height_m - plane_m);
         }
     }
-    strip.height_m += 0.5 * (least_m + most_m);
-    return 0.5 * (most_m - least_m);
+    strip.height_m += 0.5 * (min_m + max_m);
+    return 0.5 * (max_m - min_m);
 }
 
 /// No plane has its ends and its middle all nearer to the ground than this.
-double least_earthwork_m(const RunwayStrip& strip, const HeightField& field) {
+double min_earthwork_m(const RunwayStrip& strip, const HeightField& field) {
     const auto height_m = [&](double along_m) {
         const glm::dvec2 at_m = strip.place({along_m, 0.0});
         return field.height_at(at_m.x, at_m.y).value_or(0.0);
@@ -85,7 +85,7 @@ double least_earthwork_m(const RunwayStrip& strip, const HeightField& field) {
     const double begin_m = height_m(0.0);
     const double end_m = height_m(strip.length_m);
     const double bend_m = height_m(0.5 * strip.length_m) - 0.5 * (begin_m + end_m);
-    const double too_steep_m = std::abs(end_m - begin_m) - most_rise * strip.length_m;
+    const double too_steep_m = std::abs(end_m - begin_m) - max_rise * strip.length_m;
     return 0.5 * std::max(std::abs(bend_m), too_steep_m);
 }
 
@@ -97,7 +97,7 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
     }
     const int stride = std::max(static_cast<int>(finest_m / field.spacing_m()), 1);
     const SampleBox box = samples_around(strip, field, reach_m(field));
-    double most_m = 0.0;
+    double max_m = 0.0;
     for (int row = box.first.y; row <= box.last.y; row += stride) {
         for (int column = box.first.x; column <= box.last.x; column += stride) {
             const glm::dvec3 at_m = field.sample_m(column, row);
@@ -106,10 +106,10 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
                 return std::nullopt;
             }
             const double level_m = levelled_m(strip, field.spacing_m(), place_m, at_m.z);
-            most_m = std::max(most_m, std::abs(level_m - at_m.z));
+            max_m = std::max(max_m, std::abs(level_m - at_m.z));
         }
     }
-    return most_m;
+    return max_m;
 }
 
 /// The best site so far, and by what it is the best.
@@ -122,7 +122,7 @@ public:
     /// `apart`: what way and turn count for.
     void look_at(RunwayStrip strip, double apart) {
         if (apart >= least_ || !lies_within(strip, field_.half_extent_m()) ||
-            apart + cost_of(least_earthwork_m(strip, field_)) >= least_ ||
+            apart + cost_of(min_earthwork_m(strip, field_)) >= least_ ||
             apart + cost_of(fit(strip, field_)) >= least_) {
             return;
         }
@@ -141,7 +141,7 @@ public:
 private:
     /// Too much is worse than any way and turn.
     static double cost_of(double earthwork_m) {
-        return earthwork_m + (earthwork_m > most_earthwork_m ? 1000.0 : 0.0);
+        return earthwork_m + (earthwork_m > max_earthwork_m ? 1000.0 : 0.0);
     }
 
     const HeightField& field_;
@@ -158,14 +158,14 @@ struct Middle {
 
 /// All of them on a grid around the path, the least apart first.
 std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
-    glm::dvec2 least_m = path_m.front();
-    glm::dvec2 most_m = path_m.front();
+    glm::dvec2 min_m = path_m.front();
+    glm::dvec2 max_m = path_m.front();
     for (const glm::dvec2& place_m : path_m) {
-        least_m = glm::min(least_m, place_m);
-        most_m = glm::max(most_m, place_m);
+        min_m = glm::min(min_m, place_m);
+        max_m = glm::max(max_m, place_m);
     }
-    const glm::dvec2 from_m = least_m - looked_for_within_m;
-    const glm::ivec2 steps((most_m + looked_for_within_m - from_m) / place_step_m);
+    const glm::dvec2 from_m = min_m - looked_for_within_m;
+    const glm::ivec2 steps((max_m + looked_for_within_m - from_m) / place_step_m);
     std::vector<Middle> middles;
     for (int north = 0; north <= steps.y; ++north) {
         for (int east = 0; east <= steps.x; ++east) {
@@ -208,7 +208,7 @@ std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayWish
     strip.heading_rad = wish.heading_rad;
     strip.begin_m = wish.path_m.front() - strip.along() * aim_after_m;
     search.look_at(strip, 0.0);
-    if (!search.best() || search.best()->earthwork_m > most_earthwork_m) {
+    if (!search.best() || search.best()->earthwork_m > max_earthwork_m) {
         look_around(wish, search);
     }
     return search.best();

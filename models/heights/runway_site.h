@@ -30,12 +30,12 @@ struct RunwaySite {
 
 /// A wish is granted where no more earthwork than this is needed: cuttings and embankments as high
 /// as a house and 105 m wide.
-inline constexpr double most_earthwork_m = 15.0;
+inline constexpr double max_earthwork_m = 15.0;
 
 /// How far from the path another place is looked for.
 inline constexpr double looked_for_within_m = 6000.0;
 
-/// As it is wished for, if most_earthwork_m are enough; else near the path where earthwork, way and
+/// As it is wished for, if max_earthwork_m are enough; else near the path where earthwork, way and
 /// turn are least in all: a metre of earthwork counts as much as 200 m from the path to the
 /// runway's middle, 500 m from there to the path's beginning or a turn by 15 degrees. The same
 /// site for the same field. Nothing where each one would leave the field or touch water; whether

@@ -52,7 +52,7 @@ inline constexpr double side_slope = 1.0 / 7.0;
 inline constexpr double sides_end_m = 400.0;
 
 /// Annex 14 (volume I, chapter 3) allows no runway of this length a steeper mean slope.
-inline constexpr double most_rise = 0.01;
+inline constexpr double max_rise = 0.01;
 
 /// Samples of a field: columns and rows from the first to the last.
 struct SampleBox {

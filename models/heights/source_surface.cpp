@@ -9,7 +9,7 @@ namespace octant::models::heights {
 
 namespace {
 
-constexpr std::int64_t most_places = 250000; ///< of samples, and as many of middles
+constexpr std::int64_t max_places = 250000; ///< of samples, and as many of middles
 
 /// The middle of the lattice, in its frame's units.
 glm::dvec2 middle_of(const TargetLattice& lattice) {
@@ -117,7 +117,7 @@ Deviation deviation_from_source(
     for (const SourceGrid& grid : grids) {
         samples += std::int64_t{grid.columns()} * grid.rows();
     }
-    const auto between = static_cast<int>(samples / most_places + 1);
+    const auto between = static_cast<int>(samples / max_places + 1);
     Deviation whole;
     double squares = 0.0;
     for (const SourceGrid& grid : grids) {

@@ -24,8 +24,8 @@ constexpr double widest_m = 1.0e6;
 /// Points looked at along each edge of a grid.
 constexpr int edge_points = 257;
 /// Up to so many samples a ground has two for each step of its finest source: half as far off.
-constexpr double most_halved = 4096.0 * 4096.0;
-constexpr double least_left = 0.5; ///< of a grid's bounds, in the rectangle within its edges
+constexpr double max_halved = 4096.0 * 4096.0;
+constexpr double min_left = 0.5; ///< of a grid's bounds, in the rectangle within its edges
 
 /// Points of a grid's edges in the frame: west, east, south, north. Empty where one cannot be told.
 struct Outline {
@@ -69,7 +69,7 @@ Bounds rectangle_of(const Outline& outline) {
     Bounds within;
     within.least = {std::ranges::max(outline.x[0]), std::ranges::max(outline.y[2])};
     within.most = {std::ranges::min(outline.x[1]), std::ranges::min(outline.y[3])};
-    return within.area() >= least_left * all.area() ? within : all;
+    return within.area() >= min_left * all.area() ? within : all;
 }
 
 [[noreturn]] void error_no_frame(const path& file, std::string_view got) {
@@ -319,7 +319,7 @@ TargetLattice lattice_about_middle(const path& file, std::vector<SourceGrid>& gr
     const double side = finest.side();
     lattice.cell_m = finest.sides;
     const glm::dvec2 cells = extent.size() / side;
-    lattice.step = 4.0 * cells.x * cells.y <= most_halved ? 0.5 * side : side;
+    lattice.step = 4.0 * cells.x * cells.y <= max_halved ? 0.5 * side : side;
     lay_samples(file, extent, lattice);
     const glm::dvec2 middle = 0.5 * (extent.least + extent.most);
     lattice.west = middle.x - 0.5 * (lattice.columns - 1) * lattice.step;

@@ -84,7 +84,7 @@ void VoidSurvey::add(double raw, double height_m) {
         count(beyond_, raw, height_m);
     } else if (is_height) {
         ++ordinary_;
-        least_m_ = std::min(least_m_, height_m);
+        min_m_ = std::min(min_m_, height_m);
         greatest_m_ = std::max(greatest_m_, height_m);
     } else if (is_wrapped(raw)) {
         wrapped_.raw = wrapped_.samples == 0 ? raw : std::min(wrapped_.raw, raw);
@@ -96,12 +96,12 @@ void VoidSurvey::add(double raw, double height_m) {
 }
 
 double VoidSurvey::distance_m(double height_m) const {
-    return std::max({least_m_ - height_m, height_m - greatest_m_, 0.0});
+    return std::max({min_m_ - height_m, height_m - greatest_m_, 0.0});
 }
 
 UndeclaredVoids VoidSurvey::result() const {
-    const bool has_heights = least_m_ <= greatest_m_;
-    const double range_m = has_heights ? greatest_m_ - least_m_ : 0.0;
+    const bool has_heights = min_m_ <= greatest_m_;
+    const double range_m = has_heights ? greatest_m_ - min_m_ : 0.0;
     const double near_m = std::max(50.0, 0.02 * range_m);
     const double far_m = std::max(1000.0, 0.5 * range_m);
     UndeclaredVoids voids;

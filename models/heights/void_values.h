@@ -62,7 +62,7 @@ private:
     double highest_m_;
     double modulus_;
     std::int64_t ordinary_ = 0; ///< samples that are heights and no usual numbers
-    double least_m_ = std::numeric_limits<double>::infinity(); ///< of ordinary samples
+    double min_m_ = std::numeric_limits<double>::infinity(); ///< of ordinary samples
     double greatest_m_ = -std::numeric_limits<double>::infinity();
     std::vector<Mark> usual_;
     std::vector<Mark> absurd_; ///< at most max_absurd + 1

@@ -48,15 +48,15 @@ void count_along_edges(std::span<const Triangle> faces, std::size_t vertices, Me
     const std::vector<Side> sides = sorted_sides(faces);
     for_each_edge(sides, [&](std::span<const Side> edge) {
         const Side& first = edge[0];
-        const std::uint32_t least_corner = 3 * first.triangle + first.least_corner();
-        const std::uint32_t most_corner = 3 * first.triangle + first.most_corner();
+        const std::uint32_t min_corner = 3 * first.triangle + first.min_corner();
+        const std::uint32_t max_corner = 3 * first.triangle + first.max_corner();
         for (const Side& side : edge.subspan(1)) {
-            fans.join(least_corner, 3 * side.triangle + side.least_corner());
-            fans.join(most_corner, 3 * side.triangle + side.most_corner());
+            fans.join(min_corner, 3 * side.triangle + side.min_corner());
+            fans.join(max_corner, 3 * side.triangle + side.max_corner());
             shells.join(first.triangle, side.triangle);
         }
         if (edge.size() == 1) {
-            boundary.emplace_back(least_corner, most_corner);
+            boundary.emplace_back(min_corner, max_corner);
         }
         ++edges;
         found.non_manifold_edges += edge.size() > 2 ? 1U : 0U;

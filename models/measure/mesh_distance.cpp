@@ -60,8 +60,8 @@ using Corners = std::array<const Sample*, 3>;
 
 /// Bounds of the largest distance from a piece's points to the target.
 struct PieceBounds {
-    double least_m = 0.0;
-    double most_m = 0.0;
+    double min_m = 0.0;
+    double max_m = 0.0;
     /// The triangle nearest to the piece's centre, if that was looked for.
     std::uint32_t middle = NearestOnMesh::none;
 };
@@ -73,7 +73,7 @@ struct Cut {
 };
 
 /// The largest distance from a piece's corners to one triangle of the target.
-double most_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
+double max_to(const TargetSurface& target, std::uint32_t triangle, const Corners& corners) {
     double most2 = 0.0;
     for (const Sample* corner : corners) {
         most2 = corner->nearest == triangle
@@ -87,7 +87,7 @@ double most_to(const TargetSurface& target, std::uint32_t triangle, const Corner
 /// at each corner, cut off at a third of both sides, and the hexagon between them. Each part lies
 /// near one triangle of the target, the one nearest to its corner or to the centre, and no farther
 /// from it than its own corners are.
-double most_by_parts(const TargetSurface& target, std::uint32_t middle, const Corners& corners) {
+double max_by_parts(const TargetSurface& target, std::uint32_t middle, const Corners& corners) {
     double most2 = 0.0;
     for (std::size_t from = 0; from < 3; ++from) {
         const Sample& corner = *corners[from];
@@ -108,7 +108,7 @@ double length_m(const Corners& corners, std::size_t edge) {
 }
 
 /// Whether a search from the centre can hardly bound a piece: where triangles of the target are so
-/// much smaller that the four parts of most_by_parts() reach far beyond them. Pieces that are cut
+/// much smaller that the four parts of max_by_parts() reach far beyond them. Pieces that are cut
 /// without it are bounded by their halves.
 bool is_too_large(const Corners& corners, double enough_m) {
     constexpr double beyond = 1.1; // As distances at the centre may be shorter.
@@ -209,17 +209,17 @@ struct PlaneCut {
 };
 
 /// The cut along a plane, given the corners' signed distances from it. Chosen is the longest edge
-/// whose ends both lie more than `least_depth_m` off the plane, on opposite sides: for thin pieces
+/// whose ends both lie more than `min_depth_m` off the plane, on opposite sides: for thin pieces
 /// another edge would leave a part as long as the piece.
 PlaneCut
-plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double least_depth_m) {
+plane_cut(const Corners& corners, const std::array<double, 3>& inside_m, double min_depth_m) {
     PlaneCut found;
     double longest_m = 0.0;
     for (std::size_t edge = 0; edge < 3; ++edge) {
         const double from_m = inside_m[edge];
         const double to_m = inside_m[(edge + 1) % 3];
         const double depth_m = std::min(std::abs(from_m), std::abs(to_m));
-        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > least_depth_m)) {
+        if ((from_m < 0.0) == (to_m < 0.0) || !(depth_m > min_depth_m)) {
             continue;
         }
         found.depth_m = std::max(found.depth_m, depth_m);
@@ -238,7 +238,7 @@ void take_edge_cut(
     const TargetSurface& target,
     std::uint32_t triangle,
     const Corners& corners,
-    double least_depth_m,
+    double min_depth_m,
     PlaneCut& best) {
     const auto& at = target.mesh().vertices_m;
     const Triangle& t = target.mesh().triangles[triangle];
@@ -254,7 +254,7 @@ void take_edge_cut(
         for (std::size_t i = 0; i < 3; ++i) {
             inside_m[i] = glm::dot(corners[i]->point - start, inwards) / length;
         }
-        const PlaneCut found = plane_cut(corners, inside_m, least_depth_m);
+        const PlaneCut found = plane_cut(corners, inside_m, min_depth_m);
         best = found.depth_m > best.depth_m ? found : best;
     }
 }
@@ -265,8 +265,8 @@ PlaneCut edge_cut(
     const TargetSurface& target,
     const Corners& corners,
     std::uint32_t middle,
-    double least_depth_m) {
-    constexpr double least_size = 0.25;
+    double min_depth_m) {
+    constexpr double min_size = 0.25;
     const double longest_m =
         std::max({length_m(corners, 0), length_m(corners, 1), length_m(corners, 2)});
     const std::array<std::uint32_t, 4> nearest = {
@@ -278,8 +278,8 @@ PlaneCut edge_cut(
     for (std::size_t i = 0; i < nearest.size(); ++i) {
         const bool again =
             std::find(nearest.begin(), nearest.begin() + i, nearest[i]) != nearest.begin() + i;
-        if (nearest[i] != NearestOnMesh::none && !again && edge_m(i) >= least_size * longest_m) {
-            take_edge_cut(target, nearest[i], corners, least_depth_m, best);
+        if (nearest[i] != NearestOnMesh::none && !again && edge_m(i) >= min_size * longest_m) {
+            take_edge_cut(target, nearest[i], corners, min_depth_m, best);
         }
     }
     return best;
@@ -320,16 +320,16 @@ double bound_by_corners(const TargetSurface& target, const Corners& corners, dou
         farthest_m = std::max(farthest_m, corner->distance_m);
     }
     // No point of a triangle is farther from its nearest corner than longest edge / sqrt(3).
-    double most_m = farthest_m + *std::ranges::max_element(edges_m) / std::numbers::sqrt3;
-    for (std::size_t i = 0; i < 3 && most_m > enough_m; ++i) {
+    double max_m = farthest_m + *std::ranges::max_element(edges_m) / std::numbers::sqrt3;
+    for (std::size_t i = 0; i < 3 && max_m > enough_m; ++i) {
         // The other corners are at least this far from the triangle, by the triangle inequality.
         const double away_m = std::max(edges_m[i], edges_m[(i + 2) % 3]) - corners[i]->distance_m -
                               static_cast<double>(corners[i]->edge_m);
         if (corners[i]->edge_m == 0.0F || away_m <= enough_m) {
-            most_m = std::min(most_m, most_to(target, corners[i]->nearest, corners));
+            max_m = std::min(max_m, max_to(target, corners[i]->nearest, corners));
         }
     }
-    return most_m;
+    return max_m;
 }
 
 /// Bounds a piece as tightly as is cheap. The distances of the corners must be exact. The bounds
@@ -337,9 +337,9 @@ double bound_by_corners(const TargetSurface& target, const Corners& corners, dou
 PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, double enough_m) {
     const auto& [a, b, c] = corners;
     PieceBounds bounds;
-    bounds.least_m = std::max({a->distance_m, b->distance_m, c->distance_m});
-    bounds.most_m = bound_by_corners(target, corners, enough_m);
-    if (bounds.most_m <= enough_m || is_too_large(corners, enough_m)) {
+    bounds.min_m = std::max({a->distance_m, b->distance_m, c->distance_m});
+    bounds.max_m = bound_by_corners(target, corners, enough_m);
+    if (bounds.max_m <= enough_m || is_too_large(corners, enough_m)) {
         return bounds;
     }
     const glm::dvec3 centre = (a->point + b->point + c->point) / 3.0;
@@ -349,11 +349,11 @@ PieceBounds bounds_of(const TargetSurface& target, const Corners& corners, doubl
         radius_m = std::max(radius_m, glm::distance(corner->point, centre));
     }
     bounds.middle = middle.nearest;
-    bounds.least_m = std::max(bounds.least_m, middle.distance_m);
-    bounds.most_m = std::min(
-        {bounds.most_m, middle.distance_m + radius_m, most_to(target, middle.nearest, corners)});
-    if (bounds.most_m > enough_m) {
-        bounds.most_m = std::min(bounds.most_m, most_by_parts(target, middle.nearest, corners));
+    bounds.min_m = std::max(bounds.min_m, middle.distance_m);
+    bounds.max_m = std::min(
+        {bounds.max_m, middle.distance_m + radius_m, max_to(target, middle.nearest, corners)});
+    if (bounds.max_m > enough_m) {
+        bounds.max_m = std::min(bounds.max_m, max_by_parts(target, middle.nearest, corners));
     }
     return bounds;
 }
@@ -385,14 +385,14 @@ Cut cut_of(
 /// A triangular piece of the surface, its corners given as indices of samples.
 struct Piece {
     std::array<std::uint32_t, 3> corners{};
-    double most_m = 0.0; ///< No point of the piece is farther from the target than this.
+    double max_m = 0.0; ///< No point of the piece is farther from the target than this.
     /// The target's triangle nearest to the centre of the piece, where known.
     std::uint32_t middle = NearestOnMesh::none;
 };
 
 /// The order of the heap of open pieces: the one with the largest bound is on top.
 bool nearer(const Piece& one, const Piece& other) {
-    return one.most_m < other.most_m;
+    return one.max_m < other.max_m;
 }
 
 /// One branch-and-bound search.
@@ -410,7 +410,7 @@ private:
     struct Halves {
         Sample between;
         std::array<Piece, 2> pieces; ///< A corner numbered `fresh` is the sample `between`.
-        double least_m = 0.0;
+        double min_m = 0.0;
     };
 
     static constexpr std::uint32_t fresh = NearestOnMesh::none;
@@ -418,14 +418,14 @@ private:
     static constexpr std::size_t batch = 1024;
 
     /// Pieces whose bound is below this need not be cut any further.
-    double enough_m() const { return std::max(limits_.negligible_m, limits_.tightness * least_m_); }
+    double enough_m() const { return std::max(limits_.negligible_m, limits_.tightness * min_m_); }
 
     /// The samples at the corners of a piece; `between` stands for a fresh corner.
     Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
     /// Measures the distances of all vertices that triangles use: exactly where they may raise the
     /// lower bound, else an upper bound.
     void measure_vertices();
-    void take_least();
+    void take_min();
     std::vector<std::uint32_t> triangles_in_question();
     /// Bounds all triangles and keeps those that may hold the largest distance.
     void take_triangles();
@@ -451,7 +451,7 @@ private:
     std::vector<Sample> samples_; ///< The mesh's vertices first, then one for each cut.
     std::vector<char> is_exact_;  ///< For each vertex whether its distance is no upper bound only.
     std::vector<Piece> open_;     ///< A heap; the piece with the largest bound is on top.
-    double least_m_ = 0.0;
+    double min_m_ = 0.0;
     double left_out_m_ = 0.0; ///< The largest bound of the pieces that were left out.
     std::size_t cuts_ = 0;
 };
@@ -479,8 +479,8 @@ void Search::measure_vertices() {
             samples_[first] = measured(target_, mesh_.vertices_m[first], NearestOnMesh::none);
         }
     });
-    take_least();
-    const double enough = std::max(limits_.negligible_m, least_m_);
+    take_min();
+    const double enough = std::max(limits_.negligible_m, min_m_);
     in_chunks(used.size(), [&](std::size_t first, std::size_t last) {
         std::uint32_t guess = samples_[first].nearest;
         for (std::size_t i = first + 1; i < last; ++i) {
@@ -491,14 +491,14 @@ void Search::measure_vertices() {
             }
         }
     });
-    take_least();
+    take_min();
 }
 
 /// Raises the lower bound to the largest distance that was measured exactly.
-void Search::take_least() {
+void Search::take_min() {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         if (is_exact_[i] != 0) {
-            least_m_ = std::max(least_m_, samples_[i].distance_m);
+            min_m_ = std::max(min_m_, samples_[i].distance_m);
         }
     }
 }
@@ -506,19 +506,19 @@ void Search::take_least() {
 /// The triangles that their corners alone do not bound well enough, in order. Their corners are
 /// measured exactly then.
 std::vector<std::uint32_t> Search::triangles_in_question() {
-    const double enough = std::max(limits_.negligible_m, least_m_);
-    std::vector<double> most_m(mesh_.triangles.size());
-    in_chunks(most_m.size(), [&](std::size_t first, std::size_t last) {
+    const double enough = std::max(limits_.negligible_m, min_m_);
+    std::vector<double> max_m(mesh_.triangles.size());
+    in_chunks(max_m.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            most_m[i] =
+            max_m[i] =
                 bound_by_corners(target_, corners_of({.corners = mesh_.triangles[i]}), enough);
         }
     });
     std::vector<std::uint32_t> open;
     std::vector<std::uint32_t> inexact;
-    for (std::uint32_t i = 0; i < most_m.size(); ++i) {
-        if (most_m[i] <= enough) {
-            left_out_m_ = std::max(left_out_m_, most_m[i]);
+    for (std::uint32_t i = 0; i < max_m.size(); ++i) {
+        if (max_m[i] <= enough) {
+            left_out_m_ = std::max(left_out_m_, max_m[i]);
             continue;
         }
         open.push_back(i);
@@ -535,13 +535,13 @@ std::vector<std::uint32_t> Search::triangles_in_question() {
             sample = measured(target_, sample.point, sample.nearest);
         }
     });
-    take_least();
+    take_min();
     return open;
 }
 
 void Search::keep(const Piece& piece) {
-    if (piece.most_m <= enough_m()) {
-        left_out_m_ = std::max(left_out_m_, piece.most_m);
+    if (piece.max_m <= enough_m()) {
+        left_out_m_ = std::max(left_out_m_, piece.max_m);
     } else {
         open_.push_back(piece);
         std::ranges::push_heap(open_, nearer);
@@ -558,10 +558,10 @@ void Search::take_triangles() {
         }
     });
     for (const PieceBounds& one : bounds) {
-        least_m_ = std::max(least_m_, one.least_m);
+        min_m_ = std::max(min_m_, one.min_m);
     }
     for (std::size_t i = 0; i < bounds.size(); ++i) {
-        keep({mesh_.triangles[open[i]], bounds[i].most_m, bounds[i].middle});
+        keep({mesh_.triangles[open[i]], bounds[i].max_m, bounds[i].middle});
     }
 }
 
@@ -579,16 +579,16 @@ Search::Halves Search::cut(const Piece& piece, double enough_m) const {
     halves.pieces[1].corners[where.edge] = fresh;
     for (Piece& half : halves.pieces) {
         const PieceBounds bounds = bounds_of(target_, corners_of(half, &halves.between), enough_m);
-        half.most_m = std::min(piece.most_m, bounds.most_m);
+        half.max_m = std::min(piece.max_m, bounds.max_m);
         half.middle = bounds.middle;
-        halves.least_m = std::max(halves.least_m, bounds.least_m);
+        halves.min_m = std::max(halves.min_m, bounds.min_m);
     }
     return halves;
 }
 
 void Search::cut_batch() {
     std::vector<Piece> pieces;
-    while (!open_.empty() && pieces.size() < batch && open_.front().most_m > enough_m()) {
+    while (!open_.empty() && pieces.size() < batch && open_.front().max_m > enough_m()) {
         std::ranges::pop_heap(open_, nearer);
         pieces.push_back(open_.back());
         open_.pop_back();
@@ -602,7 +602,7 @@ void Search::cut_batch() {
     });
     cuts_ += pieces.size();
     for (const Halves& pair : halves) {
-        least_m_ = std::max(least_m_, pair.least_m);
+        min_m_ = std::max(min_m_, pair.min_m);
     }
     for (Halves& pair : halves) {
         const auto between = static_cast<std::uint32_t>(samples_.size());
@@ -617,11 +617,11 @@ void Search::cut_batch() {
 HausdorffBounds Search::run() {
     measure_vertices();
     take_triangles();
-    while (!open_.empty() && open_.front().most_m > enough_m() && cuts_ < limits_.cuts) {
+    while (!open_.empty() && open_.front().max_m > enough_m() && cuts_ < limits_.cuts) {
         cut_batch();
     }
-    const double open_m = open_.empty() ? 0.0 : open_.front().most_m;
-    return {least_m_, std::max({least_m_, left_out_m_, open_m}), cuts_};
+    const double open_m = open_.empty() ? 0.0 : open_.front().max_m;
+    return {min_m_, std::max({min_m_, left_out_m_, open_m}), cuts_};
 }
 
 } // namespace
@@ -630,15 +630,15 @@ HausdorffBounds one_way_hausdorff(
     const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits) {
     assert(!mesh.triangles.empty() && !target.mesh().triangles.empty());
     const Bounds extent = models::bounds_of(mesh);
-    const glm::dvec3 farthest = glm::max(glm::abs(extent.least_m), glm::abs(extent.most_m));
+    const glm::dvec3 farthest = glm::max(glm::abs(extent.min_m), glm::abs(extent.max_m));
     const double rounding_m =
         target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
                                         std::max({farthest.x, farthest.y, farthest.z});
     HausdorffLimits wanted = limits;
     wanted.negligible_m = std::max(limits.negligible_m, 4.0 * rounding_m);
     HausdorffBounds bounds = Search(mesh, target, wanted).run();
-    bounds.least_m = std::max(0.0, bounds.least_m - rounding_m);
-    bounds.most_m += rounding_m;
+    bounds.min_m = std::max(0.0, bounds.min_m - rounding_m);
+    bounds.max_m += rounding_m;
     return bounds;
 }
 
@@ -666,7 +666,7 @@ OneWayDistance one_way(
     const SampledDistance sampled =
         sampled_distance(mesh, target, {.samples = options.samples, .threads = options.threads});
     show(options, done + 2);
-    return {bounds.least_m, bounds.most_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
+    return {bounds.min_m, bounds.max_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
 }
 
 } // namespace
@@ -682,7 +682,7 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     MeshDistance found;
     found.there = one_way(a, TargetSurface(b), wanted, 0);
     if (options.larger_alone) {
-        wanted.negligible_m = std::max(wanted.negligible_m, found.there.least_hausdorff_m);
+        wanted.negligible_m = std::max(wanted.negligible_m, found.there.min_hausdorff_m);
     }
     found.back = one_way(b, TargetSurface(a, options.tree_of_a), wanted, 2);
     return found;

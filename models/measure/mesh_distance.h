@@ -23,8 +23,8 @@ struct HausdorffLimits {
 
 /// The largest distance from a point of one surface to another surface lies between these two.
 struct HausdorffBounds {
-    double least_m = 0.0;
-    double most_m = 0.0;
+    double min_m = 0.0;
+    double max_m = 0.0;
     std::size_t cuts = 0; ///< How many cuts the search took.
 };
 
@@ -37,9 +37,9 @@ HausdorffBounds one_way_hausdorff(
 /// Distances from the points of one surface to another surface, metres.
 struct OneWayDistance {
     /// The one-sided Hausdorff distance is at least this ...
-    double least_hausdorff_m = 0.0;
+    double min_hausdorff_m = 0.0;
     /// ... and at most this.
-    double most_hausdorff_m = 0.0;
+    double max_hausdorff_m = 0.0;
     double rms_m = 0.0;  ///< The root mean square over the surface's area, sampled.
     double mean_m = 0.0; ///< The mean over the surface's area, sampled.
     /// The root mean square of the difference in colour to the nearest point, as a length in RGB
@@ -53,9 +53,9 @@ struct MeshDistance {
     OneWayDistance there; ///< From the points of a to b.
     OneWayDistance back;  ///< From the points of b to a.
 
-    double least_hausdorff_m() const { return larger(&OneWayDistance::least_hausdorff_m); }
+    double min_hausdorff_m() const { return larger(&OneWayDistance::min_hausdorff_m); }
 
-    double most_hausdorff_m() const { return larger(&OneWayDistance::most_hausdorff_m); }
+    double max_hausdorff_m() const { return larger(&OneWayDistance::max_hausdorff_m); }
 
     double rms_m() const { return larger(&OneWayDistance::rms_m); }
 

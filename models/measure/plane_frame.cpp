@@ -16,10 +16,10 @@ float inverse(double value) {
 }
 
 /// An edge shorter than this has no direction, because its square loses digits.
-constexpr double least_length = 1e-100;
+constexpr double min_length = 1e-100;
 /// A height below this share of an edge's length consists of rounding too much to be perpendicular
 /// to the other edge.
-constexpr double least_height = 1e-8;
+constexpr double min_height = 1e-8;
 
 /// Any unit vector perpendicular to a unit vector.
 glm::dvec3 across(const glm::dvec3& axis) {
@@ -34,11 +34,11 @@ PlaneFrame<float> plane_frame(const std::array<glm::dvec3, 3>& corners) {
     const glm::dvec3 ab = corners[1] - corners[0];
     const glm::dvec3 ac = corners[2] - corners[0];
     const double length = glm::length(ab);
-    const glm::dvec3 x_axis = length > least_length ? ab / length : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 x_axis = length > min_length ? ab / length : glm::dvec3(1.0, 0.0, 0.0);
     const double along = glm::dot(ac, x_axis);
     const glm::dvec3 height = ac - along * x_axis;
     const double up = glm::length(height);
-    const glm::dvec3 y_axis = up > least_height * glm::length(ac) ? height / up : across(x_axis);
+    const glm::dvec3 y_axis = up > min_height * glm::length(ac) ? height / up : across(x_axis);
     PlaneFrame<float> t{};
     t.origin = narrow(corners[0]);
     t.x_axis = narrow(x_axis);

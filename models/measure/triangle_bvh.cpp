@@ -68,7 +68,7 @@ constexpr std::size_t leaf_lanes = 4; // TriangleBvh::lanes.
 /// of its 4 boxes wait. That is below TriangleBvh's stack.
 constexpr int median_depth = 64;
 /// Centres closer together than this are not told apart by bins.
-constexpr float least_size = 1e-30F;
+constexpr float min_size = 1e-30F;
 
 /// A division of the longest axis into bins of equal width.
 struct Bins {
@@ -132,7 +132,7 @@ std::size_t split(std::span<Item> items, int depth) {
     bins.axis = longest_axis(middles);
     bins.start = middles.least[bins.axis];
     const float size = middles.most[bins.axis] - bins.start;
-    if (size > least_size && depth < median_depth) {
+    if (size > min_size && depth < median_depth) {
         bins.scale = static_cast<float>(bin_count) / size;
         const std::size_t bin = cheapest_split(items, bins);
         if (bin > 0) {
@@ -155,7 +155,7 @@ constexpr double rounding = 4e-6;
 /// In the tree's units. A point farther away than this is moved to it: every box is then in reach.
 constexpr double farthest_place = 1e9;
 /// A smaller mesh is treated as being this large.
-constexpr double least_size_m = 1e-150;
+constexpr double min_size_m = 1e-150;
 
 double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
@@ -260,19 +260,19 @@ TriangleBvh::TriangleBvh(
     if (triangles.empty()) {
         return;
     }
-    glm::dvec3 least_m(std::numeric_limits<double>::infinity());
-    glm::dvec3 most_m(-std::numeric_limits<double>::infinity());
+    glm::dvec3 min_m(std::numeric_limits<double>::infinity());
+    glm::dvec3 max_m(-std::numeric_limits<double>::infinity());
     for (const Triangle& triangle : triangles) {
         for (const std::uint32_t vertex : triangle) {
             assert(vertex < vertices_m.size());
-            least_m = glm::min(least_m, vertices_m[vertex]);
-            most_m = glm::max(most_m, vertices_m[vertex]);
+            min_m = glm::min(min_m, vertices_m[vertex]);
+            max_m = glm::max(max_m, vertices_m[vertex]);
         }
     }
-    centre_m_ = 0.5 * (least_m + most_m);
-    const double size_m = 0.5 * largest(most_m - least_m);
-    per_size_ = size_m > least_size_m ? 1.0 / size_m : 1.0 / least_size_m;
-    const glm::dvec3 farthest = glm::max(glm::abs(least_m), glm::abs(most_m));
+    centre_m_ = 0.5 * (min_m + max_m);
+    const double size_m = 0.5 * largest(max_m - min_m);
+    per_size_ = size_m > min_size_m ? 1.0 / size_m : 1.0 / min_size_m;
+    const glm::dvec3 farthest = glm::max(glm::abs(min_m), glm::abs(max_m));
     rounding_m_ = 64.0 * std::numeric_limits<double>::epsilon() * largest(farthest);
     Builder builder{*this, vertices_m, triangles, std::vector<Item>(triangles.size())};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -379,8 +379,8 @@ NearestOnMesh TriangleBvh::nearest(const glm::dvec3& point, double within_m) con
     search.probe = probe(point);
     search.probe.set_reach(within_m * per_size_);
 
-    std::array<float, most_waiting> away2; // The squared distances of the boxes that wait.
-    std::array<std::uint32_t, most_waiting> waiting;
+    std::array<float, max_waiting> away2; // The squared distances of the boxes that wait.
+    std::array<std::uint32_t, max_waiting> waiting;
     std::size_t count = 0;
     away2[count] = 0.0F;
     waiting[count++] = 0;

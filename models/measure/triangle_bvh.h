@@ -108,7 +108,7 @@ private:
 
     static constexpr std::uint32_t leaf_bit = 1U << 31U;
     /// No tree that Builder makes needs a deeper stack of waiting nodes.
-    static constexpr int most_waiting = 256;
+    static constexpr int max_waiting = 256;
 
     std::vector<Node> nodes_; ///< The first one is the root; there are none without triangles.
     std::vector<Leaf> leaves_;
@@ -130,7 +130,7 @@ void TriangleBvh::for_each_near(const glm::dvec3& point, double within_m, const 
     }
     Probe here = probe(point);
     here.set_reach(within_m * per_size_);
-    std::array<std::uint32_t, most_waiting> waiting;
+    std::array<std::uint32_t, max_waiting> waiting;
     std::size_t count = 0;
     waiting[count++] = 0;
     Floats distances2;

@@ -18,9 +18,9 @@ namespace octant::models::meshfile {
 namespace {
 
 constexpr std::size_t largest_ac3d_bytes = std::size_t{1} << 30U;
-constexpr int most_ac3d_depth = 100;
-constexpr long most_count = 0x7fffffff;
-constexpr std::size_t least_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
+constexpr int max_ac3d_depth = 100;
+constexpr long max_count = 0x7fffffff;
+constexpr std::size_t min_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
 /// Keywords of an object that say nothing about its shape.
 constexpr std::array<std::string_view, 7> ignored_keywords{
@@ -57,8 +57,8 @@ public:
 private:
     /// Reads what follows OBJECT, its kids included.
     void take_object(const Placement& parent, int depth) {
-        if (depth > most_ac3d_depth) {
-            words_.refuse(fmt::format("objects at most {} deep", most_ac3d_depth), "a deeper one");
+        if (depth > max_ac3d_depth) {
+            words_.refuse(fmt::format("objects at most {} deep", max_ac3d_depth), "a deeper one");
         }
         words_.word("a kind of object");
         Placement own;
@@ -88,7 +88,7 @@ private:
             } else if (word == "texrep" || word == "texoff") {
                 take_pair(word == "texrep" ? picture.repeat : picture.shift);
             } else if (word == "data") {
-                const long bytes = words_.whole("a number of bytes", 0, most_count);
+                const long bytes = words_.whole("a number of bytes", 0, max_count);
                 words_.rest_of_line();
                 words_.skip_bytes(static_cast<std::size_t>(bytes) + 1, "data");
             } else if (word == "MATERIAL" || word == "MAT") {
@@ -99,7 +99,7 @@ private:
                 words_.refuse("a line of an object", in_quotes(word));
             }
         }
-        const long kids = words_.whole("a number of kids", 0, most_count);
+        const long kids = words_.whole("a number of kids", 0, max_count);
         for (long kid = 0; kid < kids; ++kid) {
             const std::string_view word = words_.word_or_end();
             if (word.empty() && mesh_.vertex_count() > 0) {
@@ -170,8 +170,8 @@ private:
     }
 
     void take_vertices(const Placement& placement) {
-        const long count = words_.whole("a number of vertices", 0, most_count);
-        const auto most = static_cast<long>(words_.bytes_left() / least_vertex_bytes);
+        const long count = words_.whole("a number of vertices", 0, max_count);
+        const auto most = static_cast<long>(words_.bytes_left() / min_vertex_bytes);
         if (count > most) {
             words_.refuse(
                 fmt::format("at most {} vertices in a file of this size", most),
@@ -187,7 +187,7 @@ private:
     }
 
     void take_surfaces(std::size_t first_vertex, bool mirrored, const ObjectPicture& picture) {
-        const long count = words_.whole("a number of surfaces", 0, most_count);
+        const long count = words_.whole("a number of surfaces", 0, max_count);
         for (long i = 0; i < count; ++i) {
             const std::string_view word = words_.word("SURF");
             if (word != "SURF") {
@@ -224,7 +224,7 @@ private:
             words_.refuse("refs", in_quotes(word));
         }
         const bool is_polygon = (kind & 0xfU) == 0;
-        const long most = is_polygon ? static_cast<long>(most_polygon_corners) : most_count;
+        const long most = is_polygon ? static_cast<long>(max_polygon_corners) : max_count;
         const long count = words_.whole("a number of corners", 0, most);
         const long last = static_cast<long>(mesh_.vertex_count() - first_vertex) - 1;
         corners_.clear();

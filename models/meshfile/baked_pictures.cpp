@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 /// Samples along a triangle's side: one for so many pixels, within bounds.
 constexpr double pixels_a_sample = 3.0;
-constexpr int least_samples = 4;
-constexpr int most_samples = 24;
+constexpr int min_samples = 4;
+constexpr int max_samples = 24;
 
 struct Sum {
     glm::dvec3 colour{0.0};
@@ -60,7 +60,7 @@ int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& pl
             std::max(longest_px, std::hypot(side.x * picture.width, side.y * picture.height));
     }
     const double wanted = std::isfinite(longest_px) ? longest_px / pixels_a_sample : 1.0;
-    return static_cast<int>(std::clamp<double>(wanted, least_samples, most_samples));
+    return static_cast<int>(std::clamp<double>(wanted, min_samples, max_samples));
 }
 
 /// Calls `visit(share, colour, there)` for samples spread over a triangle: the shares of its

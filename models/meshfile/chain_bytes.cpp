@@ -70,13 +70,13 @@ void append(std::string& bytes, const std::vector<Entry>& entries) {
 
 /// What one entry of a list takes at least.
 template <typename Entry>
-constexpr std::size_t least_bytes = sizeof(Entry);
+constexpr std::size_t min_bytes = sizeof(Entry);
 template <>
-constexpr std::size_t least_bytes<std::string> = 8;
+constexpr std::size_t min_bytes<std::string> = 8;
 template <>
-constexpr std::size_t least_bytes<Material> = 20;
+constexpr std::size_t min_bytes<Material> = 20;
 template <>
-constexpr std::size_t least_bytes<polygons::Pivot> = 60;
+constexpr std::size_t min_bytes<polygons::Pivot> = 60;
 
 /// Takes what append made, in the same order.
 class Taking {
@@ -134,7 +134,7 @@ public:
     template <typename Entry>
     void take(std::vector<Entry>& entries) {
         const std::size_t at = reader_.at();
-        const std::size_t most = reader_.bytes_left() / least_bytes<Entry>;
+        const std::size_t most = reader_.bytes_left() / min_bytes<Entry>;
         const auto count = reader_.number<std::uint64_t>("a count");
         if (count > most) {
             reader_.refuse_at(

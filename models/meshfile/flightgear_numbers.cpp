@@ -41,7 +41,7 @@ double number_in(
         return without;
     }
     const auto value = finite_number(found->text);
-    if (!value || std::abs(*value) > most_coordinate) {
+    if (!value || std::abs(*value) > max_coordinate) {
         error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
     }
     return *value;

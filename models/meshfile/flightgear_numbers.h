@@ -9,7 +9,7 @@
 namespace octant::models::meshfile {
 
 /// The number in a child of an element of a FlightGear file; `without` where there is none. Throws
-/// Error for what is no number, or beyond most_coordinate.
+/// Error for what is no number, or beyond max_coordinate.
 double number_in(
     const std::filesystem::path& file,
     const XmlElement& parent,

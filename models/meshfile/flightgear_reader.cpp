@@ -37,9 +37,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_model_depth = 8;
-constexpr std::size_t most_models = 500;
-constexpr std::size_t most_notes = 20;
+constexpr int max_model_depth = 8;
+constexpr std::size_t max_models = 500;
+constexpr std::size_t max_notes = 20;
 
 /// Columns: where x, y and z of AC3D files point in a model.
 const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
@@ -73,10 +73,10 @@ public:
         if (model_.body.triangles.empty()) {
             error_in(path_, "expected a model with a mesh, got none");
         }
-        if (const std::size_t all = model_.body.notes.size(); all > most_notes) {
-            model_.body.notes.resize(most_notes);
+        if (const std::size_t all = model_.body.notes.size(); all > max_notes) {
+            model_.body.notes.resize(max_notes);
             model_.body.notes.push_back(fmt::format(
-                "{}: {} more notes on its sub-models", path_.string(), all - most_notes));
+                "{}: {} more notes on its sub-models", path_.string(), all - max_notes));
         }
         model_.body.name = path_.stem().string();
         if (!at_rest_.empty()) {
@@ -139,9 +139,9 @@ private:
             add_mesh(file, parent, {}, about);
             return;
         }
-        if (depth > most_model_depth || ++models_ > most_models) {
+        if (depth > max_model_depth || ++models_ > max_models) {
             error_in(
-                file, fmt::format("expected models at most {} deep, got more", most_model_depth));
+                file, fmt::format("expected models at most {} deep, got more", max_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
         Placement own = parent.of(offsets(file, root));

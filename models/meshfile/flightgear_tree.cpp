@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t largest_xml_bytes = std::size_t{64} << 20U;
-constexpr int most_include_depth = 8;
-constexpr int most_files = 500;
+constexpr int max_include_depth = 8;
+constexpr int max_files = 500;
 
 XmlElement tree_of(const fs::path& file, int depth, int& files);
 
@@ -28,13 +28,13 @@ void include_into(XmlElement& element, const fs::path& file, int depth, int& fil
     if (included.empty()) {
         return;
     }
-    if (depth == most_include_depth) {
+    if (depth == max_include_depth) {
         error_at(
             file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
     }
-    if (++files > most_files) {
+    if (++files > max_files) {
         error_at(
-            file, element.line, fmt::format("expected at most {} includes, got more", most_files));
+            file, element.line, fmt::format("expected at most {} includes, got more", max_files));
     }
     XmlElement other = tree_of(included, depth + 1, files);
     element.children.insert(

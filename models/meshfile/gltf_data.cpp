@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t largest_gltf_bytes = std::size_t{1} << 28U;
 constexpr std::size_t largest_buffers_bytes = std::size_t{1} << 30U;
-constexpr int most_json_depth = 64;
+constexpr int max_json_depth = 64;
 constexpr std::uint32_t glb_magic = 0x46546c67;
 constexpr std::uint32_t json_chunk = 0x4e4f534a;
 constexpr std::uint32_t binary_chunk = 0x004e4942;
@@ -145,9 +145,9 @@ void GltfData::read_binary(std::string_view bytes) {
 
 void GltfData::read_json(std::string_view text, std::size_t first_byte) {
     const auto shallow = [&](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
-        if (depth > most_json_depth) {
+        if (depth > max_json_depth) {
             error_in(
-                path_, fmt::format("expected JSON at most {} deep, got more", most_json_depth));
+                path_, fmt::format("expected JSON at most {} deep, got more", max_json_depth));
         }
         return true;
     };

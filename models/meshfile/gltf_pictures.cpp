@@ -56,10 +56,10 @@ void take_picture(
 
 std::optional<std::size_t>
 texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
-    constexpr std::size_t most_sets = 8;
+    constexpr std::size_t max_sets = 8;
     const Json* base = material ? base_texture(data, *material) : nullptr;
     const std::size_t set =
-        base == nullptr ? 0 : data.index(*base, "texCoord", most_sets, "materials").value_or(0);
+        base == nullptr ? 0 : data.index(*base, "texCoord", max_sets, "materials").value_or(0);
     return data.index(
         attributes,
         fmt::format("TEXCOORD_{}", set).c_str(),

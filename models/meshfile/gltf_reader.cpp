@@ -21,7 +21,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr std::size_t most_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
+constexpr std::size_t max_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
 constexpr std::array<std::string_view, 3> packed_extensions{
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
 
@@ -157,9 +157,9 @@ private:
     /// Entries of a mesh count each time that a node shows it.
     void count_numbers(std::size_t count, const std::string& where) {
         numbers_ += count;
-        if (numbers_ > most_gltf_numbers) {
+        if (numbers_ > max_gltf_numbers) {
             data_.refuse(
-                where, fmt::format("at most {} corners and vertices", most_gltf_numbers), "more");
+                where, fmt::format("at most {} corners and vertices", max_gltf_numbers), "more");
         }
     }
 

@@ -11,7 +11,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr int most_gltf_node_depth = 200;
+constexpr int max_gltf_node_depth = 200;
 
 class SceneWalk {
 public:
@@ -76,9 +76,9 @@ private:
         if (met_[index]) {
             data_.refuse(where, "a node with one parent", "one that is met again");
         }
-        if (depth > most_gltf_node_depth) {
+        if (depth > max_gltf_node_depth) {
             data_.refuse(
-                where, fmt::format("nodes at most {} deep", most_gltf_node_depth), "a deeper one");
+                where, fmt::format("nodes at most {} deep", max_gltf_node_depth), "a deeper one");
         }
         met_[index] = true;
         const Json& node = data_.entry("nodes", index);

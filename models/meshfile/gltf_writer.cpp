@@ -234,8 +234,8 @@ std::string text_of(const Json& json) {
 
 glm::dvec3 gltf_origin_m(const Bounds& bounds) {
     constexpr double far = 2.0; // times its own size
-    const glm::dvec3 size_m = bounds.most_m - bounds.least_m;
-    const glm::dvec3 middle_m = 0.5 * (bounds.least_m + bounds.most_m);
+    const glm::dvec3 size_m = bounds.max_m - bounds.min_m;
+    const glm::dvec3 middle_m = 0.5 * (bounds.min_m + bounds.max_m);
     const glm::dvec3 away_m = glm::abs(middle_m);
     const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
     const bool is_far = std::max({away_m.x, away_m.y, away_m.z}) > far * largest_m;

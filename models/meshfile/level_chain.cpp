@@ -25,14 +25,14 @@ constexpr std::string_view magic = "octchain";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t head_bytes = 32;
 constexpr std::size_t largest_chain_bytes = std::size_t{1} << 31U;
-constexpr std::uint32_t most_levels = 1000;
+constexpr std::uint32_t max_levels = 1000;
 
-double take_error_m(ByteReader& reader, double least_m) {
+double take_error_m(ByteReader& reader, double min_m) {
     const auto error_m = reader.number<double>("an error");
-    if (!(error_m >= least_m && std::isfinite(error_m))) {
+    if (!(error_m >= min_m && std::isfinite(error_m))) {
         reader.refuse_at(
             reader.at() - 8,
-            fmt::format("an error of at least {}", least_m),
+            fmt::format("an error of at least {}", min_m),
             fmt::format("{}", error_m));
     }
     return error_m;
@@ -77,14 +77,14 @@ LevelChain read_chain(const std::filesystem::path& path) {
     LevelChain chain;
     chain.name = take_text(reader);
     const auto levels = reader.number<std::uint32_t>("a number of levels");
-    if (levels == 0 || levels > most_levels) {
+    if (levels == 0 || levels > max_levels) {
         reader.refuse_at(
-            reader.at() - 4, fmt::format("1 to {} levels", most_levels), std::to_string(levels));
+            reader.at() - 4, fmt::format("1 to {} levels", max_levels), std::to_string(levels));
     }
     for (std::uint32_t i = 0; i < levels; ++i) {
-        const double least_m = i == 0 ? 0.0 : chain.levels.back().error_m;
+        const double min_m = i == 0 ? 0.0 : chain.levels.back().error_m;
         ChainLevel level;
-        level.error_m = take_error_m(reader, least_m);
+        level.error_m = take_error_m(reader, min_m);
         if (i == 0 && level.error_m != 0.0) {
             reader.refuse_at(
                 reader.at() - 8,
@@ -109,7 +109,7 @@ LevelChain read_chain(const std::filesystem::path& path) {
 }
 
 void write_chain(const std::filesystem::path& path, const LevelChain& chain) {
-    assert(!chain.levels.empty() && chain.levels.size() <= most_levels);
+    assert(!chain.levels.empty() && chain.levels.size() <= max_levels);
     std::string body;
     append_text(body, chain.name);
     append_number(body, static_cast<std::uint32_t>(chain.levels.size()));

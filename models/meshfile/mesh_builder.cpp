@@ -112,7 +112,7 @@ std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
 
 void MeshBuilder::add_polygon(
     std::span<const Corner> corners, std::uint32_t material, std::uint32_t picture) {
-    assert(corners.size() >= 3 && corners.size() <= most_polygon_corners);
+    assert(corners.size() >= 3 && corners.size() <= max_polygon_corners);
     const auto add = [&](const std::array<Corner, 3>& triangle) {
         add_triangle(triangle, material);
         if (options_.pictures) {

@@ -30,7 +30,7 @@ struct Corner {
 
 /// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
 /// readers have checked what they add: finite numbers, indices in range, 3 to
-/// most_polygon_corners corners.
+/// max_polygon_corners corners.
 class MeshBuilder {
 public:
     /// The mesh is called after the file.

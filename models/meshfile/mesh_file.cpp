@@ -231,8 +231,8 @@ double rounding_m(const std::filesystem::path& path, const Bounds& bounds) {
     glm::dvec3 moves_m(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         const double farthest_m = std::max(
-            std::abs(bounds.least_m[axis] - origin_m[axis]),
-            std::abs(bounds.most_m[axis] - origin_m[axis]));
+            std::abs(bounds.min_m[axis] - origin_m[axis]),
+            std::abs(bounds.max_m[axis] - origin_m[axis]));
         const auto rounded = static_cast<float>(farthest_m);
         moves_m[axis] =
             0.5 * static_cast<double>(

@@ -71,8 +71,8 @@ private:
         if (!value) {
             refuse("a number", in_quotes(word));
         }
-        if (std::abs(*value) > most_coordinate) {
-            refuse(fmt::format("a number within {:g}", most_coordinate), in_quotes(word));
+        if (std::abs(*value) > max_coordinate) {
+            refuse(fmt::format("a number within {:g}", max_coordinate), in_quotes(word));
         }
         return *value;
     }
@@ -138,9 +138,9 @@ private:
 
     void take_polygon(const Words& words) {
         const std::size_t count = words.size() - 1;
-        if (count < 3 || count > most_polygon_corners) {
+        if (count < 3 || count > max_polygon_corners) {
             refuse(
-                fmt::format("a polygon of 3 to {} corners", most_polygon_corners),
+                fmt::format("a polygon of 3 to {} corners", max_polygon_corners),
                 std::to_string(count));
         }
         corners_.clear();

@@ -130,7 +130,7 @@ private:
 
     void take_face() {
         const long count =
-            words_.whole("a number of corners", 1, static_cast<long>(most_polygon_corners));
+            words_.whole("a number of corners", 1, static_cast<long>(max_polygon_corners));
         corners_.clear();
         for (long i = 0; i < count; ++i) {
             const auto vertex = static_cast<std::uint32_t>(words_.whole(

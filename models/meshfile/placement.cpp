@@ -12,7 +12,7 @@ namespace octant::models::meshfile {
 std::optional<glm::dvec3> Placement::point_m(const glm::dvec3& own_m) const {
     const glm::dvec3 place_m = turn * own_m + shift_m;
     for (int part = 0; part < 3; ++part) {
-        if (!(std::abs(place_m[part]) <= most_coordinate)) { // also NaN
+        if (!(std::abs(place_m[part]) <= max_coordinate)) { // also NaN
             return std::nullopt;
         }
     }

@@ -17,7 +17,7 @@ struct Placement {
         return {turn * child.turn, turn * child.shift_m + shift_m};
     }
 
-    /// Nothing where the point leaves most_coordinate (mesh_limits.h).
+    /// Nothing where the point leaves max_coordinate (mesh_limits.h).
     std::optional<glm::dvec3> point_m(const glm::dvec3& own_m) const;
 
     /// At a right angle to the surface; its length is any. A flat placement has none: zeros.

@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-constexpr std::size_t most_properties = 1000; ///< of all elements
+constexpr std::size_t max_properties = 1000; ///< of all elements
 
 struct TypeName {
     std::string_view name;
@@ -41,7 +41,7 @@ constexpr std::array<TypeName, 16> type_names{
      {"float64", PlyType::f64}}};
 
 /// The least that one element takes in the body: what a count is held against.
-std::size_t least_element_bytes(const PlyElement& element, PlyForm form) {
+std::size_t min_element_bytes(const PlyElement& element, PlyForm form) {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) {
         bytes += form == PlyForm::ascii ? 2
@@ -148,8 +148,8 @@ private:
         if (header_.elements.empty()) {
             refuse("an element before its property", in_quotes(text_));
         }
-        if (++properties_ > most_properties) {
-            refuse(fmt::format("at most {} properties", most_properties), "more");
+        if (++properties_ > max_properties) {
+            refuse(fmt::format("at most {} properties", max_properties), "more");
         }
         PlyProperty property;
         property.name = std::string(words.back());
@@ -170,7 +170,7 @@ private:
         const std::size_t spare = header_.form == PlyForm::ascii ? 1 : 0;
         for (std::size_t i = 0; i < header_.elements.size(); ++i) {
             const PlyElement& element = header_.elements[i];
-            const std::size_t least = least_element_bytes(element, header_.form);
+            const std::size_t least = min_element_bytes(element, header_.form);
             if (least > 0 && element.count > (room + spare) / least) {
                 line_ = element_lines_[i];
                 refuse(

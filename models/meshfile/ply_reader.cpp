@@ -59,7 +59,7 @@ public:
 
     double number(PlyType type, const char* what) {
         const double value = raw(type, what);
-        if (!(std::abs(value) <= most_coordinate)) { // also NaN
+        if (!(std::abs(value) <= max_coordinate)) { // also NaN
             bytes_.refuse_at(bytes_.at() - bytes_of(type), what, fmt::format("{}", value));
         }
         return value;
@@ -305,9 +305,9 @@ private:
 
     void take_face(const PlyProperty& property) {
         const std::size_t count = count_of(property);
-        if (count < 3 || count > most_polygon_corners) {
+        if (count < 3 || count > max_polygon_corners) {
             source_.refuse(
-                fmt::format("a face of 3 to {} corners", most_polygon_corners),
+                fmt::format("a face of 3 to {} corners", max_polygon_corners),
                 fmt::format("{}", count));
         }
         corners_.clear();

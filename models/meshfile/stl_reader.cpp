@@ -128,7 +128,7 @@ TriangleMesh read_binary(const std::filesystem::path& path, std::string_view byt
             glm::dvec3 place_m;
             for (int part = 0; part < 3; ++part) {
                 place_m[part] = static_cast<double>(reader.number<float>("a coordinate"));
-                if (!(std::abs(place_m[part]) <= most_coordinate)) { // also NaN
+                if (!(std::abs(place_m[part]) <= max_coordinate)) { // also NaN
                     reader.refuse_at(
                         reader.at() - 4, "a coordinate", fmt::format("{}", place_m[part]));
                 }

@@ -14,7 +14,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr double most_rad = 1e6;
+constexpr double max_rad = 1e6;
 
 /// The matrix that turns by an angle around an axis, the right hand's way.
 glm::dmat3 turned_about(const glm::dvec3& axis, double angle_rad) {
@@ -54,7 +54,7 @@ VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3
 
 glm::dmat3 VrmlFields::turn(const VrmlNode& node, std::string_view name) const {
     const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
-    if (std::abs(v[3]) > most_rad) {
+    if (std::abs(v[3]) > max_rad) {
         error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
     }
     return turned_about({v[0], v[1], v[2]}, v[3]);

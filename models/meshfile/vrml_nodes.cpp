@@ -12,7 +12,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr int most_vrml_use_depth = 100;
+constexpr int max_vrml_use_depth = 100;
 
 class Nodes {
 public:
@@ -100,9 +100,9 @@ private:
     }
 
     std::uint32_t take_node(int depth) {
-        if (depth > most_vrml_use_depth) {
+        if (depth > max_vrml_use_depth) {
             words_.refuse(
-                fmt::format("nodes at most {} deep", most_vrml_use_depth), "a deeper one");
+                fmt::format("nodes at most {} deep", max_vrml_use_depth), "a deeper one");
         }
         std::string_view word = take_name("a node");
         if (word == "USE") {

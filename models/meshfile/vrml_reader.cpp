@@ -18,9 +18,9 @@ namespace octant::models::meshfile {
 namespace {
 
 constexpr std::size_t largest_vrml_bytes = std::size_t{1} << 28U;
-constexpr int most_vrml_depth = 200;
-constexpr std::size_t most_visits = 1'000'000; ///< of nodes that USE brings back again and again
-constexpr std::size_t most_vrml_numbers = std::size_t{1}
+constexpr int max_vrml_depth = 200;
+constexpr std::size_t max_visits = 1'000'000; ///< of nodes that USE brings back again and again
+constexpr std::size_t max_vrml_numbers = std::size_t{1}
                                           << 27U; ///< of corners and points, likewise
 
 /// Grouping nodes, with the field that holds their children.
@@ -77,10 +77,10 @@ private:
     /// `group` tells apart the places at which a node is met.
     void visit(std::uint32_t at, const Placement& placement, std::size_t group, int depth) {
         const VrmlNode& node = file_.nodes[at];
-        if (depth > most_vrml_depth || ++visits_ > most_visits) {
+        if (depth > max_vrml_depth || ++visits_ > max_visits) {
             refuse(
                 node.line,
-                fmt::format("at most {} nodes, {} deep", most_visits, most_vrml_depth),
+                fmt::format("at most {} nodes, {} deep", max_visits, max_vrml_depth),
                 "more");
         }
         if (node.type == "Shape") {
@@ -152,8 +152,8 @@ private:
     /// What a node holds counts each time that it is met.
     void count_numbers(std::size_t count, int line) {
         numbers_ += count;
-        if (numbers_ > most_vrml_numbers) {
-            refuse(line, fmt::format("at most {} corners and points", most_vrml_numbers), "more");
+        if (numbers_ > max_vrml_numbers) {
+            refuse(line, fmt::format("at most {} corners and points", max_vrml_numbers), "more");
         }
     }
 
@@ -211,10 +211,10 @@ private:
             const auto begin = faces.corners.begin() + static_cast<long>(first);
             const auto end = std::find(begin, faces.corners.end(), -1);
             const auto count = static_cast<std::size_t>(end - begin);
-            if (count < 3 || count > most_polygon_corners) {
+            if (count < 3 || count > max_polygon_corners) {
                 refuse(
                     faces.line,
-                    fmt::format("faces of 3 to {} corners", most_polygon_corners),
+                    fmt::format("faces of 3 to {} corners", max_polygon_corners),
                     std::to_string(count));
             }
             take_face(faces, face, first, count, material);

@@ -68,7 +68,7 @@ std::string_view VrmlWords::take(std::string_view what) {
 double VrmlWords::number(std::string_view what) {
     const std::string_view word = take(what);
     const auto value = finite_number(word);
-    if (!value || std::abs(*value) > most_coordinate) {
+    if (!value || std::abs(*value) > max_coordinate) {
         refuse(what, in_quotes(word));
     }
     return *value;

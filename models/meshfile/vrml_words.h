@@ -20,7 +20,7 @@ public:
     /// The same, and goes on behind it. Throws Error at the end.
     std::string_view take(std::string_view what);
 
-    /// The next word as a finite number within most_coordinate. Throws Error.
+    /// The next word as a finite number within max_coordinate. Throws Error.
     double number(std::string_view what);
 
     /// The next word as a whole number. Throws Error.

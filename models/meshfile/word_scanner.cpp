@@ -66,7 +66,7 @@ void WordScanner::skip_bytes(std::size_t count, std::string_view what) {
 double WordScanner::number(std::string_view what) {
     const std::string_view found = word(what);
     const auto value = finite_number(found);
-    if (!value || std::abs(*value) > most_coordinate) {
+    if (!value || std::abs(*value) > max_coordinate) {
         refuse(what, in_quotes(found));
     }
     return *value;

@@ -29,7 +29,7 @@ public:
     /// Passes over so many bytes. Throws Error when there are fewer.
     void skip_bytes(std::size_t count, std::string_view what);
 
-    /// The next word as a finite number within most_coordinate. Throws Error.
+    /// The next word as a finite number within max_coordinate. Throws Error.
     double number(std::string_view what);
 
     /// The next word as a whole number of `least` to `most`. Throws Error.

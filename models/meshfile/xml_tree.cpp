@@ -13,7 +13,7 @@ namespace octant::models::meshfile {
 
 namespace {
 
-constexpr int most_xml_depth = 100;
+constexpr int max_xml_depth = 100;
 constexpr std::string_view xml_blanks = " \t\r\n";
 
 class XmlReading {
@@ -130,8 +130,8 @@ private:
     }
 
     XmlElement element(int depth) {
-        if (depth > most_xml_depth) {
-            refuse(fmt::format("elements at most {} deep", most_xml_depth), "a deeper one");
+        if (depth > max_xml_depth) {
+            refuse(fmt::format("elements at most {} deep", max_xml_depth), "a deeper one");
         }
         XmlElement made;
         made.line = line_;

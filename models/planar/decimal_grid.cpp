@@ -14,7 +14,7 @@ namespace {
 constexpr double rounding_share = 2.5 * std::numeric_limits<double>::epsilon();
 /// Decimal steps finer than so many of these, of the largest coordinate, are not told from noise:
 /// of numbers without a grid one in eight lies that near to a multiple.
-constexpr double least_roundings = 16.0;
+constexpr double min_roundings = 16.0;
 
 /// Whether a number is a multiple of 10 to some power but for rounding. Powers above 1 are exact,
 /// their inverses are not.
@@ -39,7 +39,7 @@ double decimal_grid(std::span<const glm::dvec3> points) {
     if (most == 0.0) {
         return 0.0;
     }
-    const double least = least_roundings * rounding_share * most;
+    const double least = min_roundings * rounding_share * most;
     for (int power = static_cast<int>(std::floor(std::log10(most)));; --power) {
         const double step = std::pow(10.0, power);
         if (step <= least) {

@@ -15,7 +15,7 @@ namespace octant::models::planar {
 
 namespace {
 
-constexpr int most_cells_an_axis = 128;
+constexpr int max_cells_an_axis = 128;
 
 } // namespace
 
@@ -31,7 +31,7 @@ NearVertices::NearVertices(std::span<const glm::dvec3> points) {
     const double an_axis = std::clamp(
         2.0 * std::cbrt(static_cast<double>(points.size())),
         1.0,
-        static_cast<double>(most_cells_an_axis));
+        static_cast<double>(max_cells_an_axis));
     cell_ = largest > 0.0 ? largest / an_axis : 1.0;
     cells_ = glm::ivec3(extent / cell_) + 1;
     first_.assign(index_of(cells_ - 1) + 2, 0);
@@ -86,8 +86,8 @@ void NearVertices::append_along(
     const glm::dvec3& to,
     double reach,
     std::vector<std::uint32_t>& out) const {
-    constexpr double most_pieces = 4.0 * most_cells_an_axis;
-    const double pieces = std::clamp(std::ceil(glm::distance(from, to) / cell_), 1.0, most_pieces);
+    constexpr double max_pieces = 4.0 * max_cells_an_axis;
+    const double pieces = std::clamp(std::ceil(glm::distance(from, to) / cell_), 1.0, max_pieces);
     for (double i = 0.0; i < pieces; ++i) {
         const glm::dvec3 begin = glm::mix(from, to, i / pieces);
         const glm::dvec3 end = glm::mix(from, to, (i + 1.0) / pieces);

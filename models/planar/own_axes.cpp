@@ -15,9 +15,9 @@ namespace octant::models::planar {
 namespace {
 
 /// Of more sides only so many are looked at, evenly spread.
-constexpr std::size_t most_sides = 4'000;
+constexpr std::size_t max_sides = 4'000;
 /// So many are tried as axes: the longest, and as many spread over all.
-constexpr std::size_t most_tried = 64;
+constexpr std::size_t max_tried = 64;
 constexpr double right_angle = 1e-8; ///< A smaller cosine is none; so is a smaller sine.
 constexpr double rounding = 1e-9;
 
@@ -29,7 +29,7 @@ struct Side {
 std::vector<Side>
 sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
     std::vector<Side> sides;
-    const std::size_t step = model.corner_vertices.size() / most_sides + 1;
+    const std::size_t step = model.corner_vertices.size() / max_sides + 1;
     std::size_t number = 0;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const auto corners = model.corners(i);
@@ -52,15 +52,15 @@ std::vector<Side> tried_of(const std::vector<Side>& sides) {
     for (const Side& side : sides) {
         lengths.push_back(side.length);
     }
-    const std::size_t last = std::min(most_tried, lengths.size()) - 1;
+    const std::size_t last = std::min(max_tried, lengths.size()) - 1;
     std::ranges::nth_element(
         lengths, lengths.begin() + static_cast<std::ptrdiff_t>(last), std::greater());
     const double least = lengths[last] * (1.0 - rounding);
-    const std::size_t step = sides.size() / most_tried + 1;
+    const std::size_t step = sides.size() / max_tried + 1;
     std::vector<Side> tried;
     std::size_t long_ones = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const bool is_long = sides[i].length >= least && long_ones < 4 * most_tried;
+        const bool is_long = sides[i].length >= least && long_ones < 4 * max_tried;
         long_ones += is_long ? 1 : 0;
         if (is_long || i % step == 0) {
             tried.push_back(sides[i]);

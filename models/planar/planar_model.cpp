@@ -30,7 +30,7 @@ using Outline = std::vector<std::uint32_t>;
 /// No point moves farther than so many times the reach.
 constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
-constexpr double least_height = planar_tolerance;
+constexpr double min_height = planar_tolerance;
 
 /// A point in steps of the decimals of its file, where it has a grid of them. Far from the origin,
 /// and in any unit, that gives the decimals that were written without what rounding has added.
@@ -149,7 +149,7 @@ bool has_no_area(const std::vector<glm::dvec3>& places) {
         sum += glm::cross(places[i] - places[0], next - places[0]);
         longest = std::max(longest, glm::distance(places[i], next));
     }
-    return glm::length(sum) <= least_height * longest;
+    return glm::length(sum) <= min_height * longest;
 }
 
 /// All triangles of a fan, for an outline that could not be cut otherwise.

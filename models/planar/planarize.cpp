@@ -20,10 +20,10 @@ namespace octant::models::planar {
 
 namespace {
 
-constexpr int most_sweeps = 2'000;
-constexpr std::size_t most_visits = 1'000'000; ///< Of polygons, in one round.
-constexpr std::size_t most_visits_in_all = 4 * most_visits;
-constexpr int most_rounds = 8;
+constexpr int max_sweeps = 2'000;
+constexpr std::size_t max_visits = 1'000'000; ///< Of polygons, in one round.
+constexpr std::size_t max_visits_in_all = 4 * max_visits;
+constexpr int max_rounds = 8;
 /// A polygon whose corners lie farther from their plane than they may move, so many times, gives up
 /// at once.
 constexpr double hopeless_moves = 2.0;
@@ -33,24 +33,24 @@ constexpr double at_rest = 1e-14; ///< Smaller moves count as none.
 class Planarizing {
 public:
     Planarizing(
-        std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double most_move)
+        std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move)
         : points_(points)
         , given_(points)
         , incidences_(incidences)
-        , most_move_(most_move)
+        , max_move_(max_move)
         , bent_(incidences.size())
         , alone_(incidences.size()) {
         for (std::size_t i = 0; i < incidences.size(); ++i) {
             const auto& [corners, touching] = incidences[i];
-            const double uneven = most_height(i, corners);
-            misfits_.push_back({uneven, std::max(uneven, most_height(i, touching))});
-            bent_[i] = alone_[i] = uneven > hopeless_moves * most_move;
+            const double uneven = max_height(i, corners);
+            misfits_.push_back({uneven, std::max(uneven, max_height(i, touching))});
+            bent_[i] = alone_[i] = uneven > hopeless_moves * max_move;
         }
     }
 
     std::vector<bool> run() {
         std::size_t visits = 0;
-        for (int round = 0; round < most_rounds && visits < most_visits_in_all; ++round) {
+        for (int round = 0; round < max_rounds && visits < max_visits_in_all; ++round) {
             points_ = given_;
             sweep_to_rest();
             visits += clock_;
@@ -94,7 +94,7 @@ private:
     }
 
     /// How far points are from a polygon's plane at most.
-    double most_height(std::size_t polygon, std::span<const std::uint32_t> points) const {
+    double max_height(std::size_t polygon, std::span<const std::uint32_t> points) const {
         const Level level = level_of(polygon);
         double most = 0.0;
         for (const std::uint32_t point : points) {
@@ -105,7 +105,7 @@ private:
 
     /// The largest distance of a corner from its polygon's plane.
     double unevenness(std::size_t polygon) const {
-        return most_height(polygon, incidences_[polygon].corners);
+        return max_height(polygon, incidences_[polygon].corners);
     }
 
     bool has_work(std::size_t polygon) const {
@@ -156,7 +156,7 @@ private:
             }
         }
         bool moves = true;
-        for (int sweep = 0; sweep < most_sweeps && moves && clock_ < most_visits; ++sweep) {
+        for (int sweep = 0; sweep < max_sweeps && moves && clock_ < max_visits; ++sweep) {
             moves = false;
             for (const std::size_t polygon : working) {
                 if (is_stirred(polygon)) {
@@ -167,14 +167,14 @@ private:
     }
 
     bool moved_too_far(std::uint32_t point) const {
-        return glm::distance(points_[point], given_[point]) > most_move_;
+        return glm::distance(points_[point], given_[point]) > max_move_;
     }
 
     /// Whether points of a polygon are off its plane or have moved too far.
     bool fails(std::size_t polygon, std::span<const std::uint32_t> points) const {
         return std::ranges::any_of(
                    points, [&](std::uint32_t point) { return moved_too_far(point); }) ||
-               most_height(polygon, points) > planar_noise;
+               max_height(polygon, points) > planar_noise;
     }
 
     bool fails(std::size_t polygon) const {
@@ -301,7 +301,7 @@ private:
     std::vector<glm::dvec3>& points_;
     const std::vector<glm::dvec3> given_;
     std::span<const Incidence> incidences_;
-    double most_move_;
+    double max_move_;
     std::vector<Misfit> misfits_;
     std::vector<bool> bent_;  ///< Has given up its plane.
     std::vector<bool> alone_; ///< Has given up what touches it.
@@ -314,8 +314,8 @@ private:
 } // namespace
 
 std::vector<bool> planarize(
-    std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double most_move) {
-    return Planarizing(points, incidences, most_move).run();
+    std::vector<glm::dvec3>& points, std::span<const Incidence> incidences, double max_move) {
+    return Planarizing(points, incidences, max_move).run();
 }
 
 } // namespace octant::models::planar

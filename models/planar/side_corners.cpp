@@ -45,13 +45,13 @@ std::vector<PartCorners> corners_of_parts(const PolygonModel& model) {
 
 /// Half the diagonal of the box around all corners.
 double radius_m_of(const PolygonModel& model) {
-    glm::dvec3 least_m(std::numeric_limits<double>::max());
-    glm::dvec3 most_m(std::numeric_limits<double>::lowest());
+    glm::dvec3 min_m(std::numeric_limits<double>::max());
+    glm::dvec3 max_m(std::numeric_limits<double>::lowest());
     for (const std::uint32_t vertex : model.corner_vertices) {
-        least_m = glm::min(least_m, model.vertices_m[vertex]);
-        most_m = glm::max(most_m, model.vertices_m[vertex]);
+        min_m = glm::min(min_m, model.vertices_m[vertex]);
+        max_m = glm::max(max_m, model.vertices_m[vertex]);
     }
-    return model.corner_vertices.empty() ? 0.0 : glm::distance(least_m, most_m) / 2.0;
+    return model.corner_vertices.empty() ? 0.0 : glm::distance(min_m, max_m) / 2.0;
 }
 
 /// Finds what lies on sides, side after side.

@@ -18,11 +18,11 @@ namespace {
 constexpr int cells_along = 64; ///< the longest side
 /// Shares of the cells that have one in their mirrored place: at least so many, and so many more
 /// than for the next plane.
-constexpr double least_symmetry = 0.85;
+constexpr double min_symmetry = 0.85;
 constexpr double symmetry_lead = 0.04;
 /// Of an aircraft's length: its height at most, and its span at least.
-constexpr double most_height = 0.8;
-constexpr double least_span = 0.4;
+constexpr double max_height = 0.8;
+constexpr double min_span = 0.4;
 /// The ends at which a fin is looked for, as a share of the length.
 constexpr double end_share = 0.2;
 /// By how much the evidence must be stronger than that for any other answer.
@@ -32,12 +32,12 @@ class Cells {
 public:
     explicit Cells(const TriangleMesh& mesh) {
         const Bounds bounds = bounds_of(mesh);
-        const glm::dvec3 extent_m = bounds.most_m - bounds.least_m;
+        const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
         size_m_ = std::max({extent_m.x, extent_m.y, extent_m.z}) / (cells_along - 2);
         for (int k = 0; k < 3; ++k) {
             counts_[k] = static_cast<int>(std::ceil(extent_m[k] / size_m_)) + 2;
         }
-        first_m_ = 0.5 * (bounds.least_m + bounds.most_m) - 0.5 * size_m_ * glm::dvec3(counts_);
+        first_m_ = 0.5 * (bounds.min_m + bounds.max_m) - 0.5 * size_m_ * glm::dvec3(counts_);
         touched_.assign(
             static_cast<std::size_t>(counts_.x) * static_cast<std::size_t>(counts_.y) *
                 static_cast<std::size_t>(counts_.z),
@@ -129,7 +129,7 @@ std::optional<int> lateral_axis(const Cells& cells) {
             return std::nullopt;
         }
     }
-    return symmetry[static_cast<std::size_t>(best)] >= least_symmetry ? std::optional(best)
+    return symmetry[static_cast<std::size_t>(best)] >= min_symmetry ? std::optional(best)
                                                                       : std::nullopt;
 }
 
@@ -183,8 +183,8 @@ std::optional<FileAxes> guessed_axes(const TriangleMesh& mesh) {
     if (cells.counts()[length] < cells.counts()[height]) {
         std::swap(length, height);
     }
-    if (cells.counts()[height] > most_height * cells.counts()[length] ||
-        cells.counts()[*lateral] < least_span * cells.counts()[length]) {
+    if (cells.counts()[height] > max_height * cells.counts()[length] ||
+        cells.counts()[*lateral] < min_span * cells.counts()[length]) {
         return std::nullopt;
     }
     if (height == 0) { // files have their top towards +y or +z

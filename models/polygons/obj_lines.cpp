@@ -85,13 +85,13 @@ double obj_number(std::string_view word, const std::filesystem::path& path, int 
         error_at(
             path, line, fmt::format("expected a number, got '{}'", printable(std::string(word))));
     }
-    if (std::abs(*value) > most_obj_coordinate_m) {
+    if (std::abs(*value) > max_obj_coordinate_m) {
         error_at(
             path,
             line,
             fmt::format(
                 "expected a number within {:g}, got '{}'",
-                most_obj_coordinate_m,
+                max_obj_coordinate_m,
                 printable(std::string(word))));
     }
     return *value;

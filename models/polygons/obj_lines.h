@@ -40,7 +40,7 @@ private:
 /// may have blanks inside. A view into `line`.
 std::string_view after_first_word(std::string_view line);
 
-/// A finite number within most_obj_coordinate_m (obj_limits.h). Throws Error "file:line: ...".
+/// A finite number within max_obj_coordinate_m (obj_limits.h). Throws Error "file:line: ...".
 double obj_number(std::string_view word, const std::filesystem::path& path, int line);
 
 } // namespace octant::models::polygons

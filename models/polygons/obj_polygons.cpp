@@ -42,11 +42,11 @@ public:
         if (changed_polygons_ > 0) {
             model_.parents = std::move(parents);
         }
-        if (changed_polygons_ > most_notes_of_cuts) {
+        if (changed_polygons_ > max_notes_of_cuts) {
             model_.notes.push_back(fmt::format(
                 "{}: {} more polygons are dented, bent or without an area",
                 path_.string(),
-                changed_polygons_ - most_notes_of_cuts));
+                changed_polygons_ - max_notes_of_cuts));
         }
         if (model_.polygons.empty()) {
             error_in(path_, "expected at least one polygon with an area, got none");
@@ -122,7 +122,7 @@ private:
     }
 
     void note(int line, std::size_t corners, std::string_view what) {
-        if (++changed_polygons_ <= most_notes_of_cuts) {
+        if (++changed_polygons_ <= max_notes_of_cuts) {
             model_.notes.push_back(fmt::format(
                 "{}:{}: polygon of {} corners {}", path_.string(), line, corners, what));
         }

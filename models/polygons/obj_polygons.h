@@ -9,7 +9,7 @@
 namespace octant::models::polygons {
 
 /// How many polygons of a file are named in PolygonModel::notes; one more note counts the others.
-inline constexpr std::size_t most_notes_of_cuts = 10;
+inline constexpr std::size_t max_notes_of_cuts = 10;
 
 /// Makes all polygons of a model that was read from a file convex and planar within
 /// flatness_tolerance_m. A dented or bent one is replaced, where it stands, by its convex_pieces;

@@ -141,8 +141,8 @@ private:
         if (words.size() < 4) {
             refuse(fmt::format("expected three coordinates, got {}", words.size() - 1));
         }
-        if (model_.vertices_m.size() == most_obj_vertices) {
-            refuse(fmt::format("expected at most {} vertices, got more", most_obj_vertices));
+        if (model_.vertices_m.size() == max_obj_vertices) {
+            refuse(fmt::format("expected at most {} vertices, got more", max_obj_vertices));
         }
         model_.vertices_m.push_back(axes_.body_from_file(numbers(words, 1)));
     }
@@ -177,12 +177,12 @@ private:
         if (count < 3) {
             refuse(fmt::format("expected at least three corners, got {}", count));
         }
-        if (count > most_obj_corners_of_polygon) {
+        if (count > max_obj_corners_of_polygon) {
             refuse(fmt::format(
-                "expected at most {} corners, got {}", most_obj_corners_of_polygon, count));
+                "expected at most {} corners, got {}", max_obj_corners_of_polygon, count));
         }
-        if (model_.polygons.size() == most_obj_polygons) {
-            refuse(fmt::format("expected at most {} polygons, got more", most_obj_polygons));
+        if (model_.polygons.size() == max_obj_polygons) {
+            refuse(fmt::format("expected at most {} polygons, got more", max_obj_polygons));
         }
         Polygon polygon;
         polygon.first_corner = static_cast<std::uint32_t>(model_.corner_vertices.size());

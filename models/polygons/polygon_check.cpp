@@ -15,7 +15,7 @@ namespace {
 constexpr double flatness = 1e-4;
 
 /// Area over squared extent below which a polygon is a line.
-constexpr double least_area_share = 1e-9;
+constexpr double min_area_share = 1e-9;
 
 using Corners = std::span<const glm::dvec3>;
 
@@ -125,7 +125,7 @@ std::optional<std::string> outline_fault(std::span<const glm::dvec3> corners_m) 
 bool is_line(std::span<const glm::dvec3> corners_m) {
     const double extent_m = extent_of(corners_m);
     return glm::length(double_area_vector(corners_m)) * 0.5 <=
-           least_area_share * extent_m * extent_m;
+           min_area_share * extent_m * extent_m;
 }
 
 bool is_planar(std::span<const glm::dvec3> corners_m, double tolerance_m) {

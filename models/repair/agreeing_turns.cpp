@@ -69,8 +69,8 @@ struct Joint {
 /// Whether so many edges make one surface of two pieces, by the size of the smaller: a patch of n
 /// triangles has a rim of about the root of n at the least.
 bool is_one_surface(std::size_t edges, std::size_t triangles) {
-    constexpr std::size_t least_share = 2; // half of that root
-    return least_share * edges * least_share * edges >= triangles;
+    constexpr std::size_t min_share = 2; // half of that root
+    return min_share * edges * min_share * edges >= triangles;
 }
 
 class Turning {

@@ -71,7 +71,7 @@ std::vector<std::uint32_t> near_rims(const TriangleMesh& mesh) {
     if (!(near_m > 0.0)) {
         return firsts;
     }
-    const glm::dvec3 origin_m = bounds_of(mesh).least_m;
+    const glm::dvec3 origin_m = bounds_of(mesh).min_m;
     std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> kept;
     for (const std::uint32_t vertex : rim_vertices(mesh)) {
         const glm::dvec3& place_m = mesh.vertices_m[vertex];

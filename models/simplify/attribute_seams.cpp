@@ -86,8 +86,8 @@ std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes
             const std::uint32_t first = one.triangle;
             const std::uint32_t second = other.triangle;
             const bool agree =
-                attributes.agree(first, one.least_corner(), second, other.least_corner()) &&
-                attributes.agree(first, one.most_corner(), second, other.most_corner());
+                attributes.agree(first, one.min_corner(), second, other.min_corner()) &&
+                attributes.agree(first, one.max_corner(), second, other.max_corner());
             neighbours.push_back({first, second, agree});
         }
     });

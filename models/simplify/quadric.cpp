@@ -133,7 +133,7 @@ glm::dvec3 solved(const Quadric& m, const glm::dvec3& right_side, const glm::dve
     return {right_side.x / m.xx - l10 * y - l20 * z, y, z};
 }
 
-glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle) {
+glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle) {
     Quadric drawn = quadric;
     const double weight = pull * quadric.trace();
     drawn.xx += weight;

@@ -50,7 +50,7 @@ Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours);
 
 /// The position of the least sum, drawn slightly towards `middle`, so that flat and straight
 /// surroundings have one answer, too.
-glm::dvec3 least_place(const Quadric& quadric, const glm::dvec3& middle);
+glm::dvec3 min_place(const Quadric& quadric, const glm::dvec3& middle);
 
 /// The product of the 3 x 3 matrix and a vector.
 glm::dvec3 product(const Quadric& matrix, const glm::dvec3& vector);

@@ -345,14 +345,14 @@ private:
              .threads = options_.threads,
              .larger_alone = true,
              .tree_of_a = state.original_tree()});
-        is_kept_ = distance.most_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
+        is_kept_ = distance.max_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
         if (is_kept_) {
             is_found_ = true;
             result_.mesh = std::move(mesh);
             result_.original_tree = state.original_tree();
             state.tell(result_);
         }
-        return distance.least_hausdorff_m();
+        return distance.min_hausdorff_m();
     }
 
     /// The number of triangles to try next, where the error lies between those of two numbers in

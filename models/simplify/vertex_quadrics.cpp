@@ -91,14 +91,14 @@ Placement VertexQuadrics::placement(const WorkingSurface& surface, HalfEdge h) c
     found.weight = quadric.trace();
     const std::uint32_t locked = surface.is_locked(u) ? u : surface.is_locked(w) ? w : none;
     if (colours_.empty()) {
-        found.place = locked == none ? least_place(quadric, middle) : surface.places[locked];
+        found.place = locked == none ? min_place(quadric, middle) : surface.places[locked];
         found.cost = std::max(quadric.at(found.place), 0.0);
         return found;
     }
     ColourQuadric colours = colours_[u];
     colours += colours_[w];
     const Quadric left = without_colours(quadric, colours);
-    found.place = locked == none ? least_place(left, middle) : surface.places[locked];
+    found.place = locked == none ? min_place(left, middle) : surface.places[locked];
     found.colour = colours.colour_at(found.place);
     found.cost = std::max(left.at(found.place), 0.0);
     return found;

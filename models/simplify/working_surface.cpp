@@ -198,13 +198,13 @@ bool may_move(
 
 WorkingUnits WorkingUnits::of(const TriangleMesh& mesh, double colour_weight) {
     // Colours that do not count are carried along with this weight.
-    constexpr double least_weight = 1e-4;
+    constexpr double min_weight = 1e-4;
     const Bounds bounds = bounds_of(mesh);
-    const double diagonal_m = glm::distance(bounds.least_m, bounds.most_m);
+    const double diagonal_m = glm::distance(bounds.min_m, bounds.max_m);
     return {
-        0.5 * (bounds.least_m + bounds.most_m),
+        0.5 * (bounds.min_m + bounds.max_m),
         diagonal_m > 0.0 ? diagonal_m : 1.0,
-        std::max(colour_weight, least_weight)};
+        std::max(colour_weight, min_weight)};
 }
 
 glm::vec3 WorkingUnits::colour_to_file(const glm::dvec3& colour) const {

@@ -45,9 +45,9 @@ int create(const std::filesystem::path& path) {
 /// Another program, in a container of its own perhaps, may have the same number.
 int create_beside(const std::filesystem::path& path, std::filesystem::path& target) {
     static std::atomic<unsigned> files = 0; // threads may write the same file at once
-    constexpr int most_tries = 100;
+    constexpr int max_tries = 100;
     int descriptor = -1;
-    for (int tries = 0; tries < most_tries; ++tries) {
+    for (int tries = 0; tries < max_tries; ++tries) {
         target = path;
         target.replace_filename(
             fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));

@@ -32,7 +32,7 @@ void CigiImageGenerator::answer_sight(
         if (request.from_entity) {
             turn = ned_from_body(attitude_of(request.entity)) * turn;
         }
-        to = ground_->moved(*from, turn * glm::dvec3(request.most_m, 0.0, 0.0));
+        to = ground_->moved(*from, turn * glm::dvec3(request.max_m, 0.0, 0.0));
     } else {
         const std::uint16_t entity = request.to_is_given ? request.to : request.entity;
         to = place_from(request.to_entity, entity, request.destination);
@@ -41,7 +41,7 @@ void CigiImageGenerator::answer_sight(
     CigiSight sight;
     if (known) {
         const auto met = ground_->first_met(*from, *to);
-        const bool counts = met && (!request.is_vector || met->range_m >= request.least_m);
+        const bool counts = met && (!request.is_vector || met->range_m >= request.min_m);
         sight.visible = !counts;
         if (counts) {
             sight.range_m = met->range_m;
@@ -84,7 +84,7 @@ std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, d
          static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
          has_host_ ? control_.mode : CigiMode::Standby,
          control_.database});
-    while (!waiting_.empty() && message.size() + cigi_largest_answer <= most_message_bytes) {
+    while (!waiting_.empty() && message.size() + cigi_largest_answer <= max_message_bytes) {
         answer(waiting_.front(), message);
         waiting_.pop_front();
     }

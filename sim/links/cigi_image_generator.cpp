@@ -113,14 +113,14 @@ void CigiImageGenerator::take_rate(
 /// A view control of a group is one of each view that was defined to be in it.
 void CigiImageGenerator::take_view(const CigiViewControl& view) {
     if (view.group == 0) {
-        keep(views_, view.view, view, most_views);
+        keep(views_, view.view, view, max_views);
         return;
     }
     for (const auto& [number, definition] : definitions_) {
         if (definition.group == view.group) {
             CigiViewControl member = view;
             member.view = number;
-            keep(views_, number, member, most_views);
+            keep(views_, number, member, max_views);
         }
     }
 }
@@ -140,7 +140,7 @@ void CigiImageGenerator::take_definition(const CigiViewDefinition& told) {
         definition.top_rad = told.sets.z ? told.top_rad : before.top_rad;
         definition.bottom_rad = told.sets.w ? told.bottom_rad : before.bottom_rad;
     }
-    keep(definitions_, told.view, definition, most_views);
+    keep(definitions_, told.view, definition, max_views);
 }
 
 std::optional<std::uint16_t> CigiImageGenerator::type_of(std::uint16_t entity) const {
@@ -160,12 +160,12 @@ void CigiImageGenerator::take_entity(const CigiEntityControl& control) {
     if (known != entities_.end()) {
         known->second.control = control;
     } else {
-        keep(entities_, control.entity, Entity{control, {}}, most_entities);
+        keep(entities_, control.entity, Entity{control, {}}, max_entities);
     }
 }
 
 void CigiImageGenerator::wait(Answer answer) {
-    if (waiting_.size() < most_waiting) {
+    if (waiting_.size() < max_waiting) {
         waiting_.push_back(std::move(answer));
     }
 }
@@ -173,21 +173,21 @@ void CigiImageGenerator::wait(Answer answer) {
 // A period of 0 asks once and ends what was asked periodically under the same number.
 void CigiImageGenerator::ask(const CigiHeightRequest& request) {
     heights_.erase(request.id);
-    if (request.period == 0 || !keep(heights_, request.id, request, most_periodic)) {
+    if (request.period == 0 || !keep(heights_, request.id, request, max_periodic)) {
         wait({request, low_bits(control_.host_frame)});
     }
 }
 
 void CigiImageGenerator::ask(const CigiSightRequest& request) {
     sights_.erase(request.id);
-    if (request.period == 0 || !keep(sights_, request.id, request, most_periodic)) {
+    if (request.period == 0 || !keep(sights_, request.id, request, max_periodic)) {
         wait({request, low_bits(control_.host_frame)});
     }
 }
 
 void CigiImageGenerator::ask(const CigiPositionRequest& request) {
     positions_.erase(request.object);
-    if (!request.continuous || !keep(positions_, request.object, request, most_periodic)) {
+    if (!request.continuous || !keep(positions_, request.object, request, max_periodic)) {
         wait({request, low_bits(control_.host_frame)});
     }
 }
@@ -214,9 +214,9 @@ void CigiImageGenerator::ask_periodic() {
 /// Where an entity is, its parents counted; nothing where one of them is unknown or there are too
 /// many.
 std::optional<glm::dvec3> CigiImageGenerator::place_of(std::uint16_t entity, int depth) const {
-    constexpr int most_parents = 8;
+    constexpr int max_parents = 8;
     const auto known = entities_.find(entity);
-    if (known == entities_.end() || depth > most_parents) {
+    if (known == entities_.end() || depth > max_parents) {
         return std::nullopt;
     }
     const CigiEntityControl& control = known->second.control;
@@ -238,8 +238,8 @@ std::optional<glm::dvec3> CigiImageGenerator::place_of(std::uint16_t entity, int
 
 EulerAngles CigiImageGenerator::attitude_of(std::uint16_t entity) const {
     glm::dmat3 turn(1.0);
-    constexpr int most_parents = 8;
-    for (int depth = 0; depth <= most_parents; ++depth) {
+    constexpr int max_parents = 8;
+    for (int depth = 0; depth <= max_parents; ++depth) {
         const auto known = entities_.find(entity);
         if (known == entities_.end()) {
             break;

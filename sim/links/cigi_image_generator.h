@@ -47,11 +47,11 @@ public:
 /// asks. Opens no sockets and reads no clock.
 class CigiImageGenerator {
 public:
-    static constexpr std::size_t most_entities = 256;
-    static constexpr std::size_t most_views = 16;
-    static constexpr std::size_t most_periodic = 256;
-    static constexpr std::size_t most_waiting = 1024;
-    static constexpr std::size_t most_message_bytes = 1472;
+    static constexpr std::size_t max_entities = 256;
+    static constexpr std::size_t max_views = 16;
+    static constexpr std::size_t max_periodic = 256;
+    static constexpr std::size_t max_waiting = 1024;
+    static constexpr std::size_t max_message_bytes = 1472;
 
     /// Without a ground every question is answered as outside the database. It must outlive this.
     explicit CigiImageGenerator(const CigiGround* ground)

@@ -169,13 +169,13 @@ std::optional<CigiPacket> read_view_definition(const WireReader& reader) {
     view.group = reader.at<std::uint8_t>(4);
     view.parallel = bits(reader, 6, 3, 1) != 0;
     std::array<double, 4> sides_rad{};
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (unsigned i = 0; i < sides_rad.size(); ++i) {
         constexpr unsigned left = 2;
         view.sets[static_cast<int>(i)] = bits(reader, 5, left + i, 1) != 0;
         if (view.sets[static_cast<int>(i)]) {
             sides_rad[i] = rad_at(reader, 16 + 4 * std::size_t{i});
-            most_rad = std::isfinite(sides_rad[i]) ? std::max(most_rad, std::abs(sides_rad[i]))
+            max_rad = std::isfinite(sides_rad[i]) ? std::max(max_rad, std::abs(sides_rad[i]))
                                                    : furthest_m;
         }
     }
@@ -186,7 +186,7 @@ std::optional<CigiPacket> read_view_definition(const WireReader& reader) {
     const bool turned_round = (view.sets.x && view.sets.y && view.left_rad >= view.right_rad) ||
                               (view.sets.z && view.sets.w && view.bottom_rad >= view.top_rad);
     constexpr double widest_rad = 1.5;
-    return !turned_round && most_rad < widest_rad ? std::optional<CigiPacket>(view) : std::nullopt;
+    return !turned_round && max_rad < widest_rad ? std::optional<CigiPacket>(view) : std::nullopt;
 }
 
 std::optional<CigiPacket> read_height_request(const WireReader& reader) {
@@ -226,13 +226,13 @@ std::optional<CigiPacket> read_sight_vector(const WireReader& reader) {
     request.entity = reader.at<std::uint16_t>(6);
     request.azimuth_rad = rad_at(reader, 8);
     request.elevation_rad = rad_at(reader, 12);
-    request.least_m = static_cast<double>(reader.at<float>(16));
-    request.most_m = static_cast<double>(reader.at<float>(20));
+    request.min_m = static_cast<double>(reader.at<float>(16));
+    request.max_m = static_cast<double>(reader.at<float>(20));
     request.source = doubles(reader, 24);
     request.period = reader.at<std::uint8_t>(52);
     return finite(request.source) && std::isfinite(request.azimuth_rad) &&
-                   std::isfinite(request.elevation_rad) && std::isfinite(request.least_m) &&
-                   std::isfinite(request.most_m)
+                   std::isfinite(request.elevation_rad) && std::isfinite(request.min_m) &&
+                   std::isfinite(request.max_m)
                ? std::optional<CigiPacket>(request)
                : std::nullopt;
 }

@@ -129,8 +129,8 @@ struct CigiSightRequest {
     glm::dvec3 destination{0.0};
     double azimuth_rad = 0.0; ///< of a vector: from north or the entity's nose
     double elevation_rad = 0.0;
-    double least_m = 0.0;
-    double most_m = 0.0;
+    double min_m = 0.0;
+    double max_m = 0.0;
 };
 
 struct CigiPositionRequest {

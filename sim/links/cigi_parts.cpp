@@ -19,7 +19,7 @@ void CigiParts::take(const CigiPart& told, double at_s) {
         parts_.erase(key);
         return;
     }
-    if (parts_.size() == most_parts && !parts_.contains(key)) {
+    if (parts_.size() == max_parts && !parts_.contains(key)) {
         return;
     }
     Part& part = parts_[key];

@@ -24,7 +24,7 @@ struct CigiTurnedPart {
 /// them.
 class CigiParts {
 public:
-    static constexpr std::size_t most_parts = 1024;
+    static constexpr std::size_t max_parts = 1024;
 
     /// Angles and offsets that the packet does not set stay as they are; a part that is not enabled
     /// is the model's own again.

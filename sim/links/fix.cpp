@@ -10,7 +10,7 @@ constexpr double highest_m = 1e6;
 constexpr double furthest_m = 1e7;
 constexpr double lowest_m = -12000.0;
 constexpr double fastest_mps = 20000.0;
-constexpr double most_acceleration_mps2 = 2000.0;
+constexpr double max_acceleration_mps2 = 2000.0;
 constexpr double fastest_turn_radps = 100.0;
 constexpr double largest_angle_rad = 100.0;
 
@@ -66,7 +66,7 @@ Fault fault_of(const Fix& fix) {
         (!fix.above_ground_m || std::abs(*fix.above_ground_m) <= highest_m) &&
         (!fix.above_home_m || std::abs(*fix.above_home_m) <= highest_m) &&
         (!fix.velocity_ned_mps || within(*fix.velocity_ned_mps, fastest_mps)) &&
-        within(fix.acceleration_ned_mps2, most_acceleration_mps2) &&
+        within(fix.acceleration_ned_mps2, max_acceleration_mps2) &&
         (!fix.body_rates_radps || within(*fix.body_rates_radps, fastest_turn_radps));
     return in_range ? Fault::None : Fault::OutOfRange;
 }

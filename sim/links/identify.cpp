@@ -58,9 +58,9 @@ bool is_fdm(Bytes datagram) {
 
 /// Of any size: compilers pad the structure in more than one way.
 bool is_swapped_fdm(Bytes datagram) {
-    constexpr std::size_t least_bytes = 396;
+    constexpr std::size_t min_bytes = 396;
     const auto version = WireReader(datagram, ByteOrder::Little).at<std::uint32_t>(0);
-    return (version == 24 || version == 25) && datagram.size() >= least_bytes;
+    return (version == 24 || version == 25) && datagram.size() >= min_bytes;
 }
 
 std::optional<PacketKind> cigi_kind(Bytes datagram) {

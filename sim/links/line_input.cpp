@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t read_bytes = 65536;
 constexpr std::size_t client_bytes = 16384; ///< that one drain() takes of a client; others wait
-constexpr int most_newcomers = 64;          ///< that one drain() takes; others wait
+constexpr int max_newcomers = 64;          ///< that one drain() takes; others wait
 
 } // namespace
 
@@ -26,8 +26,8 @@ void StandardInput::drain(double now_s, std::vector<Datagram>& into) {
     const auto take = [&](const std::vector<std::byte>& line) {
         into.push_back({Protocol::Lines, {}, now_s, line});
     };
-    constexpr int most_reads = 16;
-    for (int i = 0; i < most_reads && !ended_; ++i) {
+    constexpr int max_reads = 16;
+    for (int i = 0; i < max_reads && !ended_; ++i) {
         pollfd state{STDIN_FILENO, POLLIN, 0};
         if (::poll(&state, 1, 0) <= 0) {
             return;
@@ -74,7 +74,7 @@ LineServer& LineServer::operator=(LineServer&& other) noexcept {
 /// A newcomer takes the place of a client that has not sent anything yet, where all are taken.
 void LineServer::take_clients() {
     const auto now = std::chrono::steady_clock::now();
-    for (int taken = 0; taken < most_newcomers; ++taken) {
+    for (int taken = 0; taken < max_newcomers; ++taken) {
         const auto client = accepted_client(socket_);
         if (!client) {
             return;
@@ -83,7 +83,7 @@ void LineServer::take_clients() {
             ::close(client->first);
             continue;
         }
-        if (clients_.size() == most_clients) {
+        if (clients_.size() == max_clients) {
             const auto silent = std::ranges::find(clients_, false, &Client::has_sent);
             if (silent == clients_.end()) {
                 ::close(client->first);

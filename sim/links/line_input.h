@@ -22,7 +22,7 @@ public:
         for (const std::byte byte : bytes) {
             if (byte == std::byte{'\n'}) {
                 end_line(take);
-            } else if (line_.size() < most_bytes) {
+            } else if (line_.size() < max_bytes) {
                 line_.push_back(byte);
             }
         }
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_bytes = 4096;
+    static constexpr std::size_t max_bytes = 4096;
 
     template <class Take>
     void end_line(Take&& take) {
@@ -68,7 +68,7 @@ private:
 /// A TCP port on which some clients may send lines at a time.
 class LineServer {
 public:
-    static constexpr std::size_t most_clients = 8;
+    static constexpr std::size_t max_clients = 8;
     /// A client that has never sent anything is let go after this.
     static constexpr std::chrono::seconds silent_at_first{10};
 

@@ -34,7 +34,7 @@ std::string motion_text(
         is_shown ? "" : ", not shown: no --aircraft left for it");
 }
 
-constexpr std::size_t most_streams = 64;
+constexpr std::size_t max_streams = 64;
 
 /// What is kept of a stream, which is new where there is room for it: of the full table those make
 /// room that were silent the longest, and for so long. Null where none was.
@@ -43,7 +43,7 @@ typename Streams::mapped_type* stream_of(
     Streams& streams, const typename Streams::key_type& key, double arrival_s, double gone_s) {
     auto known = streams.find(key);
     if (known == streams.end()) {
-        if (streams.size() >= most_streams) {
+        if (streams.size() >= max_streams) {
             const auto silent = std::ranges::min_element(
                 streams, {}, [](const auto& stream) { return stream.second.last_s; });
             if (arrival_s - silent->second.last_s < gone_s) {
@@ -111,9 +111,9 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
     if (const auto known = numbers_.find(key); known != numbers_.end()) {
         return &vehicles_[known->second];
     }
-    const auto silent_for = [arrival_s](double least_s) {
-        return [arrival_s, least_s](const LiveVehicle& vehicle) {
-            return arrival_s - vehicle.last_arrival_s() > least_s;
+    const auto silent_for = [arrival_s](double min_s) {
+        return [arrival_s, min_s](const LiveVehicle& vehicle) {
+            return arrival_s - vehicle.last_arrival_s() > min_s;
         };
     };
     const auto is_restarted = [&](const LiveVehicle& vehicle) {
@@ -131,7 +131,7 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
         *gone = LiveVehicle(key);
         return &*gone;
     }
-    if (vehicles_.size() == most_vehicles) {
+    if (vehicles_.size() == max_vehicles) {
         return nullptr;
     }
     numbers_.emplace(key, vehicles_.size());
@@ -142,7 +142,7 @@ LiveVehicle* LiveTraffic::vehicle_of(const VehicleKey& key, double arrival_s) {
 void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::string& marking) {
     auto known = reports_.find(key);
     if (known == reports_.end()) {
-        if (reports_.size() >= most_reported) {
+        if (reports_.size() >= max_reported) {
             return;
         }
         known = reports_.try_emplace(key).first;
@@ -428,8 +428,8 @@ std::vector<std::string> LiveTraffic::lines() const {
         lines.push_back(fmt::format(
             "{}: {}", text_of(fine_.source), verdict_text(fine_.protocol, fine_.verdict)));
     }
-    constexpr std::size_t most_lines = 4;
-    for (std::size_t i = 0; i < std::min(vehicles_.size(), most_lines); ++i) {
+    constexpr std::size_t max_lines = 4;
+    for (std::size_t i = 0; i < std::min(vehicles_.size(), max_lines); ++i) {
         const VehicleKey& key = vehicles_[i].key();
         const auto known = reports_.find(key);
         const std::string marking = known == reports_.end() ? "" : known->second.marking;
@@ -439,8 +439,8 @@ std::vector<std::string> LiveTraffic::lines() const {
             lost_of(key),
             i < shown_ || shown_ == 0));
     }
-    if (vehicles_.size() > most_lines) {
-        lines.push_back(fmt::format("and {} vehicles more", vehicles_.size() - most_lines));
+    if (vehicles_.size() > max_lines) {
+        lines.push_back(fmt::format("and {} vehicles more", vehicles_.size() - max_lines));
     }
     if (wrong_.at_s >= 0.0 && shown_s_ - wrong_.at_s < wrong_said_s) {
         lines.push_back(fmt::format(
@@ -449,7 +449,7 @@ std::vector<std::string> LiveTraffic::lines() const {
             verdict_text(wrong_.protocol, wrong_.verdict),
             counts_.wrong));
     }
-    if (vehicles_.size() == most_vehicles) {
+    if (vehicles_.size() == max_vehicles) {
         lines.push_back(fmt::format(
             "{} vehicles in all, {} are followed, {} shown",
             reports_.size(),

@@ -73,9 +73,9 @@ std::string name_of(const VehicleKey& key);
 /// sockets and no clocks in here, so that a recording of packets repeats it.
 class LiveTraffic {
 public:
-    static constexpr std::size_t most_vehicles = 256;
-    /// Vehicles that are reported; those beyond most_vehicles are not followed.
-    static constexpr std::size_t most_reported = 20000;
+    static constexpr std::size_t max_vehicles = 256;
+    /// Vehicles that are reported; those beyond max_vehicles are not followed.
+    static constexpr std::size_t max_reported = 20000;
     /// Silence after which a vehicle gives its place to another one.
     static constexpr double gone_after_s = 10.0;
     /// The same where the other one is its sender begun anew: of the same number, machine and

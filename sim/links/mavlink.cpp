@@ -156,8 +156,8 @@ std::optional<Fix> MavLinkPose::take_hil(const MavLinkFrame& frame) {
     const glm::dvec3 xyz = reader.floats(12);
     const glm::dquat ned_from_body(static_cast<double>(reader.at<float>(8)), xyz.x, xyz.y, xyz.z);
     const double length = glm::length(ned_from_body);
-    constexpr double most_off_unit = 0.1;
-    if (!(std::abs(length - 1.0) < most_off_unit)) {
+    constexpr double max_off_unit = 0.1;
+    if (!(std::abs(length - 1.0) < max_off_unit)) {
         return std::nullopt;
     }
     const glm::dmat3 m = glm::mat3_cast(ned_from_body / length);
@@ -205,9 +205,9 @@ MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid
     if (!position_) {
         return std::nullopt;
     }
-    constexpr double most_carried_s = 2.0;
+    constexpr double max_carried_s = 2.0;
     const double carried_s = sent_s - *position_->sent_s;
-    if (std::abs(carried_s) > most_carried_s) {
+    if (std::abs(carried_s) > max_carried_s) {
         return std::nullopt;
     }
     Fix fix = *position_;

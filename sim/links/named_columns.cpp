@@ -83,8 +83,8 @@ Fix NamedColumns::fix_of(const std::array<double, quantities>& values) const {
     if (has(NorthSpeed) && has(EastSpeed) && has(UpSpeed)) {
         fix.velocity_ned_mps = glm::dvec3(values[NorthSpeed], values[EastSpeed], -values[UpSpeed]);
     }
-    constexpr double most_id = 1e9;
-    fix.vehicle = static_cast<std::uint64_t>(std::clamp(values[Id], 0.0, most_id));
+    constexpr double max_id = 1e9;
+    fix.vehicle = static_cast<std::uint64_t>(std::clamp(values[Id], 0.0, max_id));
     return fix;
 }
 

@@ -163,7 +163,7 @@ void SenderClock::begin(double arrival_s, const TimeClue& clue) {
 }
 
 void SenderClock::begin_offset(double arrival_s) {
-    least_s_.fill(std::numeric_limits<double>::infinity());
+    min_s_.fill(std::numeric_limits<double>::infinity());
     offset_s_ = arrival_s - sender_s_;
     bucket_since_s_ = arrival_s;
 }
@@ -273,19 +273,19 @@ void SenderClock::follow(double arrival_s) {
         bucket_since_s_ += passed * bucket_s;
         for (double i = 0.0; i < std::min(passed, static_cast<double>(buckets)); i += 1.0) {
             bucket_ = (bucket_ + 1) % buckets;
-            least_s_[bucket_] = std::numeric_limits<double>::infinity();
+            min_s_[bucket_] = std::numeric_limits<double>::infinity();
         }
     }
-    least_s_[bucket_] = std::min(least_s_[bucket_], delay_s);
-    const double least_s = *std::ranges::min_element(least_s_);
+    min_s_[bucket_] = std::min(min_s_[bucket_], delay_s);
+    const double min_s = *std::ranges::min_element(min_s_);
     const double since_s = std::max(arrival_s - last_arrival_s_, 0.0);
-    if (least_s < offset_s_) {
-        offset_s_ += (least_s - offset_s_) * (1.0 - std::exp(-since_s / quick_fall_s));
+    if (min_s < offset_s_) {
+        offset_s_ += (min_s - offset_s_) * (1.0 - std::exp(-since_s / quick_fall_s));
     } else {
-        offset_s_ += std::min(least_s - offset_s_, max_rise * since_s);
+        offset_s_ += std::min(min_s - offset_s_, max_rise * since_s);
     }
     constexpr double jitter_share = 0.02;
-    jitter_s_ += jitter_share * (std::max(delay_s - least_s, 0.0) - jitter_s_);
+    jitter_s_ += jitter_share * (std::max(delay_s - min_s, 0.0) - jitter_s_);
 }
 
 /// Where a clock turns out to be wrong, what was made of it goes.

@@ -194,7 +194,7 @@ private:
     int late_in_a_row_ = 0;
     int restarts_in_a_row_ = 0;
     // By how much sender and receiver differ, from the least delays of late.
-    std::array<double, buckets> least_s_{};
+    std::array<double, buckets> min_s_{};
     std::size_t bucket_ = 0;
     double bucket_since_s_ = 0.0;
     double offset_s_ = 0.0;

@@ -56,13 +56,13 @@ TacviewServer& TacviewServer::operator=(TacviewServer&& other) noexcept {
 /// A newcomer takes the place of the client that has been shaking hands for longest, where too many
 /// are.
 void TacviewServer::take_clients() {
-    constexpr int most_a_call = 256;
-    for (int taken = 0; taken < most_a_call; ++taken) {
+    constexpr int max_a_call = 256;
+    for (int taken = 0; taken < max_a_call; ++taken) {
         const auto client = accepted_client(socket_);
         if (!client) {
             break;
         }
-        if (clients_.size() - readers() == most_handshakes) {
+        if (clients_.size() - readers() == max_handshakes) {
             const auto slow = std::ranges::find(clients_, false, &Client::ready);
             ::close(slow->socket);
             clients_.erase(slow);
@@ -96,7 +96,7 @@ bool TacviewServer::shake_hands(Client& client) const {
     if (client.heard.find('\0') == std::string::npos) {
         return std::chrono::steady_clock::now() - client.since < longest_handshake;
     }
-    if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == most_readers) {
+    if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == max_readers) {
         return false;
     }
     client.ready = true;
@@ -114,7 +114,7 @@ bool TacviewServer::flush(Client& client) {
             MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent <= 0) {
             const bool later = sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
-            return later && client.waiting.size() <= most_waiting_bytes;
+            return later && client.waiting.size() <= max_waiting_bytes;
         }
         client.waiting.erase(0, static_cast<std::size_t>(sent));
     }

@@ -18,10 +18,10 @@ namespace octant::sim::links {
 class TacviewServer {
 public:
     static constexpr std::uint16_t usual_port = 42674;
-    static constexpr std::size_t most_readers = 16;
+    static constexpr std::size_t max_readers = 16;
     /// Clients that have not shaken hands yet; the oldest makes room for another one.
-    static constexpr std::size_t most_handshakes = 64;
-    static constexpr std::size_t most_waiting_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t max_handshakes = 64;
+    static constexpr std::size_t max_waiting_bytes = std::size_t{1} << 20;
     static constexpr std::chrono::seconds longest_handshake{5};
 
     /// Throws Error where the port is taken; 0 = any free one.

@@ -163,7 +163,7 @@ UdpPort& UdpPort::operator=(UdpPort&& other) noexcept {
 void UdpPort::drain(Protocol protocol, double now_s, std::vector<Datagram>& into) {
     timespec system_now{};
     clock_gettime(CLOCK_REALTIME, &system_now);
-    for (std::size_t taken = 0; taken < most_a_drain;) {
+    for (std::size_t taken = 0; taken < max_a_drain;) {
         batch_->prepare();
         const int count =
             ::recvmmsg(socket_, batch_->headers.data(), batch_size, MSG_DONTWAIT, nullptr);

@@ -23,7 +23,7 @@ public:
     /// Largest packet that is taken; longer ones are cut and so refused by their decoders.
     static constexpr std::size_t largest_bytes = 4096;
     /// Packets that one call of drain() takes; what is beyond waits, or is dropped by the system.
-    static constexpr std::size_t most_a_drain = 8192;
+    static constexpr std::size_t max_a_drain = 8192;
 
     /// Binds address:port; port 0 = any free one. Throws Error where it is taken or not ours.
     UdpPort(std::uint32_t address, std::uint16_t port);

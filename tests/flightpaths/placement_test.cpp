@@ -116,9 +116,9 @@ TEST_CASE("without a heading the one with the least relief is taken, the lowest 
 }
 
 TEST_CASE("headings that leave the map are passed over, then the middle of the path is tried") {
-    const auto strip = [](double least_y) -> GroundHeight {
+    const auto strip = [](double min_y) -> GroundHeight {
         return [=](double x, double y) -> std::optional<double> {
-            if (std::abs(x) > 250 || y < least_y || y > least_y + 2500) {
+            if (std::abs(x) > 250 || y < min_y || y > min_y + 2500) {
                 return std::nullopt;
             }
             return 10.0;
@@ -265,9 +265,9 @@ TEST_CASE("following keeps clearance, climb and load factor and stays closer tha
             sum_follow += now.position_m.z;
             sum_level += own.position_m.z + highest_ground_m;
             CHECK(
-                now.load_factor <= std::max(own.load_factor, kind.limits.most_load_factor) + 1e-6);
+                now.load_factor <= std::max(own.load_factor, kind.limits.max_load_factor) + 1e-6);
             CHECK(
-                now.load_factor >= std::min(own.load_factor, kind.limits.least_load_factor) - 1e-6);
+                now.load_factor >= std::min(own.load_factor, kind.limits.min_load_factor) - 1e-6);
             const double added_mps = now.velocity_mps.z - own.velocity_mps.z;
             CHECK(std::abs(added_mps) <= 0.2501 * glm::length(own.velocity_mps));
             CHECK(added_mps <= kind.limits.climb_rate_mps + 1e-6);
@@ -287,13 +287,13 @@ TEST_CASE("a followed path's velocity is the slope of its heights") {
     const PlacedPath placed =
         place_over_ground(path, {{0, 0}, 0.3, HeightMode::Follow}, hills(150, 5000), 100, f15());
     const auto samples = placed.trajectory.samples();
-    double most_mps = 0.0;
+    double max_mps = 0.0;
     for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
         const double slope_mps = (samples[i + 1].position_m.z - samples[i - 1].position_m.z) / 0.1;
         CHECK(samples[i].velocity_mps.z == Approx(slope_mps).margin(0.1));
-        most_mps = std::max(most_mps, std::abs(slope_mps));
+        max_mps = std::max(max_mps, std::abs(slope_mps));
     }
-    CHECK(most_mps > 5.0); // it does follow
+    CHECK(max_mps > 5.0); // it does follow
     CHECK(placed.notes.empty());
 }
 
@@ -312,8 +312,8 @@ TEST_CASE("steep ground is cleared even where it cannot be followed") {
 
 TEST_CASE("a path that is lifted by one height because it cannot follow says so") {
     sim::AircraftLimits gentle = f15();
-    gentle.most_load_factor = 1.05;
-    gentle.least_load_factor = 0.95;
+    gentle.max_load_factor = 1.05;
+    gentle.min_load_factor = 0.95;
     const auto check = [&](const sim::Trajectory& path, const GroundHeight& ground) {
         const PlacedPath placed =
             place_over_ground(path, {{0, 0}, 0.0, HeightMode::Follow}, ground, 30, gentle);

@@ -61,8 +61,8 @@ Figures figures_of(const sim::Trajectory& path) {
             const sim::AircraftState& before = samples[i - 1];
             const double step_s = now.time_s - before.time_s;
             f.length_m += glm::length(now.position_m - before.position_m);
-            f.most_turn_degps =
-                std::max(f.most_turn_degps, deg_from_rad(turn_between_rad(before, now)) / step_s);
+            f.max_turn_degps =
+                std::max(f.max_turn_degps, deg_from_rad(turn_between_rad(before, now)) / step_s);
             f.heading_change_deg +=
                 deg_from_rad(wrapped_to_pi(rad_from_deg(track_deg(now) - track_deg(before))));
         }

@@ -36,7 +36,7 @@ struct Figures {
     Range load_factor, height_m, speed_mps, bank_deg, east_m, climb_deg;
     double length_m = 0.0;
     double nearest_m = std::numeric_limits<double>::infinity(); ///< to the site, on the ground
-    double most_turn_degps = 0.0;                               ///< of the body
+    double max_turn_degps = 0.0;                               ///< of the body
     double heading_change_deg = 0.0;                            ///< clockwise, whole path
 };
 

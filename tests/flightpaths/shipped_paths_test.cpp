@@ -24,7 +24,7 @@ TEST_CASE("straight paths go past the site at their height, range and speed") {
     CHECK(f15.height_m.most == Approx(150));
     CHECK(f15.length_m == Approx(9987.5));
     CHECK(f15.load_factor.most == Approx(1.0));
-    CHECK(f15.most_turn_degps < 0.01);
+    CHECK(f15.max_turn_degps < 0.01);
     const Figures md500 = figures_of("500md-straight");
     CHECK(md500.nearest_m == Approx(250).epsilon(1e-6));
     CHECK(md500.height_m.least == Approx(30));
@@ -37,7 +37,7 @@ TEST_CASE("the F-15 weaves at 3 g with its bank, roll rate and amplitude") {
     CHECK(f.load_factor.most == Approx(3.27).epsilon(0.02));
     CHECK(f.bank_deg.most == within_tenth(77));
     CHECK(f.bank_deg.least == within_tenth(-77));
-    CHECK(f.most_turn_degps == within_tenth(190));
+    CHECK(f.max_turn_degps == within_tenth(190));
     CHECK(f.height_m.least == within_tenth(197));
     CHECK(f.height_m.most == within_tenth(207));
     CHECK(f.length_m == Approx(8740).epsilon(0.01));
@@ -50,7 +50,7 @@ TEST_CASE("the 500MD weaves at 0.7 g with its bank, roll rate and amplitude") {
     CHECK(f.load_factor.most == Approx(1.43).epsilon(0.02));
     CHECK(f.bank_deg.most == within_tenth(44));
     CHECK(f.bank_deg.least == within_tenth(-44));
-    CHECK(f.most_turn_degps == within_tenth(38));
+    CHECK(f.max_turn_degps == within_tenth(38));
     CHECK((f.east_m.most - f.east_m.least) / 2 == within_tenth(14));
     // 0.25 g every 6.5 s moves it 2.6 m up and down, well inside the 26 to 43 m of the design.
     CHECK((f.height_m.most - f.height_m.least) / 2 == within_tenth(2.62));
@@ -67,7 +67,7 @@ TEST_CASE("the F-15 pops up, pulls down, tracks and pulls out where it should") 
     CHECK(f.speed_mps.most == Approx(250).epsilon(0.001));
     CHECK(f.height_m.most == Approx(1104).epsilon(0.03));
     CHECK(f.height_m.least == Approx(90));
-    CHECK(f.most_turn_degps == within_tenth(123));
+    CHECK(f.max_turn_degps == within_tenth(123));
     CHECK(f.bank_deg.most == Approx(120).epsilon(0.02));
     CHECK(f.climb_deg.most == Approx(30).margin(1.5));
     CHECK(f.climb_deg.least == Approx(-20).margin(1.5));

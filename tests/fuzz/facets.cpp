@@ -20,9 +20,9 @@ using models::polygons::PolygonModel;
 /// Half a unit in the last place of numbers between 1 and 2.
 constexpr long double half_ulp = 0x1p-53L;
 /// Planes and places of polygons narrower than this (sizes) are not known: they are not hit.
-constexpr long double least_width_sizes = 1e-12L;
+constexpr long double min_width_sizes = 1e-12L;
 /// Of polygons with more corners not all triples are looked at.
-constexpr std::size_t most_corners_leaning = 64;
+constexpr std::size_t max_corners_leaning = 64;
 
 void measure(Facets& facets, const PolygonModel& model) {
     glm::dvec3 least = model.vertices_m[model.corner_vertices[0]];
@@ -49,7 +49,7 @@ Vec double_area(const std::vector<Vec>& corners) {
     return sum;
 }
 
-Facet facet_of(std::vector<Vec> corners, long double least_width_m) {
+Facet facet_of(std::vector<Vec> corners, long double min_width_m) {
     Facet facet;
     facet.corners = std::move(corners);
     long double round_m = 0.0L;
@@ -63,7 +63,7 @@ Facet facet_of(std::vector<Vec> corners, long double least_width_m) {
     }
     const Vec area = double_area(facet.corners);
     const long double width_m = round_m > 0.0L ? glm::length(area) / round_m : 0.0L;
-    if (width_m <= least_width_m) {
+    if (width_m <= min_width_m) {
         return facet;
     }
     facet.normal = glm::normalize(area);
@@ -154,7 +154,7 @@ Facets facets_of(const PolygonModel& model, long double slack_sizes, bool bends_
         for (const std::uint32_t vertex : model.corners(i)) {
             corners.push_back(Vec(model.vertices_m[vertex]) - facets.middle_m);
         }
-        facets.all.push_back(facet_of(std::move(corners), least_width_sizes * facets.size_m));
+        facets.all.push_back(facet_of(std::move(corners), min_width_sizes * facets.size_m));
         Facet& facet = facets.all.back();
         facet.slack_m = facet.bend_m + 2.0L * facets.noise_m + slack_sizes * facets.size_m;
     }
@@ -164,7 +164,7 @@ Facets facets_of(const PolygonModel& model, long double slack_sizes, bool bends_
     for (Facet& facet : facets.all) {
         facet.tilt *= facet.slack_m;
         if (bends_spread && facet.bend_m > 2.0L * facets.noise_m &&
-            facet.corners.size() <= most_corners_leaning) {
+            facet.corners.size() <= max_corners_leaning) {
             facet.tilt = std::max(facet.tilt, lean_of(facet));
         }
     }

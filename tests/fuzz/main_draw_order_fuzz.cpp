@@ -20,8 +20,8 @@ namespace octant::tests::fuzz {
 
 namespace {
 
-constexpr int least_polygons = 6;
-constexpr int most_polygons = 60;
+constexpr int min_polygons = 6;
+constexpr int max_polygons = 60;
 
 /// How the cases of one kind fared.
 struct Tally {
@@ -66,7 +66,7 @@ private:
     /// One case of each kind.
     void round(std::uint64_t seed) {
         const int by_seed =
-            least_polygons + static_cast<int>(seed * 7919U % (most_polygons - least_polygons + 1));
+            min_polygons + static_cast<int>(seed * 7919U % (max_polygons - min_polygons + 1));
         for (const std::string& kind : options_.kinds) {
             if (!options_.only && !may_go_on()) {
                 return;

@@ -23,13 +23,13 @@ using visuals::draworder::OrderedModel;
 
 namespace {
 
-constexpr std::size_t most_polygons = 64;
+constexpr std::size_t max_polygons = 64;
 /// Larger models are moved in one way each, by turns, for the sake of time.
 constexpr std::size_t few_polygons = 4;
 /// Of smaller models a double that far away keeps too few digits.
-constexpr double least_radius_m = 1e-3;
+constexpr double min_radius_m = 1e-3;
 /// Numbers above are refused in files.
-constexpr double most_coordinate_m = 1e7;
+constexpr double max_coordinate_m = 1e7;
 
 /// A way to turn, scale or move a model, in this sequence.
 struct Motion {
@@ -87,8 +87,8 @@ std::vector<Motion> motions(double radius_m) {
     }
     all.push_back({.name = "moved by 1e6 m", .move_m = glm::dvec3(1e6, -1e6, 1e6)});
     std::erase_if(all, [&](const Motion& motion) {
-        return (motion.move_m != glm::dvec3(0.0) && radius_m < least_radius_m) ||
-               motion.scale * radius_m > most_coordinate_m;
+        return (motion.move_m != glm::dvec3(0.0) && radius_m < min_radius_m) ||
+               motion.scale * radius_m > max_coordinate_m;
     });
     return all;
 }
@@ -146,7 +146,7 @@ TEST_CASE("moving, scaling and turning a model change neither its lists nor its 
     }
     for (const std::filesystem::path& file : files) {
         const PolygonModel model = models::polygons::read_obj(file);
-        if (model.polygons.size() > most_polygons) {
+        if (model.polygons.size() > max_polygons) {
             continue;
         }
         std::vector<Motion> ways = motions(models::polygons::radius_m(model));

@@ -113,8 +113,8 @@ TEST_CASE("pedals turn a hovering 500MD on the spot and slip a flying one") {
 
 TEST_CASE("bank, roll rate and load factor of a 500MD stay within its limits") {
     const auto flight = trimmed(40);
-    double most_bank = 0.0;
-    double most_load_factor = 0.0;
+    double max_bank = 0.0;
+    double max_load_factor = 0.0;
     double fastest = 0.0;
     glm::dquat attitude = flight->state().body_to_world;
     fly(
@@ -124,13 +124,13 @@ TEST_CASE("bank, roll rate and load factor of a 500MD stay within its limits") {
             return PilotControls{0.3, std::fmod(t, 8.0) < 4.0 ? 1.0 : -1.0, 0, 1};
         },
         [&](const HandFlight& f) {
-            most_bank = std::max(most_bank, std::abs(angles_of(f).roll_rad));
-            most_load_factor = std::max(most_load_factor, f.state().load_factor);
+            max_bank = std::max(max_bank, std::abs(angles_of(f).roll_rad));
+            max_load_factor = std::max(max_load_factor, f.state().load_factor);
             fastest = std::max(fastest, turn_radps(attitude, f.state().body_to_world));
             attitude = f.state().body_to_world;
         });
-    CHECK(deg_from_rad(most_bank) == Approx(60).margin(0.5));
-    CHECK(most_load_factor < 2.05);
+    CHECK(deg_from_rad(max_bank) == Approx(60).margin(0.5));
+    CHECK(max_load_factor < 2.05);
     CHECK(deg_from_rad(fastest) < 75);
     CHECK(flight->warnings().at_a_limit);
 }

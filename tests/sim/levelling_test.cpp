@@ -16,8 +16,8 @@ namespace {
 /// Flies for so long with these controls, then levels off.
 struct Levelled {
     double seconds = 0.0;
-    double most_turn_radps = 0.0;
-    double most_load_factor = 0.0;
+    double max_turn_radps = 0.0;
+    double max_load_factor = 0.0;
     bool stalled_again = false;
     std::unique_ptr<HandFlight> flight;
 };
@@ -35,9 +35,9 @@ Levelled levelled(const char* name, double speed_mps, const PilotControls& contr
         const bool stalled = flight.warnings().stalled;
         flight.step(levelling.controls(before));
         const AircraftState& after = flight.state();
-        end.most_turn_radps =
-            std::max(end.most_turn_radps, turn_radps(before.body_to_world, after.body_to_world));
-        end.most_load_factor = std::max(end.most_load_factor, after.load_factor);
+        end.max_turn_radps =
+            std::max(end.max_turn_radps, turn_radps(before.body_to_world, after.body_to_world));
+        end.max_load_factor = std::max(end.max_load_factor, after.load_factor);
         end.stalled_again = end.stalled_again || (!stalled && flight.warnings().stalled);
         end.seconds += step_s;
     }
@@ -51,7 +51,7 @@ TEST_CASE("levelling flies an aircraft level from any attitude, within its limit
         const char* name;
         double speed_mps;
         PilotControls controls;
-        double most_s;
+        double max_s;
     };
 
     const std::array cases{
@@ -68,9 +68,9 @@ TEST_CASE("levelling flies an aircraft level from any attitude, within its limit
         CAPTURE(each.name, each.controls.pitch, each.controls.roll);
         const Levelled end = levelled(each.name, each.speed_mps, each.controls);
         const AircraftLimits& limits = aircraft_kind(each.name).limits;
-        CHECK(end.seconds < each.most_s);
-        CHECK(end.most_turn_radps < limits.roll_rate_radps + 1.3);
-        CHECK(end.most_load_factor <= limits.most_load_factor + 0.1);
+        CHECK(end.seconds < each.max_s);
+        CHECK(end.max_turn_radps < limits.roll_rate_radps + 1.3);
+        CHECK(end.max_load_factor <= limits.max_load_factor + 0.1);
         CHECK_FALSE(end.stalled_again);
         // It stays level, and as fast, with the controls that it was left with.
         const double height_m = end.flight->state().position_m.z;

@@ -13,7 +13,7 @@ namespace {
 
 using models::TriangleMesh;
 
-constexpr std::size_t most_polygons = 300; ///< that draw orders are found for quickly
+constexpr std::size_t max_polygons = 300; ///< that draw orders are found for quickly
 
 std::vector<std::size_t> face_goals(std::size_t faces, std::size_t coarsest) {
     std::vector<std::size_t> goals;
@@ -36,7 +36,7 @@ double certified_distance_m(const TriangleMesh& original, const TriangleMesh& me
                 .samples = 0,
                 .threads = threads,
                 .larger_alone = true})
-        .most_hausdorff_m();
+        .max_hausdorff_m();
 }
 
 models::meshfile::LevelChain
@@ -64,10 +64,10 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
         if (level.triangles.size() < chain.levels.back().mesh.triangles.size()) {
             const double before_m = chain.levels.back().error_m;
             const double error_m = certified_distance_m(original, level, simplify.threads);
-            const double least_m =
+            const double min_m =
                 std::max(before_m * larger, 1e-12 * models::diagonal_m(original));
             chain.levels.push_back(
-                {seams.with_attributes(std::move(level)), std::max(error_m, least_m)});
+                {seams.with_attributes(std::move(level)), std::max(error_m, min_m)});
         }
         if (options.show_level) {
             options.show_level(chain.levels.size() - 1, goals.size());
@@ -75,7 +75,7 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
     }
     const TriangleMesh& last = chain.levels.back().mesh;
     chain.polygons = options.polygons;
-    if (!chain.polygons && last.triangles.size() <= most_polygons) {
+    if (!chain.polygons && last.triangles.size() <= max_polygons) {
         chain.polygons = models::polygons::as_polygons(last);
     }
     if (chain.polygons) {

@@ -81,12 +81,12 @@ Figures way_figures(const measure::OneWayDistance& way, const Findings& found) {
         return found.diagonal_m > 0.0 ? Figures(length_m / found.diagonal_m) : Figures();
     };
     Figures figures;
-    figures["hausdorff_least"] = fraction(way.least_hausdorff_m);
-    figures["hausdorff_most"] = fraction(way.most_hausdorff_m);
+    figures["hausdorff_least"] = fraction(way.min_hausdorff_m);
+    figures["hausdorff_most"] = fraction(way.max_hausdorff_m);
     figures["rms"] = fraction(way.rms_m);
     figures["mean"] = fraction(way.mean_m);
-    figures["hausdorff_least_units"] = way.least_hausdorff_m;
-    figures["hausdorff_most_units"] = way.most_hausdorff_m;
+    figures["hausdorff_least_units"] = way.min_hausdorff_m;
+    figures["hausdorff_most_units"] = way.max_hausdorff_m;
     figures["rms_units"] = way.rms_m;
     figures["mean_units"] = way.mean_m;
     if (found.coloured) {
@@ -97,8 +97,8 @@ Figures way_figures(const measure::OneWayDistance& way, const Findings& found) {
 
 measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
     return {
-        distance.least_hausdorff_m(),
-        distance.most_hausdorff_m(),
+        distance.min_hausdorff_m(),
+        distance.max_hausdorff_m(),
         distance.rms_m(),
         distance.mean_m(),
         distance.colour_rms()};
@@ -155,8 +155,8 @@ void print_text(const Findings& found) {
         const auto row = [&](const std::string& name, double Way::*figure) {
             print_row(fmt::format("{}, {}", name, kind.name), found.distance, figure, kind.unit);
         };
-        row("largest >=", &Way::least_hausdorff_m);
-        row("largest <=", &Way::most_hausdorff_m);
+        row("largest >=", &Way::min_hausdorff_m);
+        row("largest <=", &Way::max_hausdorff_m);
         row("rms", &Way::rms_m);
         row("mean", &Way::mean_m);
     }

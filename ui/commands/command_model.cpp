@@ -45,17 +45,17 @@ void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes
 
 /// Which unit of length an aircraft of this length was probably modelled in.
 std::string scale_in_words(double length) {
-    constexpr double least_m = 2.0;
-    constexpr double most_m = 90.0;
-    if (length >= least_m && length <= most_m) {
+    constexpr double min_m = 2.0;
+    constexpr double max_m = 90.0;
+    if (length >= min_m && length <= max_m) {
         return "metres";
     }
     constexpr double m_per_cm = 0.01;
     constexpr double m_per_mm = 0.001;
-    if (length * m_per_cm >= least_m && length * m_per_cm <= most_m) {
+    if (length * m_per_cm >= min_m && length * m_per_cm <= max_m) {
         return "metres as read; centimetres by the length of an aircraft";
     }
-    if (length * m_per_mm >= least_m && length * m_per_mm <= most_m) {
+    if (length * m_per_mm >= min_m && length * m_per_mm <= max_m) {
         return "metres as read; millimetres by the length of an aircraft";
     }
     return "metres as read; no aircraft is so long";
@@ -103,7 +103,7 @@ void show_model_info(const ModelInfoOptions& options) {
     const world::AircraftAxes axes = world::aircraft_axes(options.axes, options.file, mesh);
     turn_into_body(mesh, axes.axes);
     const models::Bounds bounds = models::bounds_of(mesh);
-    const glm::dvec3 extent_m = bounds.most_m - bounds.least_m;
+    const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
     base::Figures figures;
     figures["file"] = options.file;
     figures["length_m"] = extent_m.x;

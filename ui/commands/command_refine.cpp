@@ -189,7 +189,7 @@ void check_mesh_name(const char* option, const std::string& file) {
 void refine_mesh(RefineOptions options) {
     options.input.base = static_cast<std::size_t>(options.base);
     if (options.vertices > 0) {
-        options.input.most_vertices = static_cast<std::size_t>(options.vertices);
+        options.input.max_vertices = static_cast<std::size_t>(options.vertices);
     }
     if ((options.error_px > 0.0) != options.eye_m.has_value() ||
         options.eye_m.has_value() != options.look_m.has_value()) {

@@ -112,7 +112,7 @@ struct Fit {
 Fit fit_of(const models::TriangleMesh& body, double width, double height) {
     constexpr double share = 0.92;
     const models::Bounds bounds = models::bounds_of(body);
-    const glm::dvec3 extent_m = bounds.most_m - bounds.least_m;
+    const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
     double scale = std::numeric_limits<double>::infinity();
     for (const View& view : views) {
         const double across_m = std::abs(glm::dot(extent_m, view.right));
@@ -120,7 +120,7 @@ Fit fit_of(const models::TriangleMesh& body, double width, double height) {
         scale = across_m > 0.0 ? std::min(scale, share * width / across_m) : scale;
         scale = up_m > 0.0 ? std::min(scale, share * height / up_m) : scale;
     }
-    return {0.5 * (bounds.least_m + bounds.most_m), std::isfinite(scale) ? scale : 1.0};
+    return {0.5 * (bounds.min_m + bounds.max_m), std::isfinite(scale) ? scale : 1.0};
 }
 
 Pane pane_of(const models::TriangleMesh& body, const View& view, int width, int height) {

@@ -168,8 +168,8 @@ void add_distance(
          .threads = threads,
          .larger_alone = true,
          .tree_of_a = std::move(original_tree)});
-    figures["error"] = distance.most_hausdorff_m();
-    figures["error_of_diagonal"] = distance.most_hausdorff_m() / diagonal_m;
+    figures["error"] = distance.max_hausdorff_m();
+    figures["error_of_diagonal"] = distance.max_hausdorff_m() / diagonal_m;
     figures["rms"] = distance.rms_m();
     figures["rms_of_diagonal"] = distance.rms_m() / diagonal_m;
     if (!original.colours.empty() && !mesh.colours.empty()) {

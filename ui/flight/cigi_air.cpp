@@ -51,9 +51,9 @@ visuals::scene::AirSettings air_of_host(
     const std::optional<links::CigiCelestial>& celestial,
     const std::optional<GeoPlace>& place) {
     if (atmosphere) {
-        constexpr double least_m = 50.0;
-        constexpr double most_m = 5e5;
-        usual.visibility_m = std::clamp(atmosphere->visibility_m, least_m, most_m);
+        constexpr double min_m = 50.0;
+        constexpr double max_m = 5e5;
+        usual.visibility_m = std::clamp(atmosphere->visibility_m, min_m, max_m);
     }
     if (celestial && celestial->is_valid) {
         const double longitude_deg = place ? place->longitude_deg : 0.0;

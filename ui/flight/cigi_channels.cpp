@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_entities = 48; // of one packet that receivers take
+constexpr std::size_t max_entities = 48; // of one packet that receivers take
 constexpr int max_missed_in_a_row = 5;    ///< frames, then a channel is not waited for
 
 links::CigiEntityControl
@@ -178,7 +178,7 @@ CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) c
     control.last_ig_frame = last_ig_frame;
     links::WireWriter message(links::ByteOrder::Big);
     links::add_ig_control(message, control);
-    for (std::size_t i = 0; i < std::min(states.size(), most_entities); ++i) {
+    for (std::size_t i = 0; i < std::min(states.size(), max_entities); ++i) {
         const links::Fix fix = fix_of(session, states[i]);
         links::add_entity(message, entity_of(session, i, fix));
         const bool was_there = before_.size() == states.size();

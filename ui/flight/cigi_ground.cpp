@@ -14,9 +14,9 @@ namespace octant::ui::flight {
 namespace {
 
 constexpr double step_m = 2.0;
-constexpr double most_steps = 10000.0;
+constexpr double max_steps = 10000.0;
 constexpr double found_m = 0.01;
-constexpr int most_halvings = 64;
+constexpr int max_halvings = 64;
 
 } // namespace
 
@@ -64,7 +64,7 @@ CigiOverWorld::first_met(const glm::dvec3& from, const glm::dvec3& to) const {
     const glm::dvec3 from_m = world_from(from);
     const glm::dvec3 to_m = world_from(to);
     const double length_m = glm::length(to_m - from_m);
-    const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, most_steps);
+    const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, max_steps);
     const auto is_under = [&](double share) {
         const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
         const auto ground_m = height_m(at_m);
@@ -78,7 +78,7 @@ CigiOverWorld::first_met(const glm::dvec3& from, const glm::dvec3& to) const {
             continue;
         }
         // Bounded: of points very far away no two may be found_m apart.
-        for (int i = 0; i < most_halvings && (met - open) * length_m > found_m; ++i) {
+        for (int i = 0; i < max_halvings && (met - open) * length_m > found_m; ++i) {
             const double middle = 0.5 * (open + met);
             (is_under(middle) ? met : open) = middle;
         }

@@ -35,12 +35,12 @@ std::string adaptation_text(const StressSettings& stress) {
         "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
         stress.lowest,
         stress.highest,
-        stress.least_stress,
-        stress.most_stress,
+        stress.min_stress,
+        stress.max_stress,
         100.0 * stress.largest_fall,
         100.0 * stress.largest_rise,
         stress.filter_s,
-        stress.most_counted_stress);
+        stress.max_counted_stress);
 }
 
 } // namespace

@@ -77,8 +77,8 @@ bool Listener::take_waiting() {
 }
 
 std::optional<double> Listener::take(Session& session) {
-    constexpr std::size_t most_waiting = 20000; // in steps: more wait in the network
-    if (waiting_.size() < most_waiting) {
+    constexpr std::size_t max_waiting = 20000; // in steps: more wait in the network
+    if (waiting_.size() < max_waiting) {
         for (sim::links::Datagram& packet : input_.drain()) {
             waiting_.push_back(std::move(packet));
         }

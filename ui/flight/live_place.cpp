@@ -11,8 +11,8 @@ namespace octant::ui::flight {
 
 namespace {
 
-constexpr double most_difference_m = 5.0;
-constexpr std::size_t most_offsets = 1024;
+constexpr double max_difference_m = 5.0;
+constexpr std::size_t max_offsets = 1024;
 
 constexpr std::array<std::pair<LiveHeight, std::string_view>, 3> names{
     {{LiveHeight::Msl, "msl"}, {LiveHeight::Agl, "agl"}, {LiveHeight::Offset, "offset"}}};
@@ -51,7 +51,7 @@ void LivePlace::compare_grounds(const sim::links::Fix& fix, std::optional<double
     if (ours_m && theirs_m) {
         our_ground_m_ = *ours_m;
         their_ground_m_ = fix.altitude_m - *theirs_m;
-        grounds_differ_ = std::abs(our_ground_m_ - their_ground_m_) > most_difference_m;
+        grounds_differ_ = std::abs(our_ground_m_ - their_ground_m_) > max_difference_m;
     }
     agl_unknown_ = height_ == LiveHeight::Agl && !fix.above_ground_m;
 }
@@ -66,7 +66,7 @@ double LivePlace::offset_m(
     constexpr int settled = 3;
     constexpr double moved_m = 0.5;
     constexpr double jumped_m = 5000.0;
-    if (offsets_.size() >= most_offsets && !offsets_.contains(key)) {
+    if (offsets_.size() >= max_offsets && !offsets_.contains(key)) {
         offsets_.erase(offsets_.begin());
     }
     const auto [known, is_new] = offsets_.try_emplace(key, Offset{.last_at_m = at_m});

@@ -28,7 +28,7 @@ enum class RecordKind : std::uint8_t { Packet = 1, Words = 2, Picture = 3, TimeO
 constexpr std::string_view magic = "octant packets 1 ";
 constexpr std::string_view none = "-";
 constexpr std::size_t largest_bytes = std::size_t{1} << 32U;
-constexpr std::size_t most_bytes_a_record = 65536;
+constexpr std::size_t max_bytes_a_record = 65536;
 /// The longest recording that is read.
 constexpr double longest_s = 1e7;
 
@@ -85,8 +85,8 @@ private:
         if (!size) {
             return std::nullopt;
         }
-        if (*size > most_bytes_a_record) {
-            refuse(fmt::format("a record of at most {} bytes, got {}", most_bytes_a_record, *size));
+        if (*size > max_bytes_a_record) {
+            refuse(fmt::format("a record of at most {} bytes, got {}", max_bytes_a_record, *size));
         }
         if (bytes_.size() - at_ < *size) {
             return std::nullopt;
@@ -186,7 +186,7 @@ std::optional<std::map<std::uint16_t, std::size_t>> shapes_from(std::string_view
          word == none ? std::vector<std::string_view>() : split_fields(word, ',')) {
         const auto sides = split_fields(pair, '=');
         const auto type = number_up_to(sides.front(), std::numeric_limits<std::uint16_t>::max());
-        const auto aircraft = number_up_to(sides.back(), links::LiveTraffic::most_vehicles);
+        const auto aircraft = number_up_to(sides.back(), links::LiveTraffic::max_vehicles);
         if (sides.size() != 2 || !type || !aircraft) {
             return std::nullopt;
         }

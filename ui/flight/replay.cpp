@@ -15,7 +15,7 @@ namespace octant::ui::flight {
 namespace {
 
 /// More than any control asks for.
-constexpr int most_triangles = 100000000;
+constexpr int max_triangles = 100000000;
 
 std::string compared(const Replay& replay, const std::string& recorded, const std::string& now) {
     if (!replay.ended) {
@@ -48,13 +48,13 @@ Replay read_replay(const std::filesystem::path& folder) {
         if (row.frame != frame) {
             error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
         }
-        if (row.triangle_target < 1 || row.triangle_target > most_triangles) {
+        if (row.triangle_target < 1 || row.triangle_target > max_triangles) {
             error_at(
                 file,
                 frame + 2,
                 fmt::format(
                     "expected a triangle_target from 1 to {}, got {}",
-                    most_triangles,
+                    max_triangles,
                     row.triangle_target));
         }
         replay.decisions.push_back({row.triangle_target, row.smooth_target});

@@ -23,7 +23,7 @@ namespace {
 using Course = StressState::Course;
 
 double middle_of_band(const StressSettings& settings) {
-    return 0.5 * (settings.least_stress + settings.most_stress);
+    return 0.5 * (settings.min_stress + settings.max_stress);
 }
 
 double time_constant_frames(const StressSettings& settings) {
@@ -37,11 +37,11 @@ double filtered(double before, const StressSettings& settings, double stress) {
 Course next_course(Course course, const StressSettings& settings, double stress, bool budget_used) {
     const double above_middle = stress - middle_of_band(settings);
     const bool goes_on = std::abs(above_middle) > settings.rest_stress;
-    if (stress > settings.most_stress ||
+    if (stress > settings.max_stress ||
         (course == Course::Falling && goes_on && above_middle > 0.0)) {
         return Course::Falling;
     }
-    const bool has_room = stress < settings.least_stress ||
+    const bool has_room = stress < settings.min_stress ||
                           (course == Course::Rising && goes_on && above_middle < 0.0);
     return has_room && budget_used ? Course::Rising : Course::Held;
 }
@@ -88,12 +88,12 @@ StressState with_target(const StressState& state, int triangles) {
 StressState
 next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
     assert(settings.share_ms > 0.0 && settings.lowest >= 1 && settings.highest >= settings.lowest);
-    assert(settings.least_stress > 0.0 && settings.most_stress >= settings.least_stress);
-    assert(settings.most_counted_stress > settings.most_stress && settings.filter_frames >= 1.0);
+    assert(settings.min_stress > 0.0 && settings.max_stress >= settings.min_stress);
+    assert(settings.max_counted_stress > settings.max_stress && settings.filter_frames >= 1.0);
     assert(cost.frame_ms >= 0.0);
     const double share_used = cost.frame_ms / settings.share_ms;
     const double stress = filtered(
-        state.expected_stress, settings, std::min(share_used, settings.most_counted_stress));
+        state.expected_stress, settings, std::min(share_used, settings.max_counted_stress));
     const bool used = cost.triangles >= settings.used_share * state.target;
     StressState next;
     next.stress = filtered(state.stress.value_or(share_used), settings, share_used);

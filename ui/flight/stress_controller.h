@@ -16,11 +16,11 @@ struct StressSettings {
     /// The most triangles; at least `lowest`.
     int highest = 100000;
     /// The budget is left alone while the stress is between these.
-    double least_stress = 0.75;
-    double most_stress = 0.90;
+    double min_stress = 0.75;
+    double max_stress = 0.90;
     /// A longer frame counts as no more than this, so that one slow frame cannot push the filtered
-    /// stress from the middle of the band over its edge; above `most_stress`.
-    double most_counted_stress = 2.0;
+    /// stress from the middle of the band over its edge; above `max_stress`.
+    double max_counted_stress = 2.0;
     /// The time constant of the filter, in simulated time.
     double filter_s = 0.5;
     /// The filter spans no fewer frames than these; at least 1.

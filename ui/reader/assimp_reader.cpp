@@ -100,7 +100,7 @@ void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
         const glm::dvec3 place_m = vector_of(from.mVertices[v]);
         if (!(std::abs(place_m.x) + std::abs(place_m.y) + std::abs(place_m.z) <
-              models::meshfile::most_coordinate)) {
+              models::meshfile::max_coordinate)) {
             throw Error("expected finite places, got others");
         }
         mesh.add_vertex(place_m);
@@ -112,7 +112,7 @@ void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
     std::vector<Corner> corners;
     for (unsigned f = 0; f < from.mNumFaces; ++f) {
         const aiFace& face = from.mFaces[f];
-        if (face.mNumIndices < 3 || face.mNumIndices > models::meshfile::most_polygon_corners) {
+        if (face.mNumIndices < 3 || face.mNumIndices > models::meshfile::max_polygon_corners) {
             continue;
         }
         corners.clear();

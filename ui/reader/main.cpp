@@ -19,10 +19,10 @@ using namespace octant;
 namespace {
 
 constexpr int wrong_input = 2;
-constexpr rlim_t most_bytes = rlim_t{4} << 30U;
-constexpr rlim_t most_file_bytes = rlim_t{2} << 30U;
-constexpr rlim_t most_cpu_s = 25;
-constexpr unsigned most_s = 60;
+constexpr rlim_t max_bytes = rlim_t{4} << 30U;
+constexpr rlim_t max_file_bytes = rlim_t{2} << 30U;
+constexpr rlim_t max_cpu_s = 25;
+constexpr unsigned max_s = 60;
 
 // The address sanitizer reserves terabytes of addresses, which no limit may stand in the way of.
 #if defined(__SANITIZE_ADDRESS__)
@@ -38,10 +38,10 @@ constexpr bool limits_memory = true;
 #endif
 
 void limit() {
-    const rlimit memory{most_bytes, most_bytes};
-    const rlimit cpu{most_cpu_s, most_cpu_s};
+    const rlimit memory{max_bytes, max_bytes};
+    const rlimit cpu{max_cpu_s, max_cpu_s};
     const rlimit core{0, 0};
-    const rlimit file{most_file_bytes, most_file_bytes};
+    const rlimit file{max_file_bytes, max_file_bytes};
     if (limits_memory) {
         setrlimit(RLIMIT_AS, &memory);
     }
@@ -49,7 +49,7 @@ void limit() {
     setrlimit(RLIMIT_CORE, &core);
     setrlimit(RLIMIT_FSIZE, &file);
     std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails, and is told
-    alarm(most_s);
+    alarm(max_s);
 }
 
 void read(

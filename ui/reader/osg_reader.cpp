@@ -71,7 +71,7 @@ public:
         for (const osg::Vec3& place : *places) {
             const osg::Vec3d at = osg::Vec3d(place) * to_world;
             if (!(std::abs(at.x()) + std::abs(at.y()) + std::abs(at.z()) <
-                  models::meshfile::most_coordinate)) {
+                  models::meshfile::max_coordinate)) {
                 throw Error("expected finite places, got others");
             }
             mesh_.add_vertex({at.x(), at.y(), at.z()});

@@ -43,7 +43,7 @@ void LinkTally::add(const FrameRecord& record) {
     }
     if (record.skew_frames >= 0) {
         ++sent_;
-        most_skew_ = std::max(most_skew_, record.skew_frames);
+        max_skew_ = std::max(max_skew_, record.skew_frames);
         skewed_ += record.skew_frames > 0 ? 1 : 0;
     }
 }
@@ -53,7 +53,7 @@ Rows LinkTally::rows() const {
     if (sent_ > 0) {
         rows.emplace_back(
             "channels: skew at most, frames with any",
-            fmt::format("{} frames, {} of {}", most_skew_, skewed_, sent_));
+            fmt::format("{} frames, {} of {}", max_skew_, skewed_, sent_));
     }
     if (hosted_ > 0) {
         rows.emplace_back(

@@ -41,7 +41,7 @@ private:
     int first_host_frame_ = -1;
     int last_host_frame_ = -1;
     long sent_ = 0; ///< frames to image generators
-    int most_skew_ = 0;
+    int max_skew_ = 0;
     long skewed_ = 0;
 };
 

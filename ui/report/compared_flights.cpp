@@ -120,14 +120,14 @@ std::string title_of_group(const LoadedRecording& recording) {
 /// as there is room for.
 std::string
 overlaid(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
-    constexpr std::size_t most_curves = 12;
+    constexpr std::size_t max_curves = 12;
     Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
-    const std::size_t most_of_each = std::max<std::size_t>(1, most_curves / variants.size());
+    const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / variants.size());
     std::size_t runs = 0;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         runs += variants[v].size();
-        const std::size_t most_here = std::min(most_of_each, most_curves - plot.series.size());
-        for (std::size_t k = 0; k < std::min(variants[v].size(), most_here); ++k) {
+        const std::size_t max_here = std::min(max_of_each, max_curves - plot.series.size());
+        for (std::size_t k = 0; k < std::min(variants[v].size(), max_here); ++k) {
             const LoadedRecording& recording = recordings[variants[v][k]];
             PlotSeries curve = recording.flight.frame_ms.series(400);
             curve.name = label_of(recordings, recording);
@@ -147,7 +147,7 @@ overlaid(Recordings recordings, const std::vector<Indices>& variants, double cei
 } // namespace
 
 std::string compared_flights_html(Recordings recordings) {
-    constexpr std::size_t most_groups = 24;
+    constexpr std::size_t max_groups = 24;
     std::string html;
     std::size_t shown = 0;
     std::size_t compared = 0;
@@ -156,7 +156,7 @@ std::string compared_flights_html(Recordings recordings) {
             continue;
         }
         ++compared;
-        if (shown == most_groups) {
+        if (shown == max_groups) {
             continue;
         }
         ++shown;

@@ -114,12 +114,12 @@ variants_of(Recordings recordings, std::span<const std::size_t> group) {
 }
 
 Change change_between(std::span<const double> before, std::span<const double> after) {
-    constexpr std::size_t least_runs = 3;
+    constexpr std::size_t min_runs = 3;
     constexpr int resamples = 4000;
     Change change;
     change.share =
         median_of({after.begin(), after.end()}) / median_of({before.begin(), before.end()}) - 1.0;
-    if (before.size() < least_runs || after.size() < least_runs) {
+    if (before.size() < min_runs || after.size() < min_runs) {
         return change;
     }
     Dice dice(1979);

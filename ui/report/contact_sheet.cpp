@@ -11,7 +11,7 @@ namespace octant::ui::report {
 
 namespace {
 
-constexpr std::size_t most_pictures = 12;
+constexpr std::size_t max_pictures = 12;
 constexpr int widest_picture_px = 640;
 
 /// Mean of one channel over a square of side `side` with its top left corner at (x, y).
@@ -83,7 +83,7 @@ std::string contact_sheet_html(std::span<const std::filesystem::path> pictures) 
     if (pictures.empty()) {
         return {};
     }
-    const auto chosen = evenly_spaced(pictures.size(), most_pictures);
+    const auto chosen = evenly_spaced(pictures.size(), max_pictures);
     std::string html = "<div class=\"sheet\">\n";
     for (const std::size_t index : chosen) {
         html +=

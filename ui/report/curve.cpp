@@ -25,11 +25,11 @@ void Curve::add(double x, double y) {
         ++in_last_;
         return;
     }
-    if (pieces_.size() == most_pieces) {
-        for (std::size_t i = 0; 2 * i < most_pieces; ++i) {
+    if (pieces_.size() == max_pieces) {
+        for (std::size_t i = 0; 2 * i < max_pieces; ++i) {
             pieces_[i] = joined(pieces_[2 * i], pieces_[2 * i + 1]);
         }
-        pieces_.resize(most_pieces / 2);
+        pieces_.resize(max_pieces / 2);
         points_a_piece_ *= 2;
     }
     pieces_.push_back(piece);
@@ -37,7 +37,7 @@ void Curve::add(double x, double y) {
 }
 
 PlotSeries Curve::series(std::size_t pieces) const {
-    static_assert(most_pieces % 2 == 0);
+    static_assert(max_pieces % 2 == 0);
     assert(pieces >= 1);
     PlotSeries series;
     const auto add_point = [&](const Point& point) {

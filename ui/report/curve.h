@@ -12,13 +12,13 @@ namespace octant::ui::report {
 class Curve {
 public:
     /// More pieces than a page's plot has pixels.
-    static constexpr std::size_t most_pieces = 900;
+    static constexpr std::size_t max_pieces = 900;
 
     /// `x` not below that of the last point. A value that is not finite is a gap.
     void add(double x, double y);
 
     /// Its points in order, two a piece at the most, in at most so many pieces (>= 1).
-    PlotSeries series(std::size_t pieces = most_pieces) const;
+    PlotSeries series(std::size_t pieces = max_pieces) const;
 
 private:
     struct Point {

@@ -259,7 +259,7 @@ std::string slow_picture_html(const LoadedRecording& recording, const FrameRecor
 std::string slowest_html(const LoadedRecording& recording) {
     const std::vector<Overrun>& slowest = recording.slowest;
     std::string sheet;
-    for (std::size_t i = 0; i < std::min(SlowPictures::most_shown, slowest.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, slowest.size()); ++i) {
         sheet += slow_picture_html(recording, slowest[i].record);
     }
     return card(

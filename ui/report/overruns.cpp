@@ -39,11 +39,11 @@ void SlowFrames::add(const FrameRecord& record) {
     }
     const auto place = std::ranges::find_if(
         slowest_, [&](const FrameRecord& kept) { return kept.frame_ms < record.frame_ms; });
-    if (place == slowest_.end() && slowest_.size() == most_kept) {
+    if (place == slowest_.end() && slowest_.size() == max_kept) {
         return;
     }
     slowest_.insert(place, record);
-    slowest_.resize(std::min(slowest_.size(), most_kept));
+    slowest_.resize(std::min(slowest_.size(), max_kept));
 }
 
 std::vector<Overrun> SlowFrames::slowest() const {

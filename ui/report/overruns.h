@@ -27,11 +27,11 @@ struct Overrun {
 /// The slowest frames of a flight, those of its warm-up left out, in constant memory.
 class SlowFrames {
 public:
-    static constexpr std::size_t most_kept = 12;
+    static constexpr std::size_t max_kept = 12;
 
     void add(const FrameRecord& record);
 
-    /// At most most_kept, the slowest first.
+    /// At most max_kept, the slowest first.
     std::vector<Overrun> slowest() const;
 
     /// Frames above overrun_16_ms by the stage that took most of each.

@@ -135,7 +135,7 @@ private:
 
 /// Throws Error unless these can be the files of one recording.
 void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
-    constexpr std::uint64_t most_bytes = std::uint64_t{64} << 30;
+    constexpr std::uint64_t max_bytes = std::uint64_t{64} << 30;
     std::uint64_t bytes = 0;
     bool has_run = false;
     for (const ZipEntry& entry : entries) {
@@ -154,8 +154,8 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
         bytes += entry.bytes;
         has_run = has_run || entry.name == run_name;
     }
-    if (bytes > most_bytes) {
-        error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", most_bytes, bytes));
+    if (bytes > max_bytes) {
+        error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", max_bytes, bytes));
     }
     if (!has_run) {
         error_in(zip, "expected a packed recording, got one without run.json");

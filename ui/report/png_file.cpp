@@ -130,18 +130,18 @@ void write_png(const std::filesystem::path& path, const PictureView& picture) {
 }
 
 Picture picture_from_png(const std::filesystem::path& path, std::string_view bytes) {
-    constexpr std::size_t most_pixels = 100'000'000;
+    constexpr std::size_t max_pixels = 100'000'000;
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&image, png_image_free);
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
         error_in(path, fmt::format("expected a PNG picture: {}", image.message));
     }
-    if (std::size_t{image.width} * image.height > most_pixels) {
+    if (std::size_t{image.width} * image.height > max_pixels) {
         error_in(
             path,
             fmt::format(
-                "expected at most {} pixels, got {} x {}", most_pixels, image.width, image.height));
+                "expected at most {} pixels, got {} x {}", max_pixels, image.width, image.height));
     }
     const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
     image.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;

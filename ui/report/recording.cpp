@@ -110,9 +110,9 @@ void Recording::flush() {
 
 /// Every frame at first, then only those that were slow: trace viewers take no more.
 void Recording::add_to_trace(const FrameRecord& record) {
-    constexpr std::size_t most_bytes = std::size_t{48} << 20;
-    constexpr std::size_t most_bytes_of_slow_ones = std::size_t{64} << 20;
-    if (trace_bytes_ < (record.overrun != 0 ? most_bytes_of_slow_ones : most_bytes)) {
+    constexpr std::size_t max_bytes = std::size_t{48} << 20;
+    constexpr std::size_t max_bytes_of_slow_ones = std::size_t{64} << 20;
+    if (trace_bytes_ < (record.overrun != 0 ? max_bytes_of_slow_ones : max_bytes)) {
         const std::string events = trace_events(record);
         trace_bytes_ += events.size();
         trace_file_.append(events);

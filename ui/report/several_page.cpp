@@ -79,9 +79,9 @@ std::string swept_text(Recordings recordings) {
 }
 
 std::string runs_table(Recordings recordings, const fs::path& page_folder) {
-    constexpr std::size_t most_settings = 6;
+    constexpr std::size_t max_settings = 6;
     std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
-    const std::size_t left_out = names.size() - std::min(names.size(), most_settings);
+    const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
     names.resize(names.size() - left_out);
     std::string html = "<div class=\"scroll\"><table class=\"sortable runs\">\n<thead><tr>"
                        "<th>flight</th>";
@@ -146,7 +146,7 @@ std::string small_multiples(Recordings recordings) {
 }
 
 std::string pictures(Recordings recordings) {
-    constexpr std::size_t most_flights = 24;
+    constexpr std::size_t max_flights = 24;
     constexpr int widest_px = 320;
     std::vector<const LoadedRecording*> flights;
     for (const LoadedRecording& recording : recordings) {
@@ -158,16 +158,16 @@ std::string pictures(Recordings recordings) {
         return {};
     }
     std::string html = "<div class=\"sheet\">\n";
-    for (const std::size_t index : evenly_spaced(flights.size(), most_flights)) {
+    for (const std::size_t index : evenly_spaced(flights.size(), max_flights)) {
         const LoadedRecording& flight = *flights[index];
         const fs::path& middle = flight.pictures[flight.pictures.size() / 2];
         html += picture_html(
             middle, widest_px, label_of(recordings, flight) + ", " + middle.filename().string());
     }
     html += "</div>\n";
-    if (flights.size() > most_flights) {
+    if (flights.size() > max_flights) {
         html +=
-            fmt::format("<p class=\"note\">{} of {} flights.</p>\n", most_flights, flights.size());
+            fmt::format("<p class=\"note\">{} of {} flights.</p>\n", max_flights, flights.size());
     }
     return "<h2>A picture from the middle of each flight</h2>\n<div class=\"card\">" + html +
            "</div>\n";

@@ -21,11 +21,11 @@ void SlowPictures::add(const FrameRecord& record, const PictureView& picture) {
     const FrameRecord written = as_written(record);
     const auto place = std::ranges::find_if(
         kept_, [&](const Kept& kept) { return kept.record.frame_ms < written.frame_ms; });
-    if (place == kept_.end() && kept_.size() == most_kept) {
+    if (place == kept_.end() && kept_.size() == max_kept) {
         return;
     }
     kept_.insert(place, {written, shrunk(picture, widest_px)});
-    kept_.resize(std::min(kept_.size(), most_kept));
+    kept_.resize(std::min(kept_.size(), max_kept));
 }
 
 void SlowPictures::write(const std::filesystem::path& folder) const {

@@ -18,10 +18,10 @@ std::string slow_picture_name(int frame);
 class SlowPictures {
 public:
     /// As many as a report shows.
-    static constexpr std::size_t most_shown = 4;
+    static constexpr std::size_t max_shown = 4;
 
     /// One more: the first frame of a flight's part is often slow, and is not the whole flight's.
-    static constexpr std::size_t most_kept = most_shown + 1;
+    static constexpr std::size_t max_kept = max_shown + 1;
 
     /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must
     /// hold.

@@ -32,11 +32,11 @@ void StageColumns::add(const FrameRecord& record) {
         ++in_last_;
         return;
     }
-    if (columns_.size() == most_columns) {
-        for (std::size_t i = 0; 2 * i < most_columns; ++i) {
+    if (columns_.size() == max_columns) {
+        for (std::size_t i = 0; 2 * i < max_columns; ++i) {
             columns_[i] = joined(columns_[2 * i], columns_[2 * i + 1]);
         }
-        columns_.resize(most_columns / 2);
+        columns_.resize(max_columns / 2);
         frames_a_column_ *= 2;
     }
     columns_.push_back(column_of(record));

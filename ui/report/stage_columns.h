@@ -11,7 +11,7 @@ namespace octant::ui::report {
 /// columns, neighbours share one, which shows the longest of them.
 class StageColumns {
 public:
-    static constexpr std::size_t most_columns = 400; ///< each wide enough to be seen
+    static constexpr std::size_t max_columns = 400; ///< each wide enough to be seen
 
     struct Column {
         double x_s = 0.0; ///< simulated time of its first frame

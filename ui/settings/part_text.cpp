@@ -9,11 +9,11 @@
 namespace octant::ui::settings {
 
 std::optional<Part> part_from_text(const std::string& text) {
-    constexpr long most_parts = 10000;
+    constexpr long max_parts = 10000;
     const auto fields = split_fields(text, '/');
     const auto number = fields.size() == 2 ? whole_number(fields[0]) : std::nullopt;
     const auto of = fields.size() == 2 ? whole_number(fields[1]) : std::nullopt;
-    if (!number || !of || *number < 1 || *number > *of || *of > most_parts) {
+    if (!number || !of || *number < 1 || *number > *of || *of > max_parts) {
         return std::nullopt;
     }
     return Part{static_cast<int>(*number), static_cast<int>(*of)};

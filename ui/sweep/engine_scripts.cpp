@@ -8,7 +8,7 @@ namespace octant::ui::sweep {
 
 namespace {
 
-constexpr int most_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody changed it
+constexpr int max_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody changed it
 
 /// The command that flies the run whose name is in the shell's `variable`.
 std::string fly_command(const EngineOptions& options, const std::string& variable) {
@@ -34,7 +34,7 @@ std::string shell_word(const std::string& text) {
 
 int tasks_of(const Sweep& sweep, const EngineOptions& options) {
     const int runs = static_cast<int>(sweep.runs.size());
-    const int wanted = options.tasks > 0 ? options.tasks : most_tasks;
+    const int wanted = options.tasks > 0 ? options.tasks : max_tasks;
     return std::clamp(wanted, 1, std::max(1, runs));
 }
 

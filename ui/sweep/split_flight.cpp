@@ -200,7 +200,7 @@ private:
     /// where the frame before the part is, too.
     void copy_slow_pictures() const {
         std::vector<report::Overrun> slowest = slow_.slowest();
-        slowest.resize(std::min(slowest.size(), report::SlowPictures::most_shown));
+        slowest.resize(std::min(slowest.size(), report::SlowPictures::max_shown));
         for (const report::Overrun& frame : slowest) {
             const std::string name = report::slow_picture_name(frame.record.frame);
             const auto part = std::ranges::find_if(

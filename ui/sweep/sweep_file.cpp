@@ -116,12 +116,12 @@ std::vector<Words> Reader::range_of(const toml::table& table) const {
     const double to = number("to");
     const double step = number("step");
     if (table.size() != 3 || step <= 0.0 || to < from ||
-        (to - from) / step > static_cast<double>(most_runs)) {
+        (to - from) / step > static_cast<double>(max_runs)) {
         refuse(
             table,
             fmt::format(
                 "expected from <= to, a step above 0 and at most {} values, got others",
-                most_runs));
+                max_runs));
     }
     constexpr double rounding = 1e-9; // of a step, so that 0.1 to 0.3 by 0.1 has three values
     const bool whole = std::floor(from) == from && std::floor(step) == step;
@@ -287,9 +287,9 @@ Sweep Reader::sweep() const {
     std::size_t count = static_cast<std::size_t>(repeats());
     for (const Axis& axis : varied) {
         count *= axis.choices.size();
-        if (count > most_runs) {
+        if (count > max_runs) {
             error_at(
-                file_, axis.line, fmt::format("expected at most {} flights, got more", most_runs));
+                file_, axis.line, fmt::format("expected at most {} flights, got more", max_runs));
         }
     }
     std::set<std::string> names;

@@ -24,7 +24,7 @@ struct Sweep {
 };
 
 /// The largest number of flights that one file may ask for.
-inline constexpr std::size_t most_runs = 100000;
+inline constexpr std::size_t max_runs = 100000;
 
 /// Reads a sweep:
 ///   name = "budgets"                     # else the file's name

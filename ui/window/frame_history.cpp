@@ -6,7 +6,7 @@ namespace octant::ui::window {
 
 void FrameHistory::add(const report::FrameRecord& record) {
     constexpr std::size_t renewed_every = 30;
-    if (records_.size() == most_frames) {
+    if (records_.size() == max_frames) {
         records_.erase(records_.begin());
     }
     records_.push_back(record);

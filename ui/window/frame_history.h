@@ -12,7 +12,7 @@ namespace octant::ui::window {
 /// Holds the last frames of a window, oldest first.
 class FrameHistory {
 public:
-    static constexpr std::size_t most_frames = 300;
+    static constexpr std::size_t max_frames = 300;
 
     void add(const report::FrameRecord& record);
 

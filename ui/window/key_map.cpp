@@ -17,7 +17,7 @@ namespace octant::ui::window {
 namespace {
 
 constexpr std::size_t largest_file_bytes = std::size_t{64} << 10;
-constexpr int most_joystick_axes = 16;
+constexpr int max_joystick_axes = 16;
 constexpr const char* joystick_form = "an axis of the joystick from 1 to 16, perhaps after -";
 constexpr const char* pad_form =
     "left x, left y, right x, right y, left trigger or right trigger, perhaps after -";
@@ -44,7 +44,7 @@ std::optional<AxisChoice> axis_from(std::string_view input, const Number& number
 
 std::optional<int> joystick_axis(std::string_view name) {
     const auto number = whole_number(name);
-    return number && *number >= 1 && *number <= most_joystick_axes
+    return number && *number >= 1 && *number <= max_joystick_axes
                ? std::optional(static_cast<int>(*number) - 1)
                : std::nullopt;
 }

@@ -22,7 +22,7 @@ namespace {
 
 /// Area that a polygon must have on the screen to get a number: on smaller ones numbers would cover
 /// each other.
-constexpr double least_area_px = 40.0;
+constexpr double min_area_px = 40.0;
 
 /// Projects points, in world axes with the eye at the origin, to places on the screen in ImGui's
 /// coordinates. The picture fills the window, however many pixels it has.
@@ -129,7 +129,7 @@ void write_order_numbers(const flight::Session& session) {
             continue;
         }
         ++painted;
-        if (area_px(polygon, places) < least_area_px) {
+        if (area_px(polygon, places) < min_area_px) {
             continue;
         }
         if (const auto at = places.of(centroid_of(polygon))) {

@@ -40,11 +40,11 @@ constexpr float edge = 8.0F;
 constexpr float gap_px = 6.0F;
 constexpr float side_width = 330.0F;
 /// A side column takes no more of the window than this.
-constexpr float most_of_window = 0.35F;
-constexpr float most_middle_width = 620.0F;
+constexpr float max_of_window = 0.35F;
+constexpr float max_middle_width = 620.0F;
 constexpr float first_height = 420.0F;
 /// Room for a title and a line.
-constexpr float least_height = 48.0F;
+constexpr float min_height = 48.0F;
 /// Closer than this is where it was put: places are rounded to whole units.
 constexpr float nearly = 1.0F;
 
@@ -71,7 +71,7 @@ std::vector<float> fitted(std::vector<float> wanted, float room) {
     for (std::size_t rank = 0; rank < by_size.size(); ++rank) {
         float& height = wanted[by_size[rank]];
         const float share = left / static_cast<float>(by_size.size() - rank);
-        height = std::floor(std::max(least_height, std::min(height, share)));
+        height = std::floor(std::max(min_height, std::min(height, share)));
         left -= height;
     }
     return wanted;
@@ -87,7 +87,7 @@ struct Strip {
 
 Strip strip_of(Column column, const PanelRoom& room, bool left_open, bool right_open) {
     const float border = edge * room.scale;
-    const float side = std::floor(std::min(side_width * room.scale, most_of_window * room.size.x));
+    const float side = std::floor(std::min(side_width * room.scale, max_of_window * room.size.x));
     Strip strip{border, side, border, room.size.y - border};
     if (column == Column::Right) {
         strip.left = room.size.x - border - side;
@@ -96,7 +96,7 @@ Strip strip_of(Column column, const PanelRoom& room, bool left_open, bool right_
         const float from = border + (left_open ? side + gap_px * room.scale : 0.0F);
         const float right = right_open ? side + gap_px * room.scale : 0.0F;
         const float to = room.size.x - border - std::max(right, room.inset.x);
-        strip.width = std::floor(std::min(to - from, most_middle_width * room.scale));
+        strip.width = std::floor(std::min(to - from, max_middle_width * room.scale));
         strip.left = std::floor(
             std::clamp(0.5F * (room.size.x - strip.width), from, std::max(from, to - strip.width)));
         strip.top += room.status_height;

@@ -41,10 +41,10 @@ Panel::~Panel() {
 
 float value_width() {
     constexpr float widest_name_letters = 19.0F;
-    constexpr float least_share = 0.4F;
+    constexpr float min_share = 0.4F;
     const float all = ImGui::GetContentRegionAvail().x;
     const float name = widest_name_letters * ImGui::CalcTextSize("n").x;
-    return std::max(least_share * all, all - name);
+    return std::max(min_share * all, all - name);
 }
 
 void same_line_for(float width) {

@@ -22,7 +22,7 @@ FramePlot::FramePlot(float height_px, double least, double most)
 
 float FramePlot::x_of(std::size_t frames_ago) const {
     return to_.x - (to_.x - from_.x) * static_cast<float>(frames_ago) /
-                       static_cast<float>(FrameHistory::most_frames);
+                       static_cast<float>(FrameHistory::max_frames);
 }
 
 float FramePlot::y_of(double value) const {
@@ -55,7 +55,7 @@ std::size_t FramePlot::pointed_at(std::span<const Record> records) const {
     }
     const float share = (to_.x - ImGui::GetIO().MousePos.x) / (to_.x - from_.x);
     const auto ago = static_cast<std::size_t>(
-        std::max(std::lround(share * static_cast<float>(FrameHistory::most_frames)), 1L));
+        std::max(std::lround(share * static_cast<float>(FrameHistory::max_frames)), 1L));
     return ago > records.size() ? none : records.size() - ago;
 }
 

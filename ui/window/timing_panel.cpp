@@ -45,10 +45,10 @@ double frame_rate_hz(std::span<const FrameRecord> records) {
 }
 
 void frame_time_plot(const ViewState& state) {
-    constexpr double least_top_ms = 20.0;
+    constexpr double min_top_ms = 20.0;
     const auto records = state.history.records();
     const auto frame_ms = [](const FrameRecord& record) { return record.frame_ms; };
-    const double top_ms = std::max(least_top_ms, state.history.statistics().p99_ms * 1.2);
+    const double top_ms = std::max(min_top_ms, state.history.statistics().p99_ms * 1.2);
     const FramePlot plot(ImGui::GetFontSize() * 6.0F, 0.0, top_ms);
     plot.level(1000.0 / 60.0, "16.7 ms", level_colour);
     plot.line(records, frame_ms, line_colour);

@@ -206,8 +206,8 @@ bool Viewer::is_to_close() {
 void Viewer::fit_to_window() {
     const glm::ivec2 size_px = input_->size_px();
     if (size_px.x > 0 && size_px.y > 0) {
-        constexpr glm::ivec2 least_px(16);
-        state_.wanted.view.size_px = glm::max(size_px, least_px);
+        constexpr glm::ivec2 min_px(16);
+        state_.wanted.view.size_px = glm::max(size_px, min_px);
     }
 }
 

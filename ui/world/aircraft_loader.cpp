@@ -55,13 +55,13 @@ struct Found {
 };
 
 /// An OBJ file with more faces is flown as a mesh.
-constexpr std::size_t most_polygons_of_a_model = 50'000;
+constexpr std::size_t max_polygons_of_a_model = 50'000;
 /// So is one with more triangles, where there are nearly no other faces.
-constexpr std::size_t most_triangles_of_a_model = 2'000;
+constexpr std::size_t max_triangles_of_a_model = 2'000;
 /// Polygons that stand in for a mesh far away are put in order up to this number.
-constexpr std::size_t most_polygons_of_a_mesh = 2'000;
+constexpr std::size_t max_polygons_of_a_mesh = 2'000;
 /// So long their order is searched: few pixels come of it.
-constexpr double most_seconds_of_a_mesh = 0.3;
+constexpr double max_seconds_of_a_mesh = 0.3;
 
 /// What painting orders are looked for.
 struct OrderLimits {
@@ -129,8 +129,8 @@ bool is_polygon_model(const std::filesystem::path& file) {
         is_plain = is_plain && !names_pictures_or_glass(line, file);
     }
     const std::size_t faces = triangles + others;
-    const bool is_mesh = faces > most_triangles_of_a_model && others < faces / 10;
-    return is_plain && faces <= most_polygons_of_a_model && !is_mesh;
+    const bool is_mesh = faces > max_triangles_of_a_model && others < faces / 10;
+    return is_plain && faces <= max_polygons_of_a_model && !is_mesh;
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
@@ -175,13 +175,13 @@ read_polygon_model(const std::filesystem::path& file, const std::string& axes, F
 /// The polygons that stand in for a mesh far away. Without a painting order they only throw
 /// shadows.
 planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftInputs& inputs, Found& found) {
-    if (mesh.polygons.polygons.size() <= most_polygons_of_a_mesh) {
+    if (mesh.polygons.polygons.size() <= max_polygons_of_a_mesh) {
         try {
             return ready(
                 mesh.polygons,
                 nullptr,
                 inputs,
-                {most_polygons_of_a_mesh, most_seconds_of_a_mesh},
+                {max_polygons_of_a_mesh, max_seconds_of_a_mesh},
                 found);
         } catch (const Error& fault) {
             found.notes.push_back(
@@ -202,7 +202,7 @@ load_model(const std::string& name, const AircraftInputs& inputs, Found& found) 
             std::move(model),
             sim::find_aircraft_kind(name),
             inputs,
-            {most_polygons_of_a_model, inputs.order_seconds},
+            {max_polygons_of_a_model, inputs.order_seconds},
             found);
     }
     MeshAircraft mesh =

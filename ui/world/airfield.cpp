@@ -37,14 +37,14 @@ GroundBelow below(const heights::HeightField& field) {
 /// Below the beginning of a path, along the way its aircraft looks there, or near the first 15 km.
 heights::RunwayWish wish_of(const sim::Trajectory& path, double water_m) {
     constexpr double step_m = 500.0;
-    constexpr std::size_t most_places = 31;
+    constexpr std::size_t max_places = 31;
     const sim::AircraftState& first = path.samples().front();
     const glm::dvec3 ahead = first.body_to_world * glm::dvec3(1.0, 0.0, 0.0);
     heights::RunwayWish wish;
     wish.path_m.emplace_back(first.position_m);
     for (const sim::AircraftState& state : path.samples()) {
         const glm::dvec2 place_m(state.position_m);
-        if (wish.path_m.size() < most_places &&
+        if (wish.path_m.size() < max_places &&
             glm::distance(wish.path_m.back(), place_m) >= step_m) {
             wish.path_m.push_back(place_m);
         }
@@ -60,11 +60,11 @@ void check_site(const std::optional<heights::RunwaySite>& site) {
         "--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
         "needs cuttings and embankments of at most {:.0f} m",
         heights::looked_for_within_m / 1000.0,
-        heights::most_earthwork_m);
+        heights::max_earthwork_m);
     if (!site) {
         throw Error(fmt::format("{}, got only water or the edge of the map", expected));
     }
-    if (site->earthwork_m > heights::most_earthwork_m) {
+    if (site->earthwork_m > heights::max_earthwork_m) {
         throw Error(fmt::format(
             "{}, got {:.0f} m at best; another --place may do", expected, site->earthwork_m));
     }

@@ -12,7 +12,7 @@ namespace octant::ui::world {
 
 namespace {
 
-constexpr std::size_t most_aircraft = 256;
+constexpr std::size_t max_aircraft = 256;
 
 /// Throws Error with the line, which is known here alone, for an aircraft that is none.
 void check_aircraft(const flightpaths::Fields& fields, const std::string& aircraft) {
@@ -30,16 +30,16 @@ void take_entity(const std::filesystem::path& file, const toml::node& node, Enti
     const std::string aircraft = fields.required_text("aircraft");
     check_aircraft(fields, aircraft);
     const int count = keys.contains("count")
-                          ? fields.required_whole("count", 1, static_cast<int>(most_aircraft))
+                          ? fields.required_whole("count", 1, static_cast<int>(max_aircraft))
                           : 1;
     fields.finish();
     if (!table.types.emplace(static_cast<std::uint16_t>(type), table.aircraft.size()).second) {
         fields.refuse(fields.line(), fmt::format("expected each type once, got {} again", type));
     }
     table.aircraft.insert(table.aircraft.end(), static_cast<std::size_t>(count), aircraft);
-    if (table.aircraft.size() > most_aircraft) {
+    if (table.aircraft.size() > max_aircraft) {
         fields.refuse(
-            fields.line(), fmt::format("expected {} aircraft at most, got more", most_aircraft));
+            fields.line(), fmt::format("expected {} aircraft at most, got more", max_aircraft));
     }
 }
 

@@ -9,10 +9,10 @@ namespace octant::ui::world {
 
 namespace {
 
-constexpr int most_abreast = 9;
+constexpr int max_abreast = 9;
 
 int abreast_of(int aircraft) {
-    return aircraft <= most_abreast
+    return aircraft <= max_abreast
                ? aircraft
                : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
 }
@@ -21,7 +21,7 @@ int abreast_of(int aircraft) {
 
 Formation::Formation(int aircraft, double largest_radius_m)
     : abreast_(abreast_of(aircraft))
-    , lines_(aircraft <= most_abreast ? 1 : abreast_)
+    , lines_(aircraft <= max_abreast ? 1 : abreast_)
     , ranks_(abreast_ / 2)
     , aside_m_(1.7 * largest_radius_m)
     , back_m_(0.5 * largest_radius_m) {}

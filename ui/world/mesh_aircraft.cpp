@@ -111,7 +111,7 @@ MeshAircraft from_hierarchy(
     loosely.tightness = 1.4;
     loosely.samples = 0;
     aircraft.polygons_error_m =
-        measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).most_hausdorff_m();
+        measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
     aircraft.polygons = models::polygons::as_polygons(far);
     for (meshfile::TurningPart& part : aircraft.turning) {
         turn_part(part, axes.axes);

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t largest_model_bytes = std::size_t{1} << 30U;
-constexpr std::size_t most_files = 2'000;
+constexpr std::size_t max_files = 2'000;
 
 /// What is left of a line after its first word, without quotes.
 std::string after_first_word(std::string_view line) {
@@ -61,7 +61,7 @@ private:
 
     bool add(const fs::path& named) {
         std::error_code ignored;
-        if (named.empty() || files.size() >= most_files || !fs::is_regular_file(named, ignored)) {
+        if (named.empty() || files.size() >= max_files || !fs::is_regular_file(named, ignored)) {
             return false;
         }
         const fs::path file = fs::absolute(named).lexically_normal();

@@ -56,12 +56,12 @@ std::vector<KeptFile> files_of(const fs::path& folder) {
 
 } // namespace
 
-void remove_oldest(const fs::path& folder, std::uintmax_t most_bytes) {
+void remove_oldest(const fs::path& folder, std::uintmax_t max_bytes) {
     std::vector<KeptFile> files = files_of(folder);
     std::ranges::sort(files, std::greater(), &KeptFile::written);
     std::uintmax_t sum = 0;
     for (const KeptFile& file : files) {
-        if (file.bytes > most_bytes - sum) {
+        if (file.bytes > max_bytes - sum) {
             std::error_code ignored;
             fs::remove(file.path, ignored);
         } else {
@@ -81,7 +81,7 @@ std::optional<fs::path> order_folder(const std::string& value) {
     }
     try {
         ordercache::make_cache_folder(own / "orders");
-        remove_oldest(own / "orders", most_bytes_of_user_cache);
+        remove_oldest(own / "orders", max_bytes_of_user_cache);
         return own / "orders";
     } catch (const Error&) {
         return std::nullopt;

@@ -8,7 +8,7 @@
 namespace octant::ui::world {
 
 /// What the user's own cache may hold.
-inline constexpr std::uintmax_t most_bytes_of_user_cache = std::uintmax_t{256} << 20;
+inline constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
 
 /// The folder that a value of --order-cache means, made where it is missing; nothing for none. The
 /// user's own cache is done without where it cannot be made or written; a folder that is named and
@@ -17,6 +17,6 @@ std::optional<std::filesystem::path> order_folder(const std::string& value);
 
 /// Removes the files of a folder that were written first, until the rest is no larger than that.
 /// What cannot be removed stays.
-void remove_oldest(const std::filesystem::path& folder, std::uintmax_t most_bytes);
+void remove_oldest(const std::filesystem::path& folder, std::uintmax_t max_bytes);
 
 } // namespace octant::ui::world

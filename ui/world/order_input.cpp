@@ -24,7 +24,7 @@ namespace orderfile = visuals::orderfile;
 
 namespace {
 
-constexpr std::size_t most_polygons = 50'000;
+constexpr std::size_t max_polygons = 50'000;
 constexpr double nearest_radii = 0.05;
 constexpr double farthest_radii = 20.0;
 constexpr int rays_per_eye = 20;
@@ -53,7 +53,7 @@ OrderInput read(const std::string& name, const std::string& axes) {
 }
 
 /// The most planes that any eye is tried against.
-int most_tests(const draworder::DrawOrder& order) {
+int max_tests(const draworder::DrawOrder& order) {
     using Kind = draworder::DrawOrder::Kind;
     const auto nodes = order.nodes();
     std::vector<int> most(nodes.size(), 0);
@@ -94,23 +94,23 @@ int tests_of(const draworder::DrawOrder& order, const glm::dvec3& eye_m, std::ve
 
 OrderInput read_order_input(const std::string& name_or_file, const std::string& axes) {
     OrderInput input = read(name_or_file, axes);
-    if (input.model.polygons.size() > most_polygons) {
+    if (input.model.polygons.size() > max_polygons) {
         throw Error(fmt::format(
             "{}: expected at most {} polygons, got {}",
             printable(name_or_file),
-            most_polygons,
+            max_polygons,
             input.model.polygons.size()));
     }
     return input;
 }
 
 PlaneTests plane_tests(const draworder::OrderedModel& ordered) {
-    constexpr std::size_t most_tests_in_all = 20'000'000;
+    constexpr std::size_t max_tests_in_all = 20'000'000;
     const std::size_t nodes = ordered.order.nodes().size();
     const int eyes =
-        static_cast<int>(std::clamp<std::size_t>(most_tests_in_all / (nodes + 1), 100, 10'000));
+        static_cast<int>(std::clamp<std::size_t>(max_tests_in_all / (nodes + 1), 100, 10'000));
     PlaneTests tests;
-    tests.most = most_tests(ordered.order);
+    tests.most = max_tests(ordered.order);
     Dice dice(1989);
     const double radius_m = models::polygons::radius_m(ordered.model);
     std::vector<int> to_do;
@@ -130,19 +130,19 @@ orderfile::RayCount cast_rays(
     if (!model.pivots.empty()) {
         angles_rad = {0.0, 0.7, 2.1, 4.4};
     }
-    double least_m = orders.cells.empty() ? 0.0 : orders.cells.front().min_m;
+    double min_m = orders.cells.empty() ? 0.0 : orders.cells.front().min_m;
     for (const auto& cell : orders.cells) {
-        least_m = std::min(least_m, cell.min_m);
+        min_m = std::min(min_m, cell.min_m);
     }
-    const double nearest_m = least_m / std::sqrt(3.0) - glm::length(orders.centre_m);
+    const double nearest_m = min_m / std::sqrt(3.0) - glm::length(orders.centre_m);
     orderfile::RayCount count;
     for (std::size_t i = 0; i < angles_rad.size(); ++i) {
         orderfile::EyeSamples samples;
         samples.eyes = std::max(1, rays / rays_per_eye / static_cast<int>(angles_rad.size()));
         samples.rays_per_eye = rays_per_eye;
-        samples.least_distance_radii =
+        samples.min_distance_radii =
             std::max(nearest_radii, nearest_m / models::polygons::radius_m(model));
-        samples.most_distance_radii = std::max(farthest_radii, 10.0 * samples.least_distance_radii);
+        samples.max_distance_radii = std::max(farthest_radii, 10.0 * samples.min_distance_radii);
         samples.seed = 1989 + i;
         samples.turn_rad = angles_rad[i];
         count += orderfile::count_wrong_rays(model, orders, samples);

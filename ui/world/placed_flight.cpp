@@ -87,10 +87,10 @@ placed(const LoadedPath& loaded, flightpaths::Placement placement, const GroundB
         return flightpaths::place_over_ground(
             loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
     }
-    constexpr double least_m = 2.0;
+    constexpr double min_m = 2.0;
     placement.mode = sim::HeightMode::Clear;
     flightpaths::PlacedPath lifted = flightpaths::place_over_ground(
-        loaded.trajectory, placement, ground.height_at, least_m, loaded.limits);
+        loaded.trajectory, placement, ground.height_at, min_m, loaded.limits);
     if (lifted.offset_m > 0.0) {
         lifted.notes.push_back(fmt::format(
             "the tape's first aircraft meets this ground: all are lifted by {:.1f} m",

@@ -67,8 +67,8 @@ void write_repairs(const fs::path& file, const std::vector<std::string>& repairs
 
 /// Throws Error.
 std::vector<std::string> read_repairs(const fs::path& file) {
-    constexpr std::size_t most_bytes = std::size_t{1} << 16U;
-    const std::string bytes = read_file(file, most_bytes);
+    constexpr std::size_t max_bytes = std::size_t{1} << 16U;
+    const std::string bytes = read_file(file, max_bytes);
     try {
         ordercache::ByteReader in(bytes);
         std::vector<std::string> repairs(in.count(sizeof(std::uint64_t)));

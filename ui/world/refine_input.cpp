@@ -51,15 +51,15 @@ bool is_all_grey(const refine::ProgressiveMesh& mesh) {
 
 void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
     using refine::ProgressiveMesh;
-    if (mesh.triangles.size() > ProgressiveMesh::most_faces ||
-        mesh.vertices_m.size() > ProgressiveMesh::most_leaves) {
+    if (mesh.triangles.size() > ProgressiveMesh::max_faces ||
+        mesh.vertices_m.size() > ProgressiveMesh::max_leaves) {
         error_in(
             file,
             fmt::format(
                 "expected at most {} triangles and {} vertices to refine, got {} and {} "
                 "(octant simplify makes fewer of them)",
-                ProgressiveMesh::most_faces,
-                ProgressiveMesh::most_leaves,
+                ProgressiveMesh::max_faces,
+                ProgressiveMesh::max_leaves,
                 mesh.triangles.size(),
                 mesh.vertices_m.size()));
     }
@@ -104,7 +104,7 @@ RefineMesh read_refine_mesh(const RefineInput& input) {
     RefineMesh result;
     if (refine::is_progressive_file(input.file)) {
         result.mesh = std::make_shared<const refine::ProgressiveMesh>(
-            refine::read_progressive(input.file, input.most_vertices));
+            refine::read_progressive(input.file, input.max_vertices));
         if (result.mesh->face_count() == 0) {
             error_in(input.file, "expected a mesh with triangles, got none");
         }

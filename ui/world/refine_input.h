@@ -17,7 +17,7 @@ struct RefineInput {
     /// Of meshes: vertices of the base mesh, at least; 0 = as few as can be.
     std::size_t base = 0;
     /// The most vertices that are read of a .pm file.
-    std::size_t most_vertices = std::numeric_limits<std::size_t>::max();
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
     bool quiet = false;
 };
 

@@ -21,7 +21,7 @@ using models::polygons::PolygonModel;
 
 /// Triangles of all parts together, and of one at least.
 constexpr std::size_t far_faces_of_parts = 120;
-constexpr std::size_t least_far_faces = 12;
+constexpr std::size_t min_far_faces = 12;
 constexpr std::size_t far_faces_of_clear = 60;
 
 void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
@@ -55,7 +55,7 @@ double append_far(
     models::measure::DistanceOptions loosely;
     loosely.tightness = 1.4;
     loosely.samples = 0;
-    return models::measure::distance(whole, far, loosely).most_hausdorff_m();
+    return models::measure::distance(whole, far, loosely).max_hausdorff_m();
 }
 
 } // namespace
@@ -82,7 +82,7 @@ double add_far_parts(std::span<const TurningPart> parts, PolygonModel& polygons)
         polygons.parts.push_back(fmt::format("turning-{}", number));
         polygons.pivots.push_back(
             {number, part.about.point_m, part.about.direction, part.about.turns_per_s});
-        const std::size_t faces = std::max(least_far_faces, far_faces_of_parts / parts.size());
+        const std::size_t faces = std::max(min_far_faces, far_faces_of_parts / parts.size());
         error_m = std::max(error_m, append_far(part.mesh, faces, number, polygons));
     }
     return error_m;

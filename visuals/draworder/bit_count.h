@@ -14,11 +14,11 @@ count_common(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b)
     constexpr std::uint64_t pairs = 0x5555555555555555;
     constexpr std::uint64_t nibbles = 0x3333333333333333;
     constexpr std::uint64_t bytes = 0x0f0f0f0f0f0f0f0f;
-    constexpr std::size_t most_words = 31; // A byte of `sums` can count 31 words of at most 8 bits.
+    constexpr std::size_t max_words = 31; // A byte of `sums` can count 31 words of at most 8 bits.
     std::size_t count = 0;
     for (std::size_t word = 0; word < a.size();) {
         std::uint64_t sums = 0;
-        const std::size_t end = a.size() - word > most_words ? word + most_words : a.size();
+        const std::size_t end = a.size() - word > max_words ? word + max_words : a.size();
         for (; word < end; ++word) {
             std::uint64_t bits = a[word] & b[word];
             bits -= (bits >> 1) & pairs;

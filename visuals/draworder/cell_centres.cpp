@@ -18,7 +18,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// At most this many planes of each model are tried.
-constexpr std::size_t most_axis_planes = 3'000;
+constexpr std::size_t max_axis_planes = 3'000;
 
 /// The number of edges that lie on cycles on either side of a plane.
 std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const Cycles& cycles) {
@@ -36,7 +36,7 @@ glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
         glm::dvec3 normal(0.0);
         normal[axis] = 1.0;
         std::size_t fewest = left_on_rings({normal, 0.0}, work, cycles);
-        for (const Plane& plane : axis_planes(work.faces, cycles.polygons, most_axis_planes)) {
+        for (const Plane& plane : axis_planes(work.faces, cycles.polygons, max_axis_planes)) {
             if (plane.normal != normal) {
                 continue;
             }

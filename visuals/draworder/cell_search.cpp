@@ -17,9 +17,9 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// In larger models the octants always meet at the origin.
-constexpr std::size_t most_polygons_with_choice = 200;
+constexpr std::size_t max_polygons_with_choice = 200;
 /// Models with more cyclic edges get one quick search only.
-constexpr std::size_t most_edges_searched_again = 2'000;
+constexpr std::size_t max_edges_searched_again = 2'000;
 
 /// About the work of testing a pair of polygons (SearchBudget).
 constexpr std::uint64_t units_of_pair = 300;
@@ -63,8 +63,8 @@ FoundCells tree_orders(WorkingModel work, const EyeNode& root, const TreeSearch&
     return out;
 }
 
-FoundCells cell_orders(WorkingModel work, double least_distance) {
-    OctantCells cells = octant_cells(work, least_distance);
+FoundCells cell_orders(WorkingModel work, double min_distance) {
+    OctantCells cells = octant_cells(work, min_distance);
     FoundCells out{std::move(work), std::move(cells.nodes), std::move(cells.lists), {}};
     for (std::size_t i = 0; i < cells.paths.size(); ++i) {
         out.cells.push_back({std::move(cells.paths[i]), std::move(cells.cell_planes[i])});
@@ -77,15 +77,15 @@ FoundCells cell_orders(WorkingModel work, double least_distance) {
 FoundCells best_tree(
     const models::polygons::PolygonModel& model,
     SearchBudget& budget,
-    const std::function<int()>& most_splits) {
+    const std::function<int()>& max_splits) {
     WorkingModel work(model, glm::dvec3(0.0));
     work.budget = &budget;
     work.spend(units_of_pair * model.polygons.size() * model.polygons.size());
     RegionGraphs graphs(work.faces);
     const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
-    if (root.cycles.edges > most_edges_searched_again) {
+    if (root.cycles.edges > max_edges_searched_again) {
         TreeSearch search = quick_search;
-        search.most_splits = most_splits;
+        search.max_splits = max_splits;
         return tree_orders(work, root, search);
     }
     std::optional<FoundCells> best;
@@ -94,7 +94,7 @@ FoundCells best_tree(
         if (best && best->work.twins.empty() && search.planes_first) {
             break;
         }
-        search.most_splits = most_splits;
+        search.max_splits = max_splits;
         if (best && best->open.empty()) {
             search.less_than = cost_of(*best);
         }
@@ -116,18 +116,18 @@ FoundCells best_tree(
 }
 
 FoundCells best_cells(
-    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget) {
+    const models::polygons::PolygonModel& model, double min_distance, SearchBudget& budget) {
     budget.spend(3 * units_of_pair * model.polygons.size() * model.polygons.size());
     std::optional<FoundCells> best;
     const auto centres = cell_centres(WorkingModel(model, glm::dvec3(0.0)));
     for (const glm::dvec3& centre_m : centres) {
-        if (best && model.polygons.size() > most_polygons_with_choice) {
+        if (best && model.polygons.size() > max_polygons_with_choice) {
             break;
         }
         WorkingModel work(model, centre_m);
         work.budget = &budget;
         try {
-            keep_better(best, cell_orders(std::move(work), least_distance));
+            keep_better(best, cell_orders(std::move(work), min_distance));
         } catch (const SearchGivenUp&) {
             if (!best) {
                 throw;

@@ -24,16 +24,16 @@ struct FoundCells {
 };
 
 /// The best of several searches for a tree of planes over eye space. Throws SearchGivenUp when none
-/// finds anything, or only trees that split polygons more often than `most_splits` says
+/// finds anything, or only trees that split polygons more often than `max_splits` says
 /// (TreeSearch).
 FoundCells best_tree(
     const models::polygons::PolygonModel& model,
     SearchBudget& budget,
-    const std::function<int()>& most_splits = {});
+    const std::function<int()>& max_splits = {});
 
 /// The best of several searches for octants that are divided further, for eyes of
-/// |x|+|y|+|z| >= `least_distance` radii. Throws SearchGivenUp when none finds anything.
+/// |x|+|y|+|z| >= `min_distance` radii. Throws SearchGivenUp when none finds anything.
 FoundCells best_cells(
-    const models::polygons::PolygonModel& model, double least_distance, SearchBudget& budget);
+    const models::polygons::PolygonModel& model, double min_distance, SearchBudget& budget);
 
 } // namespace octant::visuals::draworder

@@ -18,14 +18,14 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// The most entries of all lists: each takes 4 bytes here and some 24 in a renderer's index buffer.
-constexpr std::size_t most_entries = 8'000'000;
+constexpr std::size_t max_entries = 8'000'000;
 
 } // namespace
 
 void check_entries(std::size_t entries) {
-    if (entries > most_entries) {
+    if (entries > max_entries) {
         throw SearchGivenUp{
-            fmt::format("the lists of its cells have more than {} entries", most_entries)};
+            fmt::format("the lists of its cells have more than {} entries", max_entries)};
     }
 }
 

@@ -21,7 +21,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// Planes that meet at a smaller angle, about, leave too few digits of where they meet.
-constexpr double least_slope = 1e-4;
+constexpr double min_slope = 1e-4;
 
 /// A half-space as a vector, whose dot product with a homogeneous point is the height.
 glm::dvec4 front_of(const Plane& plane) {
@@ -98,10 +98,10 @@ std::optional<EyeRegion> EyeRegion::cut(const Plane& plane) const {
 /// The line becomes the one ray that is not on the new facet; everything else slides along it onto
 /// the facet.
 EyeRegion EyeRegion::cut_across_line(const glm::dvec4& front, std::size_t line) const {
-    assert(facets_.size() <= most_planes);
+    assert(facets_.size() <= max_planes);
     EyeRegion out = *this;
     const double slope = glm::dot(front, lines_[line]);
-    out.is_certain_ = is_certain_ && std::abs(slope) > least_slope;
+    out.is_certain_ = is_certain_ && std::abs(slope) > min_slope;
     const glm::dvec4 inward = lines_[line] * (slope > 0.0 ? 1.0 : -1.0);
     const auto slid = [&](const glm::dvec4& at) {
         return glm::normalize(at - inward * (glm::dot(front, at) / std::abs(slope)));
@@ -158,7 +158,7 @@ bool EyeRegion::adjacent(std::size_t a, std::size_t b) const {
 }
 
 EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>& heights) const {
-    assert(facets_.size() <= most_planes);
+    assert(facets_.size() <= max_planes);
     EyeRegion out;
     out.is_certain_ = is_certain_;
     out.lines_ = lines_;
@@ -179,7 +179,7 @@ EyeRegion EyeRegion::cut_rays(const glm::dvec4& front, const std::vector<double>
                 const glm::dvec4 at = rays_[j].at * heights[i] - rays_[i].at * heights[j];
                 const double length = glm::length(at);
                 out.is_certain_ =
-                    out.is_certain_ && length > least_slope * (heights[i] - heights[j]);
+                    out.is_certain_ && length > min_slope * (heights[i] - heights[j]);
                 Ray added{at / length, rays_[i].on & rays_[j].on};
                 added.on.add(facets_.size());
                 out.rays_.push_back(added);

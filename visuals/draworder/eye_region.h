@@ -21,7 +21,7 @@ namespace octant::visuals::draworder {
 class EyeRegion {
 public:
     /// The number of planes by which a region may have been cut.
-    static constexpr std::size_t most_planes = 126;
+    static constexpr std::size_t max_planes = 126;
 
     /// A point within this height of a plane counts as on it.
     static constexpr double on_plane = 1e-10;
@@ -30,7 +30,7 @@ public:
     static EyeRegion everywhere();
 
     /// The part in front of a plane with a unit normal; nothing when that has no volume. There may
-    /// be at most most_planes cuts one after another (asserted).
+    /// be at most max_planes cuts one after another (asserted).
     std::optional<EyeRegion> cut(const Plane& plane) const;
 
     /// Whether cut() would leave something.
@@ -55,7 +55,7 @@ public:
 private:
     /// A set of facets, by their indices in facets_.
     struct Facets {
-        std::array<std::uint64_t, (most_planes + 2) / 64> words{};
+        std::array<std::uint64_t, (max_planes + 2) / 64> words{};
 
         bool has(std::size_t facet) const {
             return ((words[facet / 64] >> (facet % 64)) & 1U) != 0;

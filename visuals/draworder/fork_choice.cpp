@@ -33,7 +33,7 @@ auto both(bool worthwhile, First first, Second second) {
 }
 
 /// Graphs with more edges are judged without the exact test.
-constexpr std::size_t most_exact_edges = 4'000;
+constexpr std::size_t max_exact_edges = 4'000;
 /// When the first planes lead nowhere, so many times as many are tried.
 constexpr std::size_t more_planes = 16;
 
@@ -55,10 +55,10 @@ bool is_large(const EyeNode& node) {
 
 /// The work of judging a plane by where polygons lie to it.
 std::uint64_t units_of_plane(const Cycles& cycles) {
-    constexpr std::size_t most_rows = 192;
+    constexpr std::size_t max_rows = 192;
     std::size_t words = 0;
     for (const auto& component : cycles.components) {
-        words += std::min(component.size(), most_rows) * (component.size() / 64 + 1);
+        words += std::min(component.size(), max_rows) * (component.size() / 64 + 1);
     }
     return 15 * cycles.polygons.size() + 4 * words;
 }
@@ -230,7 +230,7 @@ std::vector<Choice> ForkChoice::promising() const {
 std::optional<Fork> ForkChoice::best() const {
     const Cycles& cycles = node_.cycles;
     std::vector<Choice> choices = promising();
-    const std::size_t tried = cycles.edges > most_exact_edges ? 1 : search_.exact;
+    const std::size_t tried = cycles.edges > max_exact_edges ? 1 : search_.exact;
     choices.resize(std::min(tried, choices.size()));
     work_.spend(2 * choices.size() * search_units(node_));
     std::optional<Fork> best;

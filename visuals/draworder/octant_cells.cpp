@@ -18,7 +18,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// Octants are divided into quarters at most so often, then by planes.
-constexpr int most_levels = 1;
+constexpr int max_levels = 1;
 
 /// The plane through the origin and two points, oriented so that a third point is in front of it.
 Plane through_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& in_front) {
@@ -27,14 +27,14 @@ Plane through_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
 }
 
 /// The region of an octant's eyes from the least distance on.
-EyeRegion octant_region(const glm::dvec3& signs, double least_distance) {
+EyeRegion octant_region(const glm::dvec3& signs, double min_distance) {
     EyeRegion region = EyeRegion::everywhere();
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 normal(0.0);
         normal[axis] = signs[axis];
         region = *region.cut({normal, 0.0});
     }
-    return *region.cut({signs / std::sqrt(3.0), -least_distance / std::sqrt(3.0)});
+    return *region.cut({signs / std::sqrt(3.0), -min_distance / std::sqrt(3.0)});
 }
 
 /// A finished cell.
@@ -48,10 +48,10 @@ struct Cell {
 /// numbers >= 0 or ~cell.
 class CellBuilder {
 public:
-    CellBuilder(WorkingModel& work, double least_distance)
+    CellBuilder(WorkingModel& work, double min_distance)
         : work_(work)
         , graphs_(work.faces)
-        , least_distance_(least_distance) {}
+        , min_distance_(min_distance) {}
 
     void build();
 
@@ -71,7 +71,7 @@ private:
 
     WorkingModel& work_;
     RegionGraphs graphs_;
-    double least_distance_;
+    double min_distance_;
     std::size_t entries_ = 0;
     std::vector<std::size_t> made_at_; ///< For each cell the number of polygons when it was made.
 };
@@ -151,7 +151,7 @@ int CellBuilder::divide(
     if (node.cycles.edges == 0) {
         return add_cell({list_of(graphs_, node), path, cone_of(corners)});
     }
-    if (level == most_levels) {
+    if (level == max_levels) {
         return by_planes(node, corners, path);
     }
     const auto parts = quarters_of(corners);
@@ -186,7 +186,7 @@ int CellBuilder::octants(int first, int axis) {
         const glm::dvec3 signs = octant_signs(first);
         const OctantTriangle corners{
             {{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
-        const EyeRegion region = octant_region(signs, least_distance_);
+        const EyeRegion region = octant_region(signs, min_distance_);
         return divide(eye_node(graphs_, region), corners, octant_name(first), 0);
     }
     glm::dvec3 normal(0.0);
@@ -208,8 +208,8 @@ void CellBuilder::build() {
 
 } // namespace
 
-OctantCells octant_cells(WorkingModel& work, double least_distance) {
-    CellBuilder builder(work, least_distance);
+OctantCells octant_cells(WorkingModel& work, double min_distance) {
+    CellBuilder builder(work, min_distance);
     builder.build();
     return std::move(builder.cells);
 }

@@ -20,7 +20,7 @@ struct OctantCells {
 };
 
 /// Section IV of the 1989 paper: "divide the viewing directions further until all hidden surfaces
-/// are removed". The lists are right for eyes with |x| + |y| + |z| >= least_distance from the
+/// are removed". The lists are right for eyes with |x| + |y| + |z| >= min_distance from the
 /// origin.
 ///
 /// Octant "sx sy sz" is the flat triangle A = (sx, 0, 0), B = (0, sy, 0), C = (0, 0, sz) as seen
@@ -32,6 +32,6 @@ struct OctantCells {
 ///
 /// Splits polygons of the model where there is no order otherwise. Throws SearchGivenUp
 /// (search_budget.h) when there are more cells than can be held, or when a budget is spent.
-OctantCells octant_cells(WorkingModel& work, double least_distance);
+OctantCells octant_cells(WorkingModel& work, double min_distance);
 
 } // namespace octant::visuals::draworder

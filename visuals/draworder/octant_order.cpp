@@ -30,7 +30,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// Normal components below this are rounding.
-constexpr double least_component = 1e-12;
+constexpr double min_component = 1e-12;
 
 glm::dvec3 first_corner_m(const models::polygons::PolygonModel& model, std::size_t polygon) {
     return model.vertices_m[model.corners(polygon)[0]];
@@ -54,11 +54,11 @@ bool faces_some_eye(
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const glm::dvec3 outward = normal * signs;
     const double largest = std::max({outward.x, outward.y, outward.z});
-    if (largest > least_component) {
+    if (largest > min_component) {
         return true;
     }
     const double offset_m = glm::dot(normal, first_corner_m(model, polygon));
-    return std::min(largest, 0.0) * radius_m - offset_m > least_component * radius_m;
+    return std::min(largest, 0.0) * radius_m - offset_m > min_component * radius_m;
 }
 
 /// The polygons of an octant's list, ascending.

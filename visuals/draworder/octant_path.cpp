@@ -50,7 +50,7 @@ std::string with_axes_changed(const std::string& path, ToOther to_other) {
 } // namespace
 
 bool is_octant_path(std::string_view text) {
-    if (text.size() < 3 || text.size() % 2 == 0 || text.size() > 3 + 2 * most_path_levels) {
+    if (text.size() < 3 || text.size() % 2 == 0 || text.size() > 3 + 2 * max_path_levels) {
         return false;
     }
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -15,9 +15,9 @@ namespace octant::visuals::draworder {
 // several times: "+-+/0/3" is the fourth quarter of the first quarter of the octant +-+.
 
 /// The greatest number of quarters that a path may name.
-inline constexpr std::size_t most_path_levels = 24;
+inline constexpr std::size_t max_path_levels = 24;
 
-/// Whether a text is an octant path: the signs of x, y and z, then at most most_path_levels
+/// Whether a text is an octant path: the signs of x, y and z, then at most max_path_levels
 /// children 0 to 3, each after a slash.
 bool is_octant_path(std::string_view text);
 

@@ -42,7 +42,7 @@ public:
             return;
         }
         ++proof_.unproved;
-        if (proof_.open.size() < OrderProof::most_open) {
+        if (proof_.open.size() < OrderProof::max_open) {
             proof_.open.emplace_back(earlier, later);
         }
         budget_.spend(units_of_none);

@@ -16,7 +16,7 @@ struct OrderProof {
     std::uint64_t unproved = 0;
     /// The first of these pairs: which is painted earlier, which later.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
-    static constexpr std::size_t most_open = 100;
+    static constexpr std::size_t max_open = 100;
     /// Whether the whole order was looked at; else the work was spent before.
     bool is_whole = false;
 };

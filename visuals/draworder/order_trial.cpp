@@ -28,13 +28,13 @@ using models::polygons::PolygonModel;
 
 constexpr double hair = TrialTargets::hair;
 /// Polygons are compared with rays so often in all, some 10 ns each.
-constexpr std::size_t most_comparisons = 20'000'000;
-constexpr std::size_t most_eyes = 2'000;
+constexpr std::size_t max_comparisons = 20'000'000;
+constexpr std::size_t max_eyes = 2'000;
 constexpr std::size_t rays_an_eye = 10;
 /// So many rays are cast at each pair for which no proof was found; fewer where that would be more
 /// comparisons than all others.
 constexpr std::size_t rays_a_pair = 100;
-constexpr std::size_t least_rays_a_pair = 4;
+constexpr std::size_t min_rays_a_pair = 4;
 /// Polygons whose corners are all nearer than this to one another's planes lie in one plane.
 constexpr double in_plane = 1e-9;
 
@@ -53,7 +53,7 @@ public:
             return;
         }
         const std::size_t rays = comparisons / targets_.all().size();
-        const std::size_t most = most_eyes * comparisons / most_comparisons;
+        const std::size_t most = max_eyes * comparisons / max_comparisons;
         const std::size_t eyes = std::clamp<std::size_t>(rays / rays_an_eye, 20, most);
         for (std::size_t i = 0; i < eyes; ++i) {
             const glm::dvec3 eye = next_eye(i);
@@ -71,7 +71,7 @@ public:
         std::size_t comparisons,
         Trial& trial) {
         const std::size_t once = std::max<std::size_t>(pairs.size() * targets_.all().size(), 1);
-        const std::size_t rays = std::clamp(comparisons / once, least_rays_a_pair, rays_a_pair);
+        const std::size_t rays = std::clamp(comparisons / once, min_rays_a_pair, rays_a_pair);
         for (const auto& [earlier, later] : pairs) {
             const TrialTarget* const near_one = targets_.of(earlier);
             const TrialTarget* const far_one = targets_.of(later);
@@ -226,7 +226,7 @@ private:
 /// Casts the rays of a trial, those at pairs too; what it saw of the proof stays as it is.
 void cast_rays(
     Trying& trying, std::span<const double> angles_rad, const OrderProof& proof, Trial& trial) {
-    const std::size_t comparisons = most_comparisons / angles_rad.size();
+    const std::size_t comparisons = max_comparisons / angles_rad.size();
     for (const double angle_rad : angles_rad) {
         trying.look(angle_rad, comparisons, trial);
         trying.look_at_pairs(proof.open, comparisons, trial);

@@ -23,7 +23,7 @@ namespace {
 using models::planar::PlanarModel;
 
 /// Larger models are divided at once: their graphs alone would take seconds.
-constexpr std::size_t most_polygons_searched = 2'000;
+constexpr std::size_t max_polygons_searched = 2'000;
 
 /// So much of the time that a search may take goes to the proof of what is found.
 constexpr double proof_share = 0.02;
@@ -96,7 +96,7 @@ OrderedModel by_parts(models::polygons::PolygonModel model, Parting way) {
 
 /// Tries an order; whether it may be used.
 bool is_right(OrderedModel& ordered, double search_s) {
-    const bool is_large = ordered.model.polygons.size() > most_polygons_searched;
+    const bool is_large = ordered.model.polygons.size() > max_polygons_searched;
     // Where no order is right for turning parts, they say nothing about the others.
     ordered.trial = try_order(
         ordered.model,
@@ -121,7 +121,7 @@ public:
     }
 
     /// How many splits a tree may have and still be used.
-    int most_splits() { return is_right() ? order_->splits : std::numeric_limits<int>::max(); }
+    int max_splits() { return is_right() ? order_->splits : std::numeric_limits<int>::max(); }
 
     /// The order; nothing may be asked after it.
     OrderedModel take() {
@@ -153,9 +153,9 @@ OrderedModel exact(
     SearchBudget budget(options.seconds, options.progress);
     const int penetrating = split_penetrating(model, budget);
     const bool by_cells = options.method == Method::Cells;
-    const auto most_splits = [&] { return parts.most_splits() - penetrating; };
+    const auto max_splits = [&] { return parts.max_splits() - penetrating; };
     FoundCells orders = by_cells ? best_cells(model, options.min_distance_radii, budget)
-                                 : best_tree(model, budget, most_splits);
+                                 : best_tree(model, budget, max_splits);
     const ModelFaces& faces = orders.work.faces;
     for (DrawOrder::Node& node : orders.nodes) {
         node.plane = faces.in_model(node.plane);
@@ -186,8 +186,8 @@ std::optional<OrderedModel> searched(
     const OrderOptions& options,
     PartsInstead& parts,
     std::string& why) {
-    if (model.polygons.size() > most_polygons_searched) {
-        why = fmt::format("cells are searched for up to {} polygons", most_polygons_searched);
+    if (model.polygons.size() > max_polygons_searched) {
+        why = fmt::format("cells are searched for up to {} polygons", max_polygons_searched);
         return std::nullopt;
     }
     try {
@@ -214,7 +214,7 @@ std::string wrong_in_words(const Trial& trial) {
 /// What was found by cells or, where that had to split polygons more often, by parts.
 OrderedModel with_fewer_splits(OrderedModel found, PartsInstead& parts) {
     const bool by_tree = found.drawn_by == DrawnBy::Tree || found.drawn_by == DrawnBy::TreeAndParts;
-    const bool by_parts = by_tree && found.splits > 0 && found.splits > parts.most_splits();
+    const bool by_parts = by_tree && found.splits > 0 && found.splits > parts.max_splits();
     return by_parts ? parts.take() : std::move(found);
 }
 

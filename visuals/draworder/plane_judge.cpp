@@ -17,7 +17,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// Of a component at most about this many rows are looked at.
-constexpr std::size_t most_rows = 192;
+constexpr std::size_t max_rows = 192;
 
 bool has(const std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
     return ((words[first_word + bit / 64] >> (bit % 64)) & 1U) != 0;
@@ -53,7 +53,7 @@ PlaneJudge::PlaneJudge(const ModelFaces& model, const Cycles& cycles)
 /// Adds the rows of a component.
 void PlaneJudge::add(const HidingGraph& graph, const std::vector<std::uint32_t>& component) {
     const std::size_t words = (component.size() + 63) / 64;
-    const std::size_t step = component.size() / most_rows + 1;
+    const std::size_t step = component.size() / max_rows + 1;
     const std::size_t first_word = front_or_on_.size();
     for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
         sets->resize(first_word + words, 0);

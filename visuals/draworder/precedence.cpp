@@ -37,7 +37,7 @@ public:
         while (out.order.size() < later_.size()) {
             std::uint32_t next = 0;
             if (ready_.empty()) {
-                next = least_waiting();
+                next = min_waiting();
                 ++out.broken_cycles;
             } else {
                 next = ready_.top();
@@ -62,7 +62,7 @@ private:
     }
 
     /// The unpainted polygon that waits for the fewest others.
-    std::uint32_t least_waiting() const {
+    std::uint32_t min_waiting() const {
         std::uint32_t best = nobody;
         for (std::uint32_t polygon = 0; polygon < later_.size(); ++polygon) {
             const bool better = best == nobody || waits_for_[polygon] < waits_for_[best];

@@ -61,8 +61,8 @@ private:
 void TreeBuilder::check_cost() const {
     const TreeCost cost{work_.twins.size(), cells_};
     const bool costs_more = search_.less_than && cost >= *search_.less_than;
-    const bool splits_more = cost.splits > 0 && search_.most_splits &&
-                             static_cast<int>(cost.splits) > search_.most_splits();
+    const bool splits_more = cost.splits > 0 && search_.max_splits &&
+                             static_cast<int>(cost.splits) > search_.max_splits();
     if (costs_more || splits_more) {
         throw SearchGivenUp{"another order costs less", true};
     }
@@ -135,9 +135,9 @@ std::unique_ptr<Branch> TreeBuilder::grow(EyeNode node, std::size_t depth) {
 /// The branch of a node. Throws SearchGivenUp.
 std::unique_ptr<Branch> TreeBuilder::found(EyeNode& node, std::size_t depth) {
     check_entries(entries_); // where a list was too much already, another one is, too
-    if (depth == search_.most_depth) {
+    if (depth == search_.max_depth) {
         throw SearchGivenUp{
-            fmt::format("{} planes one after another make no cell", search_.most_depth)};
+            fmt::format("{} planes one after another make no cell", search_.max_depth)};
     }
     if (work_.catch_up(node)) {
         node = part_of(graphs_, node, node.region);

@@ -39,7 +39,7 @@ struct TreeCost {
 struct TreeSearch {
     ForkSearch forks = {};
     /// The most cuts one after another.
-    std::size_t most_depth = 100;
+    std::size_t max_depth = 100;
     /// Whether planes are tried before polygons are split, even where an eye in the middle of a
     /// region sees a ring: more cells, sometimes fewer splits.
     bool planes_first = false;
@@ -50,7 +50,7 @@ struct TreeSearch {
     std::optional<TreeCost> less_than = {};
     /// So is it where the tree is sure to have more splits. Asked once a polygon is split; may be
     /// empty.
-    std::function<int()> most_splits = {};
+    std::function<int()> max_splits = {};
 };
 
 /// A tree over a node's region whose cells have no cycles. Splits polygons of the model where there

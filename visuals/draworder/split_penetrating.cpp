@@ -35,7 +35,7 @@ constexpr std::uint64_t units_of_pair = 5;
 constexpr std::uint64_t units_of_cut = 100;
 
 /// With more cuts than 100 + 4 a polygon there are too many pieces for a search.
-constexpr std::size_t most_cuts_a_polygon = 4;
+constexpr std::size_t max_cuts_a_polygon = 4;
 constexpr std::size_t cuts_always_allowed = 100;
 
 Corners corners_of(const PolygonModel& model, std::size_t polygon) {
@@ -156,7 +156,7 @@ public:
     }
 
     int split_all(SearchBudget& budget) {
-        const std::size_t most = most_cuts_a_polygon * faces_.size() + cuts_always_allowed;
+        const std::size_t most = max_cuts_a_polygon * faces_.size() + cuts_always_allowed;
         std::size_t added = 0;
         while (const auto polygon = best_polygon()) {
             if (added == most) {

@@ -109,8 +109,8 @@ void TrialTargets::look_from(const glm::dvec3& eye) {
         const glm::dvec3 to_middle = all_[i].middle - eye;
         const double height = -glm::dot(to_middle, all_[i].normal);
         if (height > 0.0) {
-            const double least_along2 = glm::dot(to_middle, to_middle) - ball2_[i];
-            faced_.push_back({i, height, to_middle, least_along2});
+            const double min_along2 = glm::dot(to_middle, to_middle) - ball2_[i];
+            faced_.push_back({i, height, to_middle, min_along2});
         }
     }
 }
@@ -119,7 +119,7 @@ void TrialTargets::meet(const glm::dvec3& ray, std::vector<TrialHit>& hits) cons
     hits.clear();
     for (const Faced& faced : faced_) {
         const double along = glm::dot(faced.to_middle, ray);
-        if (along * along < faced.least_along2) {
+        if (along * along < faced.min_along2) {
             continue;
         }
         if (std::optional<TrialHit> hit = meet_one(all_[faced.target], eye_, faced.height, ray)) {

@@ -66,7 +66,7 @@ private:
         std::size_t target = 0;
         double height = 0.0; ///< Of the eye above the target's plane.
         glm::dvec3 to_middle{0.0};
-        double least_along2 = 0.0;
+        double min_along2 = 0.0;
     };
 
     const models::polygons::PolygonModel& model_;

@@ -17,7 +17,7 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// A model that needs more than 100 + 2 splits a polygon is not suited to painting orders.
-constexpr std::uint32_t most_splits_a_polygon = 2;
+constexpr std::uint32_t max_splits_a_polygon = 2;
 constexpr std::uint32_t splits_always_allowed = 100;
 
 } // namespace
@@ -25,7 +25,7 @@ constexpr std::uint32_t splits_always_allowed = 100;
 void WorkingModel::resolve(const Deadlock& deadlock) {
     RegionGraphs graphs(faces);
     if (const auto cut = best_cut(graphs, deadlock)) {
-        if (twins.size() > splits_always_allowed + most_splits_a_polygon * first_count) {
+        if (twins.size() > splits_always_allowed + max_splits_a_polygon * first_count) {
             throw SearchGivenUp{fmt::format("cells need more than {} splits", twins.size() - 1)};
         }
         // Faces keep the planes of whole polygons. That of a sliver, from its corners, may be any.

@@ -105,12 +105,12 @@ void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
     const Object& program = cut ? programs.cut : programs.whole;
     gl_.use_program(program.name());
     if (cut) {
-        assert(clip->count >= 0 && clip->count <= Clip::most_planes);
-        std::array<glm::vec4, Clip::most_planes> planes;
+        assert(clip->count >= 0 && clip->count <= Clip::max_planes);
+        std::array<glm::vec4, Clip::max_planes> planes;
         planes.fill(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)); // cuts nothing
         std::copy_n(clip->planes.begin(), clip->count, planes.begin());
         gl_.program_uniform_4fv(
-            program.name(), planes_uniform, Clip::most_planes, glm::value_ptr(planes.front()));
+            program.name(), planes_uniform, Clip::max_planes, glm::value_ptr(planes.front()));
     }
 }
 

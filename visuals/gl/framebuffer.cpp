@@ -18,12 +18,12 @@ void check_size(const Functions& gl, int width, int height, int samples) {
             width,
             height));
     }
-    GLint most_samples = 0;
-    gl.get_integerv(GL_MAX_SAMPLES, &most_samples);
-    if ((samples != 1 && samples != 4) || samples > most_samples) {
+    GLint max_samples = 0;
+    gl.get_integerv(GL_MAX_SAMPLES, &max_samples);
+    if ((samples != 1 && samples != 4) || samples > max_samples) {
         throw Error(fmt::format(
             "expected 1 or 4 samples a pixel (the driver has up to {}), got {}",
-            most_samples,
+            max_samples,
             samples));
     }
 }

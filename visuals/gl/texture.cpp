@@ -15,7 +15,7 @@ namespace octant::visuals::gl {
 namespace {
 
 // Along the line of sight. Where a processor draws, any but 1 makes a frame 3 to 5 times slower.
-constexpr float most_anisotropy = 8.0F;
+constexpr float max_anisotropy = 8.0F;
 
 bool has_extension(const Functions& gl, std::string_view name) {
     GLint count = 0;
@@ -42,7 +42,7 @@ void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
         GLfloat most = 1.0F;
         gl.get_floatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
         gl.texture_parameterf(
-            texture.name(), GL_TEXTURE_MAX_ANISOTROPY, std::min(most, most_anisotropy));
+            texture.name(), GL_TEXTURE_MAX_ANISOTROPY, std::min(most, max_anisotropy));
     }
 }
 

@@ -12,7 +12,7 @@ namespace octant::visuals::groundfile {
 namespace {
 
 /// The most samples that are filled in one piece.
-constexpr std::size_t most_at_once = std::size_t{1} << 22U;
+constexpr std::size_t max_at_once = std::size_t{1} << 22U;
 constexpr int piece_edge = 1024;
 constexpr int margin = 32; ///< Samples around a piece that take part in its smoothing.
 
@@ -120,7 +120,7 @@ void fill_piece(
 void fill_number_voids(std::span<std::int16_t> numbers, int columns, int rows) {
     const Field field{numbers, columns, rows};
     int edge = 1;
-    while (numbers.size() > most_at_once * static_cast<std::size_t>(edge * edge)) {
+    while (numbers.size() > max_at_once * static_cast<std::size_t>(edge * edge)) {
         edge *= 2;
     }
     models::heights::HeightGrid coarse = block_means(field, edge);

@@ -8,14 +8,14 @@
 namespace octant::visuals::landscape {
 
 double highest_m(const Ground& ground) {
-    constexpr int most_steps = 512;
+    constexpr int max_steps = 512;
     const glm::dvec2 half_m = ground.half_extent_m();
     const double spacing_m = ground.spacing_m();
     if (spacing_m <= 0.0) {
         return std::isfinite(ground.mean_height_m()) ? ground.mean_height_m() : 0.0;
     }
     const auto steps_over = [&](double half) {
-        return std::clamp(static_cast<int>(std::lround(2.0 * half / spacing_m)), 1, most_steps);
+        return std::clamp(static_cast<int>(std::lround(2.0 * half / spacing_m)), 1, max_steps);
     };
     const glm::ivec2 steps(steps_over(half_m.x), steps_over(half_m.y));
     double highest = -std::numeric_limits<double>::infinity();

@@ -93,7 +93,7 @@ public:
     virtual double earth_radius_m() const { return 0.0; }
 
     /// Whether something between two corners (world axes, metres) is looked for.
-    using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
+    using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
     /// Appends the numbers of those triangles of the last triangles() (3 i is the first index of
     /// triangle i), in painting order, that lie in boxes of which `wanted` says yes; more may come.

@@ -25,8 +25,8 @@ class PaintedGround final : public Ground {
 public:
     /// Around a triangle, world axes.
     struct Box {
-        glm::dvec3 least_m;
-        glm::dvec3 most_m;
+        glm::dvec3 min_m;
+        glm::dvec3 max_m;
     };
 
     PaintedGround(const models::polygons::PolygonModel& model, const scene::AirSettings& air)
@@ -128,7 +128,7 @@ public:
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
         const std::span<const PaintedGround::Box> boxes = ground_->boxes();
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (wanted(boxes[i].least_m, boxes[i].most_m)) {
+            if (wanted(boxes[i].min_m, boxes[i].max_m)) {
                 triangles.push_back(i);
             }
         }

@@ -22,7 +22,7 @@ namespace octant::visuals::landscape {
 namespace {
 
 constexpr double frames_ahead = 120.0;  ///< how far along the eye's way pages are asked for
-constexpr double least_error_px = 0.25; ///< what is finer than this nobody sees
+constexpr double min_error_px = 0.25; ///< what is finer than this nobody sees
 constexpr double usual_triangles = 20000.0;
 
 /// Meshes by screen-space error with geomorphs, made ahead on a thread where that is asked for.
@@ -49,7 +49,7 @@ public:
         order_ = settings.nearest_first ? terrain::PaintOrder::FrontToBack
                                         : terrain::PaintOrder::BackToFront;
         picture_height_px_ = settings.picture_height_px;
-        target_.error_px = settings.ground.error_px.value_or(least_error_px);
+        target_.error_px = settings.ground.error_px.value_or(min_error_px);
         target_.geomorphs = settings.ground.geomorphs;
         detail_ = {settings.ground.near_detail, settings.ground.scenery && !settings.textured};
         textured_ = settings.textured;
@@ -115,12 +115,12 @@ public:
             return;
         }
         const std::size_t first = triangles.size();
-        const double moved_m = nature::most_fine_move * ground_->spacing_m();
+        const double moved_m = nature::max_fine_move * ground_->spacing_m();
         const glm::dvec3 below_m(0.0, 0.0, moved_m);
         const glm::dvec3 above_m(0.0, 0.0, moved_m + nature::Scenery::highest_m);
         mesher_.triangles_in(
-            [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-                return wanted(least_m - below_m, most_m + above_m);
+            [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+                return wanted(min_m - below_m, max_m + above_m);
             },
             triangles);
         near_.replace(triangles, first);
@@ -185,8 +185,8 @@ private:
                 near_view_);
         }
         const int kept =
-            has_detail() ? static_cast<int>(near_view_.most_splits + near_view_.most_things) : 0;
-        target_.most_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
+            has_detail() ? static_cast<int>(near_view_.max_splits + near_view_.max_things) : 0;
+        target_.max_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
     }
 
     /// Does nothing where this mesh is the last one.

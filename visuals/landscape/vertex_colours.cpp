@@ -21,7 +21,7 @@ namespace {
 /// about half of what edges look like there.
 constexpr float footprint_share = 1.0F / 192.0F;
 constexpr float near_footprint_share = 1.0F / 40.0F;
-constexpr std::size_t least_places = 1U << 14U;
+constexpr std::size_t min_places = 1U << 14U;
 constexpr std::size_t looked_ahead = 16; ///< vertices whose places are fetched into the cache
 constexpr int mean_samples = 16;         ///< a side
 
@@ -64,8 +64,8 @@ VertexColours::VertexColours(
     , footprints_per_m_(
           static_cast<float>(1U << finer_octaves) / static_cast<float>(ground.spacing_m()))
     , last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {
-    fresh_.resize(least_places);
-    stale_.resize(least_places);
+    fresh_.resize(min_places);
+    stale_.resize(min_places);
 }
 
 void VertexColours::follow(
@@ -142,7 +142,7 @@ std::uint32_t VertexColours::seen_water(std::uint32_t own, const glm::vec3& from
 /// Places for all vertices of a mesh; what was not asked for since the last but one time that the
 /// table filled is forgotten.
 void VertexColours::make_room(std::size_t vertices) {
-    const std::size_t places = std::max(least_places, std::bit_ceil(4 * vertices));
+    const std::size_t places = std::max(min_places, std::bit_ceil(4 * vertices));
     if (places > fresh_.size()) {
         std::vector<Entry> old(places);
         std::swap(old, fresh_);

@@ -21,7 +21,7 @@ constexpr double finest_cell_m = 64.0; ///< of the finest level
 constexpr int period = 512;            ///< of the density, in those cells
 constexpr int widest = 32;             ///< of the octaves of one cloud, in those cells
 constexpr int weather = 128;           ///< the octave that gathers them
-constexpr float most_density = 0.93F;  ///< of what is behind, a cloud leaves a little
+constexpr float max_density = 0.93F;  ///< of what is behind, a cloud leaves a little
 constexpr double through_m = 25.0;     ///< so near the layer's height nothing of it is seen ...
 constexpr double whole_m = 150.0;      ///< ... and so far from it all
 
@@ -85,7 +85,7 @@ void cut_at_cover(double cover, std::vector<float>& field) {
     const float soft = 0.14F * (most - least);
     for (float& value : field) {
         const float share = std::clamp((value - threshold) / soft + 0.5F, 0.0F, 1.0F);
-        value = cover > 0.0 ? most_density * smooth(share) : 0.0F;
+        value = cover > 0.0 ? max_density * smooth(share) : 0.0F;
     }
 }
 
@@ -166,7 +166,7 @@ CloudLayer::seen_node(int level, std::int64_t column, std::int64_t row, float co
 /// From below thick clouds are dark, from above the sun's side is bright.
 models::ColourVertex
 CloudLayer::vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinned) const {
-    const float thick = node.density / most_density;
+    const float thick = node.density / max_density;
     const float lit =
         from_above ? 0.92F + 0.5F * node.light : 1.0F - 0.65F * thick * thick + 0.25F * node.light;
     const glm::vec3 colour = glm::mix(dark_, bright_, std::clamp(lit, 0.0F, 1.0F));

@@ -25,8 +25,8 @@ const glm::dvec3 weights(0.2126, 0.7152, 0.0722); ///< luminance of linear sRGB
 // Light on the ground under the usual sun, and what a low sun leaves of the light from everywhere.
 const glm::vec3 usual_ambient(0.39F, 0.42F, 0.47F);
 const glm::vec3 usual_sunlight(0.80F, 0.78F, 0.74F);
-constexpr double least_ambient = 0.95;
-constexpr double least_horizon = 0.42;
+constexpr double min_ambient = 0.95;
+constexpr double min_horizon = 0.42;
 constexpr double eye_power = 0.6; ///< how far the eye makes up for lost sunlight, in stops a stop
 const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
 
@@ -48,7 +48,7 @@ glm::dvec3 exposure_of(const PerezSky& sky, double elevation_rad, const glm::dve
     const double grey = glm::dot(aim, weights) / glm::dot(usual_light, weights);
     const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
     const glm::dvec3 tint = glm::mix(grey * low_tint, usual, day);
-    const double wanted = glm::dot(aim, weights) * glm::mix(least_horizon, 1.0, day);
+    const double wanted = glm::dot(aim, weights) * glm::mix(min_horizon, 1.0, day);
     return tint * (wanted / std::max(glm::dot(tint * horizon_light(sky), weights), 1e-6));
 }
 
@@ -95,7 +95,7 @@ Daylight::Daylight(const DaylightOptions& options)
     const glm::dvec3 tint = sky_tint(sky_, exposure_of(sky_, elevation_rad, usual_horizon)) /
                             sky_tint(usual, exposure_of(usual, usual_elevation_rad, usual_horizon));
     // The eye takes most of the light's own colour for white.
-    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(least_ambient, 1.0, day));
+    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(min_ambient, 1.0, day));
     const glm::dvec3 share = sunlight_share(elevation_rad);
     sunlight_ = usual_sunlight * glm::vec3(glm::min(share, glm::dvec3(1.15)));
     const glm::dvec3 pure = share / std::max({share.x, share.y, share.z});

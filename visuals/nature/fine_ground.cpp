@@ -18,7 +18,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr std::size_t least_places = std::size_t{1} << 15U;
+constexpr std::size_t min_places = std::size_t{1} << 15U;
 constexpr float full_at = 1.8F; ///< times as long: the middle is where it belongs
 constexpr float moved_a_slope = 0.3F;
 constexpr float shade = 0.16F;
@@ -57,7 +57,7 @@ void FineGround::begin(
     scenery_ = scenery;
     colour_ = colour;
     vertices_.assign(vertices.begin(), vertices.end());
-    middles_.resize(std::max({least_places, std::bit_ceil(2 * view.most_splits), middles_.size()}));
+    middles_.resize(std::max({min_places, std::bit_ceil(2 * view.max_splits), middles_.size()}));
     ++frame_;
     added_ = 0;
 }
@@ -84,7 +84,7 @@ std::uint32_t FineGround::middle_of(std::uint32_t a, std::uint32_t b) {
     }
     Middle& middle = middles_[at];
     if (middle.frame != frame_) {
-        if (added_ >= view_.most_splits) {
+        if (added_ >= view_.max_splits) {
             return a;
         }
         middle = {edge, make_middle(a, b), frame_};
@@ -100,11 +100,11 @@ float FineGround::moved_m(
         return 0.0F;
     }
     const auto spacing_m = static_cast<float>(view_.spacing_m);
-    const float most_m = std::min(
+    const float max_m = std::min(
         moved_a_slope * std::abs(to_m.z - from_m.z),
-        static_cast<float>(most_fine_move) * spacing_m);
+        static_cast<float>(max_fine_move) * spacing_m);
     const double cell_m = view_.spacing_m / 64.0;
-    return 0.5F * most_m *
+    return 0.5F * max_m *
            noise_at(std::llround(place_m.x / cell_m), std::llround(place_m.y / cell_m), 1);
 }
 
@@ -152,9 +152,9 @@ bool FineGround::is_quarter_of_cell(const Corners& triangle) const {
     const glm::vec3& a = vertices_[triangle.a].position_m;
     const glm::vec3& b = vertices_[triangle.b].position_m;
     const glm::vec3& c = vertices_[triangle.c].position_m;
-    const float most_m = quarter_edge * static_cast<float>(view_.spacing_m);
+    const float max_m = quarter_edge * static_cast<float>(view_.spacing_m);
     return std::max({level_length2(a, b), level_length2(b, c), level_length2(c, a)}) <
-           most_m * most_m;
+           max_m * max_m;
 }
 
 void FineGround::add_things(const Corners& triangle, std::vector<std::uint32_t>& indices) {
@@ -178,7 +178,7 @@ void FineGround::add_parts(
     std::uint32_t middle = 0;
     float length2 = 0.0F;
     float most2 = 0.0F;
-    const bool whole = depth >= most_halvings || (depth > 0 && is_outside(triangle));
+    const bool whole = depth >= max_halvings || (depth > 0 && is_outside(triangle));
     for (const Corners& turn : turns) {
         const float own2 =
             level_length2(vertices_[turn.a].position_m, vertices_[turn.b].position_m);

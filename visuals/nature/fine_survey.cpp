@@ -27,7 +27,7 @@ bool is_far(const std::array<glm::vec3, 3>& triangle, float long_rad) {
 
 float FineSurvey::long_rad_within(const terrain::GroundMesh& mesh, const FineView& view) {
     view_ = view;
-    least_look2_ = view.long_rad * view.long_rad;
+    min_look2_ = view.long_rad * view.long_rad;
     halvings_.fill(0);
     counted_ = 0;
     is_near_.resize(mesh.indices.size() / 3);
@@ -38,10 +38,10 @@ float FineSurvey::long_rad_within(const terrain::GroundMesh& mesh, const FineVie
             mesh.vertices[mesh.indices[3 * i + 2]].position_m};
         is_near_[i] = is_far(triangle, view.long_rad) ? 0 : 1;
         if (is_near_[i] != 0) {
-            count(triangle, least_look2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
+            count(triangle, min_look2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
         }
     }
-    const float aim = share_aimed_at * static_cast<float>(view.most_splits);
+    const float aim = share_aimed_at * static_cast<float>(view.max_splits);
     auto left = static_cast<float>(counted_);
     std::size_t bin = 0;
     while (bin < bins && left - static_cast<float>(halvings_[bin]) > aim) {
@@ -56,8 +56,8 @@ float FineSurvey::long_rad_within(const terrain::GroundMesh& mesh, const FineVie
 }
 
 /// As FineGround halves it, by the longest edge. Parts are halved no sooner than the whole.
-void FineSurvey::count(const Triangle& triangle, float most_look2, int depth) {
-    if (depth >= most_halvings || (depth > 0 && is_outside(view_, triangle))) {
+void FineSurvey::count(const Triangle& triangle, float max_look2, int depth) {
+    if (depth >= max_halvings || (depth > 0 && is_outside(view_, triangle))) {
         return;
     }
     std::size_t longest = 0;
@@ -72,11 +72,11 @@ void FineSurvey::count(const Triangle& triangle, float most_look2, int depth) {
     const glm::vec3& a = triangle[longest];
     const glm::vec3& b = triangle[(longest + 1) % 3];
     const glm::vec3& c = triangle[(longest + 2) % 3];
-    const float seen2 = std::min(look2(a, b), most_look2);
-    if (seen2 <= least_look2_ || !may_be_halved(view_, a, b)) {
+    const float seen2 = std::min(look2(a, b), max_look2);
+    if (seen2 <= min_look2_ || !may_be_halved(view_, a, b)) {
         return;
     }
-    const std::uint32_t doublings = std::bit_cast<std::uint32_t>(seen2 / least_look2_);
+    const std::uint32_t doublings = std::bit_cast<std::uint32_t>(seen2 / min_look2_);
     const std::size_t bin = (doublings - bits_of_one) >> bin_shift;
     ++halvings_[std::min(bin, bins - 1)];
     ++counted_;

@@ -17,7 +17,7 @@ namespace octant::visuals::nature {
 class FineSurvey {
 public:
     /// Returns how long edges must look, no less than `view.long_rad`, for a little less than
-    /// `view.most_splits` halvings. It changes steadily with the view.
+    /// `view.max_splits` halvings. It changes steadily with the view.
     float long_rad_within(const terrain::GroundMesh& mesh, const FineView& view);
 
     /// Whether a triangle of the last mesh has edges that may look long: most are too far off.
@@ -29,12 +29,12 @@ private:
     static constexpr std::uint32_t bins_an_octave = 32;
     static constexpr std::size_t bins = std::size_t{16} * bins_an_octave;
 
-    void count(const Triangle& triangle, float most_look2, int depth);
+    void count(const Triangle& triangle, float max_look2, int depth);
 
     FineView view_;
-    float least_look2_ = 0.0F;
+    float min_look2_ = 0.0F;
     std::size_t counted_ = 0;
-    /// Halvings by the square of how long the edge looks, over least_look2_.
+    /// Halvings by the square of how long the edge looks, over min_look2_.
     std::array<std::uint32_t, bins> halvings_{};
     std::vector<std::uint8_t> is_near_;
 };

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double usual_edge_rad = 0.08;
 constexpr double usual_edge_px = 70.0; ///< the same in 720 lines over 45 degrees
-constexpr double least_edge_rad = 0.02;
+constexpr double min_edge_rad = 0.02;
 constexpr double usual_width_rad = 1.4;
 /// Halvings over those that even level ground takes: slopes, edges of the picture.
 constexpr double more_than_level = 1.3;
@@ -28,19 +28,19 @@ void share_out_detail(const DetailRoom& room, const NearDetail& detail, FineView
     const double share = std::clamp(room.share.value_or(1.0), 0.005, 2.0);
     const double wide = std::clamp(room.width_rad / usual_width_rad, 0.01, 2.0);
     const double edge_rad = room.share ? usual_edge_rad * std::sqrt(wide / share)
-                                       : std::max(usual_edge_px / room.focal_px, least_edge_rad);
+                                       : std::max(usual_edge_px / room.focal_px, min_edge_rad);
     view.long_rad = static_cast<float>(edge_rad);
     const double to_m = 1.42 * view.spacing_m / edge_rad;
     const double from_m =
-        std::max(room.over_m, static_cast<double>(least_fine_edge) * view.spacing_m / edge_rad);
+        std::max(room.over_m, static_cast<double>(min_fine_edge) * view.spacing_m / edge_rad);
     const double width_rad = room.share ? room.width_rad : 2.0 * pi;
     const double level =
         2.0 * width_rad / (edge_rad * edge_rad) * std::log(std::max(to_m / from_m, 1.0));
     const double splits = more_than_level * level + always * share;
-    view.most_splits = detail.fine_ground ? static_cast<std::size_t>(splits) : 0;
+    view.max_splits = detail.fine_ground ? static_cast<std::size_t>(splits) : 0;
     const double low = std::clamp(1.2 - room.over_m / things_below_m, 0.0, 1.0);
     const double things = usual_things * share * low;
-    view.most_things = !detail.scenery ? 0
+    view.max_things = !detail.scenery ? 0
                        : room.share    ? static_cast<std::size_t>(things)
                                        : any_things;
     view.reach_share = static_cast<float>(std::sqrt(std::min(share, 1.0)));

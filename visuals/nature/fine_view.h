@@ -11,10 +11,10 @@
 namespace octant::visuals::nature {
 
 /// Edges of the ground that are shorter stay whole; over the distance of samples.
-inline constexpr float least_fine_edge = 1.0F / 24.0F;
+inline constexpr float min_fine_edge = 1.0F / 24.0F;
 
 /// The most by which the middle of an edge is moved, over the distance of samples.
-inline constexpr double most_fine_move = 0.06;
+inline constexpr double max_fine_move = 0.06;
 
 /// From where ground is looked at, and how finely it is sampled.
 struct FineView {
@@ -25,8 +25,8 @@ struct FineView {
     /// is not halved. Zero = no plane.
     std::array<glm::vec3, 4> frustum_normals{
         glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F), glm::vec3(0.0F)};
-    std::size_t most_splits = 2000; ///< triangles that may be added to the ground in a frame
-    std::size_t most_things = 5000; ///< triangles of what stands on it
+    std::size_t max_splits = 2000; ///< triangles that may be added to the ground in a frame
+    std::size_t max_things = 5000; ///< triangles of what stands on it
     float long_rad = 0.08F;         ///< edges of the ground that look shorter stay whole
     float reach_share = 1.0F;       ///< of the distance to which things stand
 };

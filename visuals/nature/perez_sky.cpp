@@ -18,7 +18,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr double least_cos_zenith = 0.014; ///< F has no value at the horizon itself
+constexpr double min_cos_zenith = 0.014; ///< F has no value at the horizon itself
 
 double cubic(double t, double a, double b, double c, double d) {
     return ((a * t + b) * t + c) * t + d;
@@ -80,7 +80,7 @@ PerezSky::PerezSky(double sun_elevation_rad, double turbidity)
 }
 
 glm::dvec3 PerezSky::light(double elevation_rad, double azimuth_rad) const {
-    const double cos_zenith = std::max(std::sin(elevation_rad), least_cos_zenith);
+    const double cos_zenith = std::max(std::sin(elevation_rad), min_cos_zenith);
     const double cos_to_sun =
         std::sin(elevation_rad) * std::sin(sun_elevation_rad_) +
         std::cos(elevation_rad) * std::cos(sun_elevation_rad_) * std::cos(azimuth_rad);

@@ -14,13 +14,13 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr int most_steps = 1024;    ///< along a side
-constexpr double least_fall = 0.01; ///< of the sun's rays, metres a metre: a sun of half a degree
+constexpr int max_steps = 1024;    ///< along a side
+constexpr double min_fall = 0.01; ///< of the sun's rays, metres a metre: a sun of half a degree
 constexpr double softness_m = 2.0;
-constexpr int least_surrounding = 2; ///< half its width, in steps; each next is twice as wide
+constexpr int min_surrounding = 2; ///< half its width, in steps; each next is twice as wide
 constexpr int surroundings = 5;
 constexpr double lost_a_slope = 0.85;
-constexpr double least_sky = 0.35;
+constexpr double min_sky = 0.35;
 
 /// Heights of the reduced grid, row after row from the south.
 struct Grid {
@@ -38,7 +38,7 @@ struct Grid {
 
 Grid reduced(const terrain::GroundSamples& ground) {
     int stride = 1;
-    while ((std::max(ground.columns(), ground.rows()) - 1) / stride > most_steps) {
+    while ((std::max(ground.columns(), ground.rows()) - 1) / stride > max_steps) {
         stride *= 2;
     }
     Grid grid{
@@ -70,7 +70,7 @@ public:
         const double level = std::hypot(to_sun.x, to_sun.y);
         forwards_ = along < 0.0;
         drift_ = across / std::abs(along);
-        const double fall = std::max(to_sun.z / std::max(level, 1e-9), least_fall);
+        const double fall = std::max(to_sun.z / std::max(level, 1e-9), min_fall);
         fall_m_ = grid.step_m * std::hypot(1.0, drift_) * fall;
         before_m_.assign(static_cast<std::size_t>(places_), nothing_m);
         now_m_ = before_m_;
@@ -167,11 +167,11 @@ private:
 double sky_left(const Grid& grid, const Sums& sums, int column, int row) {
     const double own_m = static_cast<double>(grid.at(column, row));
     double slopes = 0.0;
-    int half = least_surrounding;
+    int half = min_surrounding;
     for (int i = 0; i < surroundings; ++i, half *= 2) {
         slopes += std::max(sums.mean(column, row, half) - own_m, 0.0) / (half * grid.step_m);
     }
-    return std::clamp(1.0 - lost_a_slope * slopes / surroundings, least_sky, 1.0);
+    return std::clamp(1.0 - lost_a_slope * slopes / surroundings, min_sky, 1.0);
 }
 
 std::uint8_t byte_of(double share) {

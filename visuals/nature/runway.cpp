@@ -27,7 +27,7 @@ constexpr float stroke_m = 1.5F;
 // The centre line: stripe and gap are 50 to 75 m together, the stripe the longer of both.
 constexpr float lines_begin_m = digits_begin_m + digit_m + apart_m;
 constexpr float dash_m = 30.0F;
-constexpr float least_gap_m = 20.0F;
+constexpr float min_gap_m = 20.0F;
 // The aiming point; it is as long, as wide and as far apart as in the AC.
 constexpr float aim_begin_m = 300.0F;
 constexpr float aim_m = 45.0F;
@@ -60,12 +60,12 @@ public:
     }
 
     /// Along from this end; left of the middle as it is seen from there.
-    void paint(const glm::vec2& least_m, const glm::vec2& most_m) {
+    void paint(const glm::vec2& min_m, const glm::vec2& max_m) {
         if (is_other_) {
             const glm::vec2 all(length_m_, 0.0F);
-            patches_.push_back({all - most_m, all - least_m, true});
+            patches_.push_back({all - max_m, all - min_m, true});
         } else {
-            patches_.push_back({least_m, most_m, true});
+            patches_.push_back({min_m, max_m, true});
         }
     }
 
@@ -138,7 +138,7 @@ void paint_end(End& end, const std::string& number) {
 /// Even stripes from one number to the other.
 void paint_centre_line(float length_m, std::vector<RunwayPatch>& patches) {
     const float free_m = length_m - 2.0F * lines_begin_m;
-    const float dashes = std::floor((free_m + least_gap_m) / (dash_m + least_gap_m));
+    const float dashes = std::floor((free_m + min_gap_m) / (dash_m + min_gap_m));
     const float step_m = dash_m + (free_m - dashes * dash_m) / (dashes - 1.0F);
     for (float dash = 0.0F; dash < dashes; ++dash) {
         const float from_m = lines_begin_m + dash * step_m;
@@ -148,14 +148,14 @@ void paint_centre_line(float length_m, std::vector<RunwayPatch>& patches) {
 
 /// A long patch in equal parts.
 void add_in_parts(const RunwayPatch& whole, std::vector<RunwayPatch>& patches) {
-    const float all_m = whole.most_m.x - whole.least_m.x;
+    const float all_m = whole.max_m.x - whole.min_m.x;
     const auto parts = static_cast<int>(std::ceil(all_m / longest_patch_m));
     for (int part = 0; part < parts; ++part) {
         const auto at_m = [&](int i) {
-            return whole.least_m.x + all_m * static_cast<float>(i) / static_cast<float>(parts);
+            return whole.min_m.x + all_m * static_cast<float>(i) / static_cast<float>(parts);
         };
         patches.push_back(
-            {{at_m(part), whole.least_m.y}, {at_m(part + 1), whole.most_m.y}, whole.is_painted});
+            {{at_m(part), whole.min_m.y}, {at_m(part + 1), whole.max_m.y}, whole.is_painted});
     }
 }
 

@@ -28,8 +28,8 @@ namespace octant::visuals::nature {
 /// A rectangle along the runway's axes: metres along from its beginning, and left of its middle.
 /// Those that are painted do not overlap; they lie within the surface.
 struct RunwayPatch {
-    glm::vec2 least_m{0.0F};
-    glm::vec2 most_m{0.0F};
+    glm::vec2 min_m{0.0F};
+    glm::vec2 max_m{0.0F};
     bool is_painted = false; ///< white; else the surface itself
 };
 

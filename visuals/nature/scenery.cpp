@@ -16,10 +16,10 @@ namespace octant::visuals::nature {
 namespace {
 
 constexpr std::size_t known_places = std::size_t{1} << 15U;
-constexpr double most_reach_m = 900.0;
-constexpr double most_reach_cells = 30.0;
-constexpr double least_cell_m = 15.0; ///< denser ground bears something in some cells only
-constexpr float least_radius_m = 1.2F;
+constexpr double max_reach_m = 900.0;
+constexpr double max_reach_cells = 30.0;
+constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
+constexpr float min_radius_m = 1.2F;
 constexpr float house_radius_m = 4.0F; ///< no house where less fits
 constexpr float house_m = 7.5F;        ///< its height
 constexpr float house_length = 1.25F;  ///< half of it, over the half size
@@ -92,12 +92,12 @@ Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, Growt
     : first_m_(first_m)
     , samples_(samples)
     , spacing_m_(spacing_m)
-    , stride_(std::max(static_cast<int>(std::ceil(least_cell_m / spacing_m)), 1))
-    , most_radius_m_(static_cast<float>(fits * spacing_m))
+    , stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1))
+    , max_radius_m_(static_cast<float>(fits * spacing_m))
     , reach_m_(
-          most_radius_m_ < least_radius_m
+          max_radius_m_ < min_radius_m
               ? 0.0
-              : std::min(most_reach_m, most_reach_cells * stride_ * spacing_m))
+              : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m))
     , growth_at_(std::move(growth_at))
     , known_(known_places) {}
 
@@ -140,7 +140,7 @@ Scenery::Thing Scenery::thing_at(int column, int row, int spot) {
             sum += share;
             kind = kind == Kind::Nothing && pick < sum ? own : kind;
         }
-        if (kind == Kind::House && most_radius_m_ < house_radius_m) {
+        if (kind == Kind::House && max_radius_m_ < house_radius_m) {
             kind = Kind::Nothing;
         }
         known = {
@@ -241,7 +241,7 @@ void Scenery::add(
         const float begins_m = static_cast<float>(reach_m()) *
                                (first_begin + (1.0F - first_begin) * share_of(one.thing.dice, 0));
         const float grown = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
-        if (grown <= 0.0F || added_ >= view_.most_things) {
+        if (grown <= 0.0F || added_ >= view_.max_things) {
             continue;
         }
         const std::size_t before = indices.size();
@@ -256,7 +256,7 @@ void Scenery::add(
 }
 
 float Scenery::house_half_m() const {
-    return std::min(0.62F * most_radius_m_, 5.5F);
+    return std::min(0.62F * max_radius_m_, 5.5F);
 }
 
 /// Of a circle that holds it in plan, its middle where it stands.
@@ -265,7 +265,7 @@ float Scenery::radius_m(const Thing& thing) const {
         return house_corner * house_half_m();
     }
     const Species& species = species_of(static_cast<std::size_t>(thing.kind));
-    return std::min(size_of(thing.dice) * species.radius_m, most_radius_m_);
+    return std::min(size_of(thing.dice) * species.radius_m, max_radius_m_);
 }
 
 /// A colour under the light on one of the eight sides, or from above.

@@ -108,7 +108,7 @@ private:
     glm::ivec2 samples_;
     double spacing_m_;
     int stride_;          ///< cells from one that bears something to the next
-    float most_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
+    float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
     double reach_m_;
     GrowthAt growth_at_;
     std::array<glm::vec3, 9>

@@ -17,7 +17,7 @@ namespace {
 constexpr float straight_down = 0.02F; ///< share of light that is reflected
 constexpr float slope_variance = 0.02F;
 /// Waves that face the eye hide those behind: at grazing angles less is reflected than off glass.
-constexpr float most_reflected = 0.75F;
+constexpr float max_reflected = 0.75F;
 constexpr float glitter = 0.9F; ///< of the sun's colour in the middle of its path
 
 } // namespace
@@ -52,7 +52,7 @@ glm::vec3 WaterLight::seen(const glm::vec3& own, const glm::vec3& from_eye) cons
     const float down = std::clamp(-way.z, 0.0F, 1.0F);
     const float left = 1.0F - down;
     const float reflected =
-        straight_down + (most_reflected - straight_down) * left * left * left * left * left;
+        straight_down + (max_reflected - straight_down) * left * left * left * left * left;
     const glm::vec3 facet = to_sun_ - way;
     const float across2 = facet.x * facet.x + facet.y * facet.y;
     const float slope2 = across2 / std::max(facet.z * facet.z, 1e-6F);

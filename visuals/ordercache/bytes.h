@@ -90,10 +90,10 @@ public:
         return next(size, 1);
     }
 
-    /// A number of things that take at least `least_size` bytes each.
-    std::size_t count(std::size_t least_size) {
+    /// A number of things that take at least `min_size` bytes each.
+    std::size_t count(std::size_t min_size) {
         const auto many = number<std::uint64_t>();
-        check_room(many, least_size);
+        check_room(many, min_size);
         return static_cast<std::size_t>(many);
     }
 

@@ -33,7 +33,7 @@ namespace {
 constexpr std::uint64_t signature = 0x726564726f74636fULL;
 constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
 /// Larger orders are not kept, and larger files not read.
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
 fs::path file_of_key(const fs::path& folder, std::string_view key) {
     return folder / fmt::format("{:016x}.order", checksum_of(key));
@@ -77,7 +77,7 @@ from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel
 
 /// Throws Error "file: expected ..., got ...".
 OrderedModel read_order(const fs::path& file, std::string_view key, const PolygonModel& given) {
-    const std::string bytes = read_file(file, most_bytes);
+    const std::string bytes = read_file(file, max_bytes);
     try {
         return from_file_bytes(bytes, key, given);
     } catch (const Error& fault) {
@@ -111,9 +111,9 @@ void keep(
     std::vector<std::string>& notes) {
     const std::string bytes = file_bytes(key, ordered);
     try {
-        if (bytes.size() > most_bytes) {
+        if (bytes.size() > max_bytes) {
             error_in(
-                file, fmt::format("expected at most {} bytes, got {}", most_bytes, bytes.size()));
+                file, fmt::format("expected at most {} bytes, got {}", max_bytes, bytes.size()));
         }
         write_file(file, bytes);
     } catch (const Error& fault) {

@@ -22,7 +22,7 @@ namespace octant::visuals::orderfile {
 
 namespace {
 
-constexpr std::size_t most_candidates = 200; ///< At most this many planes are tried at a node.
+constexpr std::size_t max_candidates = 200; ///< At most this many planes are tried at a node.
 
 using Polygons = std::vector<std::uint32_t>;
 
@@ -135,7 +135,7 @@ private:
 
     /// The polygon whose plane costs least.
     std::uint32_t best_of(const Polygons& polygons) const {
-        const std::size_t tried = std::min(polygons.size(), most_candidates);
+        const std::size_t tried = std::min(polygons.size(), max_candidates);
         const std::vector<Conflict> conflicts =
             among_ == Among::Settled ? conflicts_of(polygons) : std::vector<Conflict>{};
         std::uint32_t best = polygons.front();

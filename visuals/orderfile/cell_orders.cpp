@@ -56,7 +56,7 @@ std::vector<Plane> planes_within_path(
 /// The plane through the points at the least distance along each of three directions. Whatever is
 /// farther from the centre, in either metric, lies in front of it, because by the triangle
 /// inequality the distances along the directions add up to at least the distance of the sum.
-std::optional<Plane> least_distance_plane(const CellOrders& orders, const ListedCell& cell) {
+std::optional<Plane> min_distance_plane(const CellOrders& orders, const ListedCell& cell) {
     if (cell.min_m <= 0.0 || cell.directions.size() != 3) {
         return std::nullopt;
     }
@@ -152,13 +152,13 @@ std::optional<std::size_t> cell_of(const CellOrders& orders, const glm::dvec3& e
 
 bool in_range(const CellOrders& orders, const glm::dvec3& eye_m) {
     const double away_m = length_m(orders.metric, eye_m - orders.centre_m);
-    double least_m = std::numeric_limits<double>::infinity();
-    double most_m = 0.0;
+    double min_m = std::numeric_limits<double>::infinity();
+    double max_m = 0.0;
     for (const ListedCell& cell : orders.cells) {
-        least_m = std::min(least_m, cell.min_m);
-        most_m = std::max(most_m, cell.max_m);
+        min_m = std::min(min_m, cell.min_m);
+        max_m = std::max(max_m, cell.max_m);
     }
-    return away_m >= least_m && away_m <= most_m;
+    return away_m >= min_m && away_m <= max_m;
 }
 
 std::optional<std::vector<Plane>>
@@ -193,7 +193,7 @@ planes_of_cone(std::span<const glm::dvec3> directions, const glm::dvec3& apex_m)
 
 std::vector<Plane> region_of(const CellOrders& orders, const ListedCell& cell) {
     std::vector<Plane> planes = cell.planes;
-    if (const auto least = least_distance_plane(orders, cell)) {
+    if (const auto least = min_distance_plane(orders, cell)) {
         planes.push_back(*least);
     }
     if (std::isfinite(cell.max_m)) {

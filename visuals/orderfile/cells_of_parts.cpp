@@ -88,7 +88,7 @@ private:
         const bool some_before = group.region.reaches_front_of(plane);
         const bool some_behind = group.region.reaches_front_of(turned);
         if (some_before && some_behind) {
-            if (group.cuts == EyeRegion::most_planes || groups_.size() > most_cells_of_parts) {
+            if (group.cuts == EyeRegion::max_planes || groups_.size() > max_cells_of_parts) {
                 return false;
             }
             Wanderers behind{*group.region.cut(turned), group.cuts + 1, group.to_do, group.list};
@@ -111,7 +111,7 @@ private:
 
     bool finish(Wanderers group) {
         entries_ += group.list.size();
-        if (cells_.size() == most_cells_of_parts || entries_ > most_entries_of_parts) {
+        if (cells_.size() == max_cells_of_parts || entries_ > max_entries_of_parts) {
             return false;
         }
         CellOfParts& cell = cells_.emplace_back();

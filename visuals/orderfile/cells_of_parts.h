@@ -12,8 +12,8 @@
 namespace octant::visuals::orderfile {
 
 /// More cells than these, or more entries in all lists, say less than the parts do.
-inline constexpr std::size_t most_cells_of_parts = 1'000;
-inline constexpr std::size_t most_entries_of_parts = 8'000'000;
+inline constexpr std::size_t max_cells_of_parts = 1'000;
+inline constexpr std::size_t max_entries_of_parts = 8'000'000;
 
 /// A region of eyes and what is painted for all of them.
 struct CellOfParts {

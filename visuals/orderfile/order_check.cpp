@@ -136,7 +136,7 @@ private:
     }
 
     void doubt(const Doubt& doubt) {
-        if (check_.doubts.size() < OrderCheck::most_doubts) {
+        if (check_.doubts.size() < OrderCheck::max_doubts) {
             check_.doubts.push_back(doubt);
         }
     }

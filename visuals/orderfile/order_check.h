@@ -29,8 +29,8 @@ struct OrderCheck {
     long pairs_open = 0;   ///< Of these, pairs without a proof.
     long unlisted = 0;     ///< The polygons that a cell does not list, over all cells.
     long unlisted_open = 0;    ///< Of these, polygons that may face an eye of the cell.
-    std::vector<Doubt> doubts; ///< The first open ones, cell by cell, at most most_doubts.
-    static constexpr std::size_t most_doubts = 20;
+    std::vector<Doubt> doubts; ///< The first open ones, cell by cell, at most max_doubts.
+    static constexpr std::size_t max_doubts = 20;
 
     bool good() const { return pairs_open == 0 && unlisted_open == 0; }
 };

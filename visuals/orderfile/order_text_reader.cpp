@@ -17,9 +17,9 @@ namespace {
 
 using draworder::DrawOrder;
 
-constexpr long most_planes = 1000;
-constexpr long most_directions = 64;
-constexpr std::size_t most_cells = 1'000'000;
+constexpr long max_planes = 1000;
+constexpr long max_directions = 64;
+constexpr std::size_t max_cells = 1'000'000;
 
 /// The reading of one file, line by line and word by word.
 class OrderReading {
@@ -122,8 +122,8 @@ private:
             take_parents();
         } else if (keyword == "list") {
             need_faces();
-            if (lists_.size() == most_cells) {
-                words_.refuse(fmt::format("at most {} lists", most_cells));
+            if (lists_.size() == max_cells) {
+                words_.refuse(fmt::format("at most {} lists", max_cells));
             }
             lists_.push_back(different_faces());
         } else if (keyword == "node") {
@@ -142,8 +142,8 @@ private:
     }
 
     void take_node() {
-        if (nodes_.size() == most_cells) {
-            words_.refuse(fmt::format("at most {} nodes", most_cells));
+        if (nodes_.size() == max_cells) {
+            words_.refuse(fmt::format("at most {} nodes", max_cells));
         }
         DrawOrder::Node node;
         node.kind = words_.skip("choice")     ? DrawOrder::Kind::Choice
@@ -171,7 +171,7 @@ private:
         if (words_.skip("nothing")) {
             return DrawOrder::nothing;
         }
-        const auto most = static_cast<long>(most_cells);
+        const auto most = static_cast<long>(max_cells);
         if (words_.skip("list")) {
             return ~static_cast<int>(words_.count("the number of a list", 0, most));
         }
@@ -234,16 +234,16 @@ private:
 
     void take_cell() {
         need_faces();
-        if (orders_.cells.size() == most_cells) {
-            words_.refuse(fmt::format("at most {} cells", most_cells));
+        if (orders_.cells.size() == max_cells) {
+            words_.refuse(fmt::format("at most {} cells", max_cells));
         }
         ListedCell cell;
         take_region(cell);
         if (words_.skip("min")) {
-            cell.min_m = words_.least_zero("the least distance");
+            cell.min_m = words_.min_zero("the least distance");
         }
         if (words_.skip("max")) {
-            cell.max_m = words_.least_zero("the greatest distance");
+            cell.max_m = words_.min_zero("the greatest distance");
             if (cell.max_m <= cell.min_m) {
                 words_.back();
                 words_.refuse("a greatest distance above the least");
@@ -259,7 +259,7 @@ private:
     /// Reads a cell's region and makes its planes.
     void take_region(ListedCell& cell) {
         if (words_.skip("cone")) {
-            const long directions = words_.count("how many directions", 3, most_directions);
+            const long directions = words_.count("how many directions", 3, max_directions);
             for (long i = 0; i < directions; ++i) {
                 cell.directions.push_back(words_.long_vector("a direction"));
             }
@@ -274,7 +274,7 @@ private:
         } else {
             words_.refuse(fmt::format(
                 "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
-                draworder::most_path_levels));
+                draworder::max_path_levels));
         }
         const auto planes = planes_of_cone(cell.directions, orders_.centre_m);
         if (!planes) {
@@ -285,7 +285,7 @@ private:
     }
 
     void take_planes(ListedCell& cell) {
-        const long planes = words_.count("how many planes", 0, most_planes);
+        const long planes = words_.count("how many planes", 0, max_planes);
         for (long i = 0; i < planes; ++i) {
             cell.planes.push_back(words_.plane());
         }

@@ -15,7 +15,7 @@ namespace octant::visuals::orderfile {
 namespace {
 
 constexpr double largest_number = 1e12;
-constexpr double least_length = 1e-12; ///< A normal or direction must be longer than this.
+constexpr double min_length = 1e-12; ///< A normal or direction must be longer than this.
 
 } // namespace
 
@@ -59,7 +59,7 @@ glm::dvec3 OrderWords::vector(const char* what) {
 
 glm::dvec3 OrderWords::long_vector(const char* what) {
     const glm::dvec3 v = vector(what);
-    if (glm::length(v) < least_length) {
+    if (glm::length(v) < min_length) {
         --at_;
         refuse(fmt::format("{} with a length", what));
     }
@@ -75,7 +75,7 @@ long OrderWords::count(const char* what, long least, long most) {
     return *value;
 }
 
-double OrderWords::least_zero(const char* what) {
+double OrderWords::min_zero(const char* what) {
     const double value = number(what);
     if (value < 0.0) {
         --at_;

@@ -52,7 +52,7 @@ public:
     double number(const char* what);
 
     /// A number that must not be negative.
-    double least_zero(const char* what);
+    double min_zero(const char* what);
 
     /// A whole number within limits.
     long count(const char* what, long least, long most);

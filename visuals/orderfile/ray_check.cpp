@@ -148,9 +148,9 @@ public:
             direction = glm::abs(direction) * draworder::octant_signs(samples_.octant);
         }
         const double spread =
-            std::log(samples_.most_distance_radii / samples_.least_distance_radii);
+            std::log(samples_.max_distance_radii / samples_.min_distance_radii);
         const double away_m =
-            ball_.radius_m * samples_.least_distance_radii * std::exp(spread * dice_.next());
+            ball_.radius_m * samples_.min_distance_radii * std::exp(spread * dice_.next());
         return ball_.middle_m + direction * away_m;
     }
 

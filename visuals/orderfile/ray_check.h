@@ -18,9 +18,9 @@ struct EyeSamples {
     int rays_per_eye = 20;
     /// The least distance from the origin, in radii of the model; from the model's middle where the
     /// origin lies outside of the model.
-    double least_distance_radii = 1.0;
+    double min_distance_radii = 1.0;
     /// The greatest distance; the logarithm of the distance is evenly distributed.
-    double most_distance_radii = 20.0;
+    double max_distance_radii = 20.0;
     int octant = -1; ///< Only eyes of this octant; -1 = all.
     std::uint64_t seed = 1989;
     double turn_rad = 0.0; ///< The angle by which the parts with a pivot have turned.

@@ -24,27 +24,27 @@ double altitude_hand_rad(double height_m, double feet_a_turn) {
     return 2.0 * pi * (turns - std::floor(turns));
 }
 
-DialScale speed_scale_kt(double most_speed_mps) {
-    const double most_kt = kt_from_mps(most_speed_mps);
-    const double round_kt = most_kt > 400.0 ? 200.0 : 20.0;
-    return {0.0, round_kt * std::max(std::ceil(most_kt / round_kt), 1.0)};
+DialScale speed_scale_kt(double max_speed_mps) {
+    const double max_kt = kt_from_mps(max_speed_mps);
+    const double round_kt = max_kt > 400.0 ? 200.0 : 20.0;
+    return {0.0, round_kt * std::max(std::ceil(max_kt / round_kt), 1.0)};
 }
 
-DialScale load_scale_g(double least_load_factor, double most_load_factor) {
+DialScale load_scale_g(double min_load_factor, double max_load_factor) {
     return {
-        std::min(std::floor(least_load_factor), 0.0) - 1.0,
-        std::max(std::ceil(most_load_factor), 1.0) + 1.0};
+        std::min(std::floor(min_load_factor), 0.0) - 1.0,
+        std::max(std::ceil(max_load_factor), 1.0) + 1.0};
 }
 
 double number_step(const DialScale& scale) {
-    const double most_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
-    const double least_step = (scale.most - scale.least) / (most_numbers - 1.0);
+    const double max_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
+    const double min_step = (scale.most - scale.least) / (max_numbers - 1.0);
     for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 200.0, 500.0}) {
-        if (step >= least_step) {
+        if (step >= min_step) {
             return step;
         }
     }
-    return 1000.0 * std::ceil(least_step / 1000.0);
+    return 1000.0 * std::ceil(min_step / 1000.0);
 }
 
 } // namespace octant::visuals::overlay

@@ -20,10 +20,10 @@ double scale_hand_rad(double value, const DialScale& scale);
 double altitude_hand_rad(double height_m, double feet_a_turn);
 
 /// A scale in knots from 0 to a round number that holds a speed.
-DialScale speed_scale_kt(double most_speed_mps);
+DialScale speed_scale_kt(double max_speed_mps);
 
 /// A scale in g that holds two load factors and 1 g.
-DialScale load_scale_g(double least_load_factor, double most_load_factor);
+DialScale load_scale_g(double min_load_factor, double max_load_factor);
 
 /// Distance of the numbers of a scale, in its unit: a round one, of which no more than nine fit,
 /// or five where they have three digits.

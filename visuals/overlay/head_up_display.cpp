@@ -44,15 +44,15 @@ constexpr OverlayBox field{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what li
 constexpr OverlayBox whole{{-0.46F, -0.42F}, {0.46F, 0.36F}};
 
 /// Room for letters that cannot be smaller in small pictures.
-constexpr glm::vec2 least_whole_px{110.0F, 68.0F};
-constexpr float least_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
-constexpr float least_line_px = 1.15F;
+constexpr glm::vec2 min_whole_px{110.0F, 68.0F};
+constexpr float min_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
+constexpr float min_line_px = 1.15F;
 constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
 constexpr std::uint32_t shade = 0xb0041c00U; ///< dark green, as ColourVertex::colour
 
 constexpr double slowest_marked_mps = 5.0; ///< below, no flight path is shown
 constexpr double surely_flying_mps = 20.0;
-constexpr double least_mach = 0.3;
+constexpr double min_mach = 0.3;
 
 OverlayBox scaled(const OverlayBox& box, float unit_px) {
     return {box.least * unit_px, box.most * unit_px};
@@ -60,7 +60,7 @@ OverlayBox scaled(const OverlayBox& box, float unit_px) {
 
 OverlayBox whole_of(const HeadUpGlass& glass) {
     const OverlayBox box = scaled(whole, glass.unit_px);
-    return {glm::min(box.least, -least_whole_px), glm::max(box.most, least_whole_px)};
+    return {glm::min(box.least, -min_whole_px), glm::max(box.most, min_whole_px)};
 }
 
 /// To whole numbers, of at most six digits.
@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    float letter_px(float share) const { return std::max(share * unit_px_, least_letter_px); }
+    float letter_px(float share) const { return std::max(share * unit_px_, min_letter_px); }
 
     glm::dvec3 body_axis() const { return inputs_.state.body_to_world * glm::dvec3(1.0, 0.0, 0.0); }
 
@@ -194,7 +194,7 @@ private:
         draw_boxed(-box_side, 4, Caption("{}", rounded(kt_from_mps(speed_mps))).text());
         draw_row(1, -box_side, Caption("G {:4.1f}", inputs_.state.load_factor).text());
         const double mach = speed_mps / speed_of_sound_mps(inputs_.height_m);
-        if (mach >= least_mach) {
+        if (mach >= min_mach) {
             draw_row(2, -box_side, Caption("M {:4.2f}", mach).text());
         }
     }
@@ -269,7 +269,7 @@ scene::OverlayDraw HeadUpDisplay::draw(
     if (!glass.shows(whole_of(glass), size_px)) {
         return {};
     }
-    const float width_px = std::max(line_width * glass.unit_px, least_line_px);
+    const float width_px = std::max(line_width * glass.unit_px, min_line_px);
     canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), shade});
     Signs(inputs, glass, canvas_).draw();
     return canvas_.finish();

@@ -12,7 +12,7 @@ namespace octant::visuals::overlay {
 
 namespace {
 
-constexpr double least_ahead = 0.17; ///< cosine of 80 degrees
+constexpr double min_ahead = 0.17; ///< cosine of 80 degrees
 
 /// Pictures narrower than this show signs as small as those of a picture of this shape.
 constexpr double narrowest_aspect = 1.0;
@@ -44,7 +44,7 @@ HeadUpGlass head_up_glass(
 
 std::optional<glm::vec2> HeadUpGlass::place_of(const glm::dvec3& world_direction) const {
     const glm::dvec3 in_body = world_to_body * world_direction;
-    if (in_body.x <= least_ahead * glm::length(in_body)) {
+    if (in_body.x <= min_ahead * glm::length(in_body)) {
         return std::nullopt;
     }
     return glm::vec2(glm::dvec2(in_body.y, in_body.z) * (focal_px / in_body.x));
@@ -64,7 +64,7 @@ bool HeadUpGlass::shows(const OverlayBox& box, const glm::ivec2& size_px) const 
           box.most,
           glm::vec2(box.least.x, box.most.y)}) {
         const glm::vec3 seen = to_picture * glm::vec3(corner, 1.0F);
-        if (seen.z < static_cast<float>(least_ahead)) {
+        if (seen.z < static_cast<float>(min_ahead)) {
             return false;
         }
         least = glm::min(least, glm::vec2(seen) / seen.z);

@@ -27,13 +27,13 @@ constexpr float card_number_at = 0.66F;
 constexpr float caption_letter = 0.17F;
 constexpr float long_hand = 0.78F;
 constexpr float short_hand = 0.5F;
-constexpr float horizon_most = 0.75F; ///< farthest from the middle: both colours are always seen
+constexpr float horizon_max = 0.75F; ///< farthest from the middle: both colours are always seen
 constexpr double horizon_per_rad = 1.0 / rad_from_deg(40.0);
 
 /// Where a dial is smaller than this in the picture, only its hands are drawn.
-constexpr float least_numbered_px = 22.0F;
+constexpr float min_numbered_px = 22.0F;
 constexpr float line_share = 0.035F; ///< of a line's width
-constexpr float least_line_px = 1.2F;
+constexpr float min_line_px = 1.2F;
 
 // As ColourVertex::colour.
 constexpr std::uint32_t white = 0xffeef2f2U;
@@ -96,8 +96,8 @@ public:
             add_tick(angle_rad, true);
             add_number(angle_rad, Caption("{}", tenth).text());
         }
-        constexpr double most_ft = 99999.0;
-        const long shown = std::lround(std::clamp(ft_from_m(height_m), -9999.0, most_ft) / 10.0);
+        constexpr double max_ft = 99999.0;
+        const long shown = std::lround(std::clamp(ft_from_m(height_m), -9999.0, max_ft) / 10.0);
         add_caption(Caption("{}", 10 * shown).text(), 0.31F);
         add_hand(altitude_hand_rad(height_m, 10000.0), short_hand, 0.09F);
         add_hand(altitude_hand_rad(height_m, 1000.0), long_hand, 0.05F);
@@ -126,8 +126,8 @@ public:
         const glm::vec2 up = towards(-attitude.roll_rad);
         const auto shift = static_cast<float>(std::clamp(
             attitude.pitch_rad * horizon_per_rad,
-            -static_cast<double>(horizon_most),
-            static_cast<double>(horizon_most)));
+            -static_cast<double>(horizon_max),
+            static_cast<double>(horizon_max)));
         const float inner = 0.9F * radius_;
         const Ring ring = ring_of(centre_, inner);
         faces_.fill(ring, earth);
@@ -158,7 +158,7 @@ public:
     }
 
 private:
-    bool is_numbered() const { return radius_ >= least_numbered_px; }
+    bool is_numbered() const { return radius_ >= min_numbered_px; }
 
     /// The part of a ring on the side of a line that `up` points to.
     void fill_above(const Ring& ring, const glm::vec2& on_line, const glm::vec2& up) {
@@ -279,7 +279,7 @@ scene::OverlayDraw InstrumentPanel::draw(
         if (!glass.shows({centre - radius, centre + radius}, size_px)) {
             continue;
         }
-        const float width_px = std::max(line_share * radius, least_line_px);
+        const float width_px = std::max(line_share * radius, min_line_px);
         faces_.begin(glass.to_picture, {width_px, 0.0F, white, 0});
         hands_.begin(glass.to_picture, {1.6F * width_px, 0.0F, mark_colour, 0});
         DialPainter painter(centre, radius, faces_, hands_);

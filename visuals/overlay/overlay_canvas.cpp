@@ -18,7 +18,7 @@ namespace octant::visuals::overlay {
 
 namespace {
 
-constexpr float least_length_px = 0.05F;
+constexpr float min_length_px = 0.05F;
 constexpr float sharpest_join = -0.6F;  ///< cosine of the turn from which a line begins anew
 constexpr float edge_px = 1.0F;         ///< over which the edge of a core fades
 constexpr float widest_ridge_px = 2.2F; ///< letters' lines up to here fade from their middle on
@@ -129,7 +129,7 @@ void OverlayCanvas::cut_line(const glm::vec2& from, const glm::vec2& to) {
 
 void OverlayCanvas::add_to_run(const glm::vec2& at) {
     const glm::vec2 at_px = seen_at(at);
-    if (run_.empty() || glm::distance(run_.back(), at_px) > least_length_px) {
+    if (run_.empty() || glm::distance(run_.back(), at_px) > min_length_px) {
         run_.push_back(at_px);
     }
 }
@@ -147,7 +147,7 @@ void OverlayCanvas::end_run() {
 /// The run as strips, one for each part without sharp turns.
 void OverlayCanvas::stroke(Strips& strips) {
     const std::size_t last = run_.size() - 1;
-    const bool closed = last > 2 && glm::distance(run_.front(), run_[last]) < least_length_px;
+    const bool closed = last > 2 && glm::distance(run_.front(), run_[last]) < min_length_px;
     const auto direction = [&](std::size_t segment) {
         return glm::normalize(run_[segment + 1] - run_[segment]);
     };

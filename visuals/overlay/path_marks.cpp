@@ -16,7 +16,7 @@ namespace octant::visuals::overlay {
 namespace {
 
 constexpr float names_a_picture = 60.0F; ///< heights of a capital, one above the other
-constexpr float least_name_px = 7.0F;
+constexpr float min_name_px = 7.0F;
 constexpr std::uint32_t name_colour = 0xffffffffU;
 constexpr std::uint32_t name_shade = 0xb0000000U;
 constexpr float scale_width = 0.18F;    ///< of the picture's width that the scale may take
@@ -24,9 +24,9 @@ constexpr double nearest_scale_m = 8.0; ///< within the aircraft a scale says no
 constexpr double farthest_name_m = 15000.0;
 
 /// 1, 2 or 5 times a power of ten, at most that.
-double round_length_m(double most_m) {
-    const double ten = std::pow(10.0, std::floor(std::log10(most_m)));
-    const double share = most_m / ten;
+double round_length_m(double max_m) {
+    const double ten = std::pow(10.0, std::floor(std::log10(max_m)));
+    const double share = max_m / ten;
     return ten * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0);
 }
 
@@ -40,7 +40,7 @@ void PathMarks::begin(
     const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m) {
     camera_ = camera;
     size_px_ = glm::vec2(size_px);
-    letter_px_ = std::max(size_px_.y / names_a_picture, least_name_px);
+    letter_px_ = std::max(size_px_.y / names_a_picture, min_name_px);
     focal_px_ = scene::focal_px(camera, size_px.y);
     aircraft_m_ = std::max(glm::length(aircraft_m), 1.0);
     canvas_.begin(
@@ -82,8 +82,8 @@ void PathMarks::draw_north(const glm::vec2& centre_px) {
 }
 
 void PathMarks::draw_scale(const glm::vec2& from_px) {
-    const double most_m = static_cast<double>(scale_width * size_px_.x) * aircraft_m_ / focal_px_;
-    const double length_m = round_length_m(std::max(most_m, 0.01));
+    const double max_m = static_cast<double>(scale_width * size_px_.x) * aircraft_m_ / focal_px_;
+    const double length_m = round_length_m(std::max(max_m, 0.01));
     const auto length_px = static_cast<float>(length_m * focal_px_ / aircraft_m_);
     const glm::vec2 to_px = from_px + glm::vec2(length_px, 0.0F);
     const glm::vec2 tick(0.0F, 0.6F * letter_px_);

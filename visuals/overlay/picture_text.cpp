@@ -13,7 +13,7 @@ namespace octant::visuals::overlay {
 namespace {
 
 constexpr float letters_a_picture = 60.0F; ///< heights of a capital, one above the other
-constexpr float least_letter_px = 7.0F;
+constexpr float min_letter_px = 7.0F;
 constexpr float lines_apart = 1.8F; ///< heights of a capital
 constexpr std::uint32_t shade = 0xb0000000U;
 constexpr std::uint32_t colour = 0xffb4f0ffU;
@@ -53,7 +53,7 @@ std::string take_fitting(std::string_view& text, std::size_t most) {
 scene::OverlayDraw
 PictureText::draw(std::span<const std::string> lines, const glm::ivec2& size_px) {
     const glm::vec2 size(size_px);
-    const float letter_px = std::max(size.y / letters_a_picture, least_letter_px);
+    const float letter_px = std::max(size.y / letters_a_picture, min_letter_px);
     canvas_.begin(
         glm::mat3(1.0F),
         {std::max(0.14F * letter_px, 1.2F), 0.12F * letter_px + 1.0F, colour, shade});

@@ -18,7 +18,7 @@ namespace octant::visuals::overlay {
 namespace {
 
 // Shares of the glass's unit.
-constexpr float least_spacing = 0.075F; ///< between rungs
+constexpr float min_spacing = 0.075F; ///< between rungs
 constexpr float gap = 0.038F;           ///< half of it, in the middle of a rung
 constexpr float rung_end = 0.115F;
 constexpr float horizon_end = 0.21F;
@@ -67,7 +67,7 @@ Meridian meridian_of(const HeadUpGlass& glass, const glm::dvec3& anchor) {
 int degrees_between_rungs(const HeadUpGlass& glass) {
     for (const int step_deg : {1, 2, 5, 10, 15}) {
         const double spacing_px = glass.focal_px * std::tan(rad_from_deg(step_deg));
-        if (spacing_px >= static_cast<double>(least_spacing * glass.unit_px)) {
+        if (spacing_px >= static_cast<double>(min_spacing * glass.unit_px)) {
             return step_deg;
         }
     }

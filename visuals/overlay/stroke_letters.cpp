@@ -62,10 +62,10 @@ constexpr std::array<std::pair<char, std::string_view>, 50> drawings{{
     {'^', "1526352415"},
 }};
 
-constexpr std::size_t most_points = 16;
+constexpr std::size_t max_points = 16;
 
 struct Letter {
-    std::array<LetterPoint, most_points> points{};
+    std::array<LetterPoint, max_points> points{};
     std::size_t count = 0;
 };
 

@@ -21,9 +21,9 @@ namespace octant::visuals::parting {
 namespace {
 
 /// At most so many planes of pieces are tried.
-constexpr std::size_t most_own_planes = 64;
+constexpr std::size_t max_own_planes = 64;
 /// Sums over more pieces than this are estimated by some of them.
-constexpr std::size_t most_looked_at = 1'000;
+constexpr std::size_t max_looked_at = 1'000;
 
 /// A cut costs as much as halves that differ by so many pieces. Of 2, 8, 30 and 200 this one makes
 /// the fewest pieces of parts of real aircraft and of made models.
@@ -53,7 +53,7 @@ double cost_of(const Parted& parted) {
 class Sample {
 public:
     Sample(const Pieces& pieces, std::span<const std::uint32_t> items)
-        : step_(items.size() / most_looked_at + 1)
+        : step_(items.size() / max_looked_at + 1)
         , table_(pieces, items, step_)
         , swept_(table_.blocks(), 0) {
         for (std::size_t i = 0; i < table_.count(); ++i) {
@@ -66,9 +66,9 @@ public:
     /// How a plane parts all pieces, by these. Ends early where that costs more than `limit`.
     Parted parted_by(const Plane& plane, double limit) const {
         Parted parted;
-        const auto most_cuts = static_cast<std::size_t>(
+        const auto max_cuts = static_cast<std::size_t>(
             std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
-        for (std::size_t i = 0; i < table_.blocks() && parted.cut <= most_cuts; ++i) {
+        for (std::size_t i = 0; i < table_.blocks() && parted.cut <= max_cuts; ++i) {
             const ReachBits reach = table_.reach(i, plane);
             const std::uint64_t cut = reach.before & reach.behind;
             const std::size_t known = count_of(reach.before | reach.behind);
@@ -98,7 +98,7 @@ private:
 Costed best_own(const Pieces& pieces, std::span<const std::uint32_t> items) {
     const Sample sample(pieces, items);
     Costed best;
-    const std::size_t tried = std::min(items.size(), most_own_planes);
+    const std::size_t tried = std::min(items.size(), max_own_planes);
     for (std::size_t i = 0; i < tried; ++i) {
         const auto& plane = pieces[items[i * items.size() / tried]].plane;
         if (!plane) {

@@ -22,7 +22,7 @@ namespace octant::visuals::parting {
 namespace {
 
 /// Larger sets are divided before their graph is looked at, because its time is quadratic.
-constexpr std::size_t most_at_once = 1'500;
+constexpr std::size_t max_at_once = 1'500;
 /// Sets of more pieces that came out of a ring are looked at only once they are a quarter of it.
 constexpr std::size_t always_looked_at = 150;
 
@@ -74,7 +74,7 @@ private:
             return list_of(std::move(task.items));
         }
         const std::size_t count = task.items.size();
-        const bool looks = by_clusters_ && !task.is_ring && count <= most_at_once &&
+        const bool looks = by_clusters_ && !task.is_ring && count <= max_at_once &&
                            (count <= always_looked_at || count <= task.looked_at / 4);
         if (!looks) {
             return parting_of(task);

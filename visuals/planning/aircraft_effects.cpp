@@ -189,8 +189,8 @@ void AircraftEffects::add_effect(const Effect& effect, const glm::dvec3& reach_m
     const glm::dvec3 half_m(effect.radius_m);
     const glm::dvec3 least = glm::min(effect.place_m, effect.place_m + reach_m) - half_m;
     const glm::dvec3 most = glm::max(effect.place_m, effect.place_m + reach_m) + half_m;
-    extent_.least_m = veils_.empty() ? least : glm::min(extent_.least_m, least);
-    extent_.most_m = veils_.empty() ? most : glm::max(extent_.most_m, most);
+    extent_.min_m = veils_.empty() ? least : glm::min(extent_.min_m, least);
+    extent_.max_m = veils_.empty() ? most : glm::max(extent_.max_m, most);
     veils_.push_back(effect);
 }
 
@@ -265,12 +265,12 @@ void AircraftEffects::find_vapour(const PolygonModel& model) {
     for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 out(0.0, side, 0.0);
         glm::dvec3 tip_m(0.0);
-        double most_m = 0.0;
+        double max_m = 0.0;
         for (const glm::dvec3& at_m : model.vertices_m) {
             // Of corners as far out the rearmost.
-            if (side * at_m.y > most_m + 1e-6 ||
-                (side * at_m.y > most_m - 1e-6 && at_m.x < tip_m.x)) {
-                most_m = std::max(most_m, side * at_m.y);
+            if (side * at_m.y > max_m + 1e-6 ||
+                (side * at_m.y > max_m - 1e-6 && at_m.x < tip_m.x)) {
+                max_m = std::max(max_m, side * at_m.y);
                 tip_m = at_m;
             }
         }

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-void widen(HullExtent& extent, const glm::dvec3& least_m, const glm::dvec3& most_m) {
-    extent.least_m = glm::min(extent.least_m, least_m);
-    extent.most_m = glm::max(extent.most_m, most_m);
+void widen(HullExtent& extent, const glm::dvec3& min_m, const glm::dvec3& max_m) {
+    extent.min_m = glm::min(extent.min_m, min_m);
+    extent.max_m = glm::max(extent.max_m, max_m);
 }
 
 glm::dvec3 signs_of(int corner) {
@@ -37,10 +37,10 @@ void for_each_outline_edge(const Seen& seen, const Edge& edge) {
         const int u = (axis + 1) % 3;
         const int v = (axis + 2) % 3;
         for (int which = 0; which < 4; ++which) {
-            const int u_most = which & 1;
-            const int v_most = which >> 1;
-            if (seen(2 * u + u_most) != seen(2 * v + v_most)) {
-                const int corner = (u_most << u) | (v_most << v);
+            const int u_max = which & 1;
+            const int v_max = which >> 1;
+            if (seen(2 * u + u_max) != seen(2 * v + v_max)) {
+                const int corner = (u_max << u) | (v_max << v);
                 edge(
                     static_cast<std::size_t>(corner), static_cast<std::size_t>(corner | 1 << axis));
             }
@@ -104,7 +104,7 @@ HullExtent hull_extent(const models::polygons::PolygonModel& model) {
             widen(extent, point_m, point_m);
             if (pivot) {
                 const HullExtent circle = circle_of(model.pivots[*pivot], point_m);
-                widen(extent, circle.least_m, circle.most_m);
+                widen(extent, circle.min_m, circle.max_m);
             }
         }
     }
@@ -117,9 +117,9 @@ HullBox placed_hull(
     const glm::dquat& body_to_world,
     double margin_m) {
     return {
-        position_m + body_to_world * (0.5 * (extent.least_m + extent.most_m)),
+        position_m + body_to_world * (0.5 * (extent.min_m + extent.max_m)),
         glm::mat3_cast(body_to_world),
-        0.5 * (extent.most_m - extent.least_m) + margin_m};
+        0.5 * (extent.max_m - extent.min_m) + margin_m};
 }
 
 std::array<glm::dvec3, 8> corners_of(const HullBox& box) {
@@ -141,9 +141,9 @@ HullExtent world_extent(const HullBox& box) {
 
 HullBox box_between(const HullExtent& extent) {
     return {
-        0.5 * (extent.least_m + extent.most_m),
+        0.5 * (extent.min_m + extent.max_m),
         glm::dmat3(1.0),
-        0.5 * (extent.most_m - extent.least_m)};
+        0.5 * (extent.max_m - extent.min_m)};
 }
 
 double radius_m(const HullBox& box) {

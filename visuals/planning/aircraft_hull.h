@@ -15,8 +15,8 @@ namespace octant::visuals::planning {
 
 /// Corners of the smallest body-axes box that holds a model however its pivots have turned.
 struct HullExtent {
-    glm::dvec3 least_m{0.0};
-    glm::dvec3 most_m{0.0};
+    glm::dvec3 min_m{0.0};
+    glm::dvec3 max_m{0.0};
 };
 
 /// The extent of a model, at all angles of its pivots. Slow: to be asked once, at loading.

@@ -32,25 +32,25 @@ std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint3
     };
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     double whole_m2 = 0.0;
-    const auto least_area_m2 = [&](std::size_t from) {
-        double least_m2 = std::numeric_limits<double>::max();
+    const auto min_area_m2 = [&](std::size_t from) {
+        double min_m2 = std::numeric_limits<double>::max();
         whole_m2 = 0.0;
         for (std::size_t k = from + 1; k + 1 < from + corners.size(); ++k) {
             const glm::dvec3 cross_m2 = glm::cross(at_m(k) - at_m(from), at_m(k + 1) - at_m(from));
             const double area_m2 = glm::dot(cross_m2, normal);
-            least_m2 = std::min(least_m2, area_m2);
+            min_m2 = std::min(min_m2, area_m2);
             whole_m2 += area_m2;
         }
-        return least_m2;
+        return min_m2;
     };
-    double most_m2 = least_area_m2(0);
+    double max_m2 = min_area_m2(0);
     std::uint32_t best = 0;
-    if (corners.size() == 3 || most_m2 >= sliver_share * whole_m2) {
+    if (corners.size() == 3 || max_m2 >= sliver_share * whole_m2) {
         return best;
     }
     for (std::uint32_t corner = 1; corner < corners.size(); ++corner) {
-        if (const double least_m2 = least_area_m2(corner); least_m2 > most_m2) {
-            most_m2 = least_m2;
+        if (const double min_m2 = min_area_m2(corner); min_m2 > max_m2) {
+            max_m2 = min_m2;
             best = corner;
         }
     }
@@ -222,8 +222,8 @@ namespace {
 
 /// Makes hull and radius of a model hold a point of its mesh too.
 void include(AircraftModel& model, const glm::dvec3& point_m) {
-    model.hull.least_m = glm::min(model.hull.least_m, point_m);
-    model.hull.most_m = glm::max(model.hull.most_m, point_m);
+    model.hull.min_m = glm::min(model.hull.min_m, point_m);
+    model.hull.max_m = glm::max(model.hull.max_m, point_m);
     model.subject.radius_m = std::max(model.subject.radius_m, glm::length(point_m));
 }
 
@@ -269,8 +269,8 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
             vertex.part = part.pivot + 1;
             vertex.polygon = 0;
             const HullExtent circle = circle_of(pivot, glm::dvec3(vertex.position_m));
-            include(model, circle.least_m);
-            include(model, circle.most_m);
+            include(model, circle.min_m);
+            include(model, circle.max_m);
         }
     }
 }
@@ -287,11 +287,11 @@ void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, flo
 }
 
 double reach_below_m(const AircraftModel& model) {
-    float most_m = 0.0F;
+    float max_m = 0.0F;
     for (const scene::ModelVertex& vertex : model.buffers.vertices) {
-        most_m = std::max(most_m, vertex.position_m.z);
+        max_m = std::max(max_m, vertex.position_m.z);
     }
-    return static_cast<double>(most_m);
+    return static_cast<double>(max_m);
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {

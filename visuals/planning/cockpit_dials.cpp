@@ -44,8 +44,8 @@ dial_in(const models::polygons::PolygonModel& model, std::size_t polygon, Shows 
 overlay::InstrumentLayout
 dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits) {
     overlay::InstrumentLayout layout;
-    layout.speed_kt = overlay::speed_scale_kt(limits.most_speed_mps);
-    layout.load_g = overlay::load_scale_g(limits.least_load_factor, limits.most_load_factor);
+    layout.speed_kt = overlay::speed_scale_kt(limits.max_speed_mps);
+    layout.load_g = overlay::load_scale_g(limits.min_load_factor, limits.max_load_factor);
     for (const auto& [name, shows] : named_dials) {
         const auto polygon =
             std::ranges::find_if(cockpit.polygons, [&, part = name](const auto& one) {

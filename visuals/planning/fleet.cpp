@@ -132,8 +132,8 @@ HullBox Fleet::hull_of(
         hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
     HullExtent extent = aircraft.model->hull;
     if (effects != nullptr && !effects->empty()) {
-        extent.least_m = glm::min(extent.least_m, effects->extent().least_m);
-        extent.most_m = glm::max(extent.most_m, effects->extent().most_m);
+        extent.min_m = glm::min(extent.min_m, effects->extent().min_m);
+        extent.max_m = glm::max(extent.max_m, effects->extent().max_m);
     }
     return placed_hull(extent, position_m, state.body_to_world, margin_m);
 }

@@ -62,12 +62,12 @@ void FrameVeils::make(
 
 void FrameVeils::add_effects(
     const FrameView& view, const AircraftStates& aircraft, const Fleet& fleet) {
-    constexpr double least_px = 6.0; // smaller aircraft have no effects
+    constexpr double min_px = 6.0; // smaller aircraft have no effects
     for (std::size_t i = 0; i < effects_.size(); ++i) {
         const HullBox& hull = fleet.hulls()[i];
         const double away_m = glm::length(hull.centre_m);
         const bool is_seen =
-            radius_m(hull) > least_px * view.pixel_rad * away_m && in_view(hull, view);
+            radius_m(hull) > min_px * view.pixel_rad * away_m && in_view(hull, view);
         effect_ranges_[i] = is_seen
                                 ? effects_[i].add(
                                       fleet.placed()[i].parts[0],

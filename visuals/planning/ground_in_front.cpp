@@ -22,30 +22,30 @@ void add_lowest_sight_plane(ConvexRoom& room, const HullBox& box) {
         return;
     }
     const glm::dvec3 ahead(box.centre_m.x / level_m, box.centre_m.y / level_m, 0.0);
-    double least_slope = std::numeric_limits<double>::infinity();
+    double min_slope = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner_m : corners_of(box)) {
         const double along_m = glm::dot(corner_m, ahead);
         if (along_m <= 0.0) {
             return;
         }
-        least_slope = std::min(least_slope, corner_m.z / along_m);
+        min_slope = std::min(min_slope, corner_m.z / along_m);
     }
-    room.add({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - ahead * least_slope), 0.0});
+    room.add({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - ahead * min_slope), 0.0});
 }
 
 } // namespace
 
-bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec3& most_m) {
-    if (glm::any(glm::lessThan(most_m, room.extent.least_m)) ||
-        glm::any(glm::greaterThan(least_m, room.extent.most_m))) {
+bool may_meet(const ConvexRoom& room, const glm::dvec3& min_m, const glm::dvec3& max_m) {
+    if (glm::any(glm::lessThan(max_m, room.extent.min_m)) ||
+        glm::any(glm::greaterThan(min_m, room.extent.max_m))) {
         return false;
     }
     for (int i = 0; i < room.count; ++i) {
         const Plane& plane = room.planes[static_cast<std::size_t>(i)];
         const glm::dvec3 foremost_m(
-            plane.normal.x > 0.0 ? most_m.x : least_m.x,
-            plane.normal.y > 0.0 ? most_m.y : least_m.y,
-            plane.normal.z > 0.0 ? most_m.z : least_m.z);
+            plane.normal.x > 0.0 ? max_m.x : min_m.x,
+            plane.normal.y > 0.0 ? max_m.y : min_m.y,
+            plane.normal.z > 0.0 ? max_m.z : min_m.z);
         if (distance_m(plane, foremost_m) < 0.0) {
             return false;
         }
@@ -56,8 +56,8 @@ bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec
 ConvexRoom sight_lines_to(const HullBox& box) {
     ConvexRoom room;
     room.extent = world_extent(box);
-    room.extent.least_m = glm::min(room.extent.least_m, glm::dvec3(0.0));
-    room.extent.most_m = glm::max(room.extent.most_m, glm::dvec3(0.0));
+    room.extent.min_m = glm::min(room.extent.min_m, glm::dvec3(0.0));
+    room.extent.max_m = glm::max(room.extent.max_m, glm::dvec3(0.0));
     add_lowest_sight_plane(room, box);
     if (!holds_eye(box)) {
         const SightCone cone = cone_of(box);
@@ -90,8 +90,8 @@ void GroundInFront::find(
     } const look{room, eye_m};
 
     ground.triangles_in(
-        [&look](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            return may_meet(look.room, least_m - look.eye_m, most_m - look.eye_m);
+        [&look](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+            return may_meet(look.room, min_m - look.eye_m, max_m - look.eye_m);
         },
         candidates_);
     if (candidates_.empty()) {
@@ -128,7 +128,7 @@ GroundInFront::Place GroundInFront::place_of(const HullBox& box, std::span<const
     }
     part_ = triangle_;
     cut_to_cone(part_, cone, scratch_);
-    if (solid_angle_sr(part_) < least_solid_angle_sr) {
+    if (solid_angle_sr(part_) < min_solid_angle_sr) {
         return Place::Elsewhere;
     }
     return entry_of(box, middle_of(part_)) > 1.0 ? Place::Before : Place::Elsewhere;

@@ -24,7 +24,7 @@ struct ConvexRoom {
 };
 
 /// False only when the room holds no point of the box between two corners.
-bool may_meet(const ConvexRoom& room, const glm::dvec3& least_m, const glm::dvec3& most_m);
+bool may_meet(const ConvexRoom& room, const glm::dvec3& min_m, const glm::dvec3& max_m);
 
 /// A room that holds all sight lines from the eye to points of a box.
 ConvexRoom sight_lines_to(const HullBox& box);

@@ -135,7 +135,7 @@ MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source) {
     return level;
 }
 
-int chosen_level(std::span<const double> errors_m, double most_m, int before) {
+int chosen_level(std::span<const double> errors_m, double max_m, int before) {
     assert(!errors_m.empty());
     const auto coarsest_within = [&](double limit_m) {
         int level = static_cast<int>(errors_m.size()) - 1;
@@ -144,11 +144,11 @@ int chosen_level(std::span<const double> errors_m, double most_m, int before) {
         }
         return level;
     };
-    const int good_enough = coarsest_within(most_m);
+    const int good_enough = coarsest_within(max_m);
     if (before < 0 || good_enough < before) {
         return good_enough;
     }
-    return std::max(before, coarsest_within(coarsening_margin * most_m));
+    return std::max(before, coarsest_within(coarsening_margin * max_m));
 }
 
 } // namespace octant::visuals::planning

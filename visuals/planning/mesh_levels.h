@@ -32,9 +32,9 @@ struct MeshLevel {
 MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
 
 /// Which of several representations, finest first, is drawn: the coarsest whose error is at most
-/// `most_m`, the finest where none is. `before`, the one drawn last (negative: none), is kept while
+/// `max_m`, the finest where none is. `before`, the one drawn last (negative: none), is kept while
 /// it is good enough and no coarser one is by a margin, so that none changes to and fro. Errors
 /// rise, or stay.
-int chosen_level(std::span<const double> errors_m, double most_m, int before);
+int chosen_level(std::span<const double> errors_m, double max_m, int before);
 
 } // namespace octant::visuals::planning

@@ -12,10 +12,10 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double least_area_m2 = 1e-5;
+constexpr double min_area_m2 = 1e-5;
 /// A little more than two of scene::screen_step_px, by which two sides may be rounded apart.
 constexpr double overlap_px = 0.01;
-constexpr double most_overlap = 0.05; ///< of the distance from the eye
+constexpr double max_overlap = 0.05; ///< of the distance from the eye
 
 double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -30,7 +30,7 @@ double moved_m(
     const glm::dvec3& sideways,
     double angle_rad) {
     const double seen = std::abs(glm::dot(across, sideways));
-    return glm::length(corner_m) * std::min(angle_rad / std::max(seen, 1e-9), most_overlap);
+    return glm::length(corner_m) * std::min(angle_rad / std::max(seen, 1e-9), max_overlap);
 }
 
 } // namespace
@@ -175,7 +175,7 @@ void PaintCutter::lay(
     Piece all{{}, patch.size()};
     std::ranges::copy(patch, all.corners.begin());
     const std::optional<SideSet> across = sides_across(all);
-    if (!across || area_m2(piece_of(all, *across, 0.0)) <= least_area_m2) {
+    if (!across || area_m2(piece_of(all, *across, 0.0)) <= min_area_m2) {
         return;
     }
     const Piece piece = piece_of(all, *across, overlaps);

@@ -25,7 +25,7 @@ public:
     using Patch = std::array<glm::dvec2, 4>;
 
     /// The most triangles of one piece: three cuts add a corner each.
-    static constexpr int most_triangles = 5;
+    static constexpr int max_triangles = 5;
 
     /// Forgets the last frame. Triangles are GroundMesher::triangles as they are before facing, and
     /// must stay until the next call.
@@ -58,7 +58,7 @@ public:
 private:
     /// A convex polygon on the plan.
     struct Piece {
-        std::array<glm::dvec2, most_triangles + 3> corners;
+        std::array<glm::dvec2, max_triangles + 3> corners;
         std::size_t count = 0;
     };
 

@@ -11,7 +11,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr std::size_t most_dashes = 80;
+constexpr std::size_t max_dashes = 80;
 /// Where that are not too many dashes.
 constexpr double dash_s = 1.0;
 constexpr double box_margin_m = 0.2;
@@ -47,7 +47,7 @@ HullBox box_around(std::span<const models::ColourVertex> corners, const glm::dve
 PathRibbon::PathRibbon(const DrawnPath& path)
     : path_(path) {
     const auto usual = static_cast<std::size_t>(std::lround(dash_s / path.step_s));
-    points_a_dash_ = std::max({usual, path.points.size() / most_dashes, std::size_t{2}});
+    points_a_dash_ = std::max({usual, path.points.size() / max_dashes, std::size_t{2}});
 }
 
 std::span<const PathRibbon::Dash> PathRibbon::dashes(const RibbonView& view, Veils& veils) {

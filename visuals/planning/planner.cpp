@@ -58,7 +58,7 @@ Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle
     const int asked = asked_triangles(triangle_target);
     const FrameView view = view_of(camera);
     const int kept =
-        runway_.most_triangles(camera.eye_m, asked) + roads_.most_triangles(view, asked);
+        runway_.max_triangles(camera.eye_m, asked) + roads_.max_triangles(view, asked);
     return {
         camera,
         view.aspect,
@@ -179,8 +179,8 @@ void Planner::paint_ground(
         settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
     const glm::dvec3& eye_m = view.camera.eye_m;
     cutter_.begin(ground.all, view);
-    runway_.paint(*mesher_, view, nearest_first, runway_.most_triangles(eye_m, asked), cutter_);
-    roads_.paint(*mesher_, view, nearest_first, roads_.most_triangles(view, asked), cutter_);
+    runway_.paint(*mesher_, view, nearest_first, runway_.max_triangles(eye_m, asked), cutter_);
+    roads_.paint(*mesher_, view, nearest_first, roads_.max_triangles(view, asked), cutter_);
     shadows_.lay(cutter_.paints());
     counts.painted_triangles = cutter_.triangles();
     counts.ground.triangles += counts.painted_triangles;

@@ -110,7 +110,7 @@ void PolygonRepaint::find_hiding(
         part_.assign(corners.begin(), corners.end());
         cut_to_front(part_, plane, tolerance_m, scratch_);
         cut_to_cone(part_, cone_, scratch_);
-        if (solid_angle_sr(part_) < least_solid_angle_sr) {
+        if (solid_angle_sr(part_) < min_solid_angle_sr) {
             continue;
         }
         note(painted, part_);

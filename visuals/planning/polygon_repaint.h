@@ -27,7 +27,7 @@ public:
     /// that meet the box, in painting order, and only what lies inside it is painted again.
     /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
     /// were painted again; nothing, with some of it written, where that would be more than
-    /// `most_again` or more than `most_compared` pairs would have to be compared.
+    /// `max_again` or more than `max_compared` pairs would have to be compared.
     std::optional<int> paint(
         std::span<const PlacedAircraft* const> aircraft,
         const HullBox& box,
@@ -38,8 +38,8 @@ public:
 
 private:
     /// More take longer than a frame has: some hundred are usual where two aircraft meet.
-    static constexpr int most_again = 1500;
-    static constexpr std::size_t most_compared = 250'000;
+    static constexpr int max_again = 1500;
+    static constexpr std::size_t max_compared = 250'000;
 
     static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
 
@@ -56,7 +56,7 @@ private:
         std::size_t corner_count = 0;
     };
 
-    bool is_too_much() const { return again_ > most_again || compared_ > most_compared; }
+    bool is_too_much() const { return again_ > max_again || compared_ > max_compared; }
 
     void note(Painted painted, const SightPolygon& part);
     void paint_aircraft(

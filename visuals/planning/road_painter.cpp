@@ -17,11 +17,11 @@ namespace {
 
 constexpr glm::vec3 asphalt(0.44F, 0.43F, 0.41F); ///< display values under a light of 1
 constexpr double road_px = 1.2;                   ///< what looks as wide has its own colour ...
-constexpr double least_road_px = 0.6;             ///< ... and what looks narrower is not painted
+constexpr double min_road_px = 0.6;             ///< ... and what looks narrower is not painted
 constexpr double level_error_px = 0.25;
 constexpr double farthest_road_m = 40000.0; ///< roads beyond it are never painted
-constexpr int most_road_triangles = 1200;
-constexpr double most_road_share = 0.06; ///< of the triangles that are aimed at
+constexpr int max_road_triangles = 1200;
+constexpr double max_road_share = 0.06; ///< of the triangles that are aimed at
 constexpr std::span<const roads::RoadPiece> no_pieces;
 
 /// A unit vector upwards from the ground.
@@ -55,7 +55,7 @@ patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dv
 
 /// From farther off a road looks too narrow.
 double reach_of(const FrameView& view) {
-    return std::min(2.0 * roads::half_width_m / (least_road_px * view.pixel_rad), farthest_road_m);
+    return std::min(2.0 * roads::half_width_m / (min_road_px * view.pixel_rad), farthest_road_m);
 }
 
 /// The coarsest level that looks right from so far.
@@ -80,9 +80,9 @@ void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight
     lowest_m_ = std::numeric_limits<double>::infinity();
     for (const roads::RoadPiece& piece : network_ ? network_->pieces() : no_pieces) {
         Piece& own = pieces_.emplace_back();
-        const glm::dvec2 middle_m = 0.5 * (piece.least_m + piece.most_m);
+        const glm::dvec2 middle_m = 0.5 * (piece.min_m + piece.max_m);
         own.middle_m = glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
-        own.radius_m = 0.5 * glm::distance(piece.least_m, piece.most_m);
+        own.radius_m = 0.5 * glm::distance(piece.min_m, piece.max_m);
         lowest_m_ = std::min(lowest_m_, own.middle_m.z);
         for (std::size_t level = 0; level < piece.levels.size(); ++level) {
             own.first_light[level] = stretches;
@@ -94,7 +94,7 @@ void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight
     frame_ = 0;
 }
 
-int RoadPainter::most_triangles(const FrameView& view, int triangle_target) const {
+int RoadPainter::max_triangles(const FrameView& view, int triangle_target) const {
     const double reach_m = reach_of(view);
     const glm::dvec2 at_m(view.camera.eye_m);
     const double over_m = view.camera.eye_m.z - lowest_m_;
@@ -104,7 +104,7 @@ int RoadPainter::most_triangles(const FrameView& view, int triangle_target) cons
     if (triangle_target >= scene::unlimited_triangles) {
         return scene::unlimited_triangles;
     }
-    const double most = std::min<double>(most_road_triangles, most_road_share * triangle_target);
+    const double most = std::min<double>(max_road_triangles, max_road_share * triangle_target);
     return static_cast<int>(most * std::min(2.0 - 2.0 * over_m / reach_m, 1.0));
 }
 
@@ -125,9 +125,9 @@ void RoadPainter::paint(
     const glm::dvec2 to_m = eye_m + reach_m;
     candidates_.clear();
     ground.triangles_in(
-        [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            const glm::dvec2 first_m = glm::max(glm::dvec2(least_m), from_m);
-            const glm::dvec2 last_m = glm::min(glm::dvec2(most_m), to_m);
+        [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+            const glm::dvec2 first_m = glm::max(glm::dvec2(min_m), from_m);
+            const glm::dvec2 last_m = glm::min(glm::dvec2(max_m), to_m);
             return first_m.x <= last_m.x && first_m.y <= last_m.y &&
                    network_->may_meet(first_m, last_m);
         },
@@ -135,7 +135,7 @@ void RoadPainter::paint(
     if (!nearest_first) {
         std::ranges::reverse(candidates_);
     }
-    const int limit = cutter.triangles() + most - PaintCutter::most_triangles;
+    const int limit = cutter.triangles() + most - PaintCutter::max_triangles;
     for (const std::uint32_t candidate : candidates_) {
         if (cutter.triangles() > limit) {
             break;
@@ -147,15 +147,15 @@ void RoadPainter::paint(
 
 void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& cutter) {
     const auto& [a, b, c] = cutter.corners_m();
-    const glm::dvec2 least_m = glm::min(glm::min(a, b), c);
-    const glm::dvec2 most_m = glm::max(glm::max(a, b), c);
+    const glm::dvec2 min_m = glm::min(glm::min(a, b), c);
+    const glm::dvec2 max_m = glm::max(glm::max(a, b), c);
     const glm::dvec2 eye_m(view.camera.eye_m);
-    if (!network_->may_meet(least_m + eye_m, most_m + eye_m) || !cutter.is_seen() ||
+    if (!network_->may_meet(min_m + eye_m, max_m + eye_m) || !cutter.is_seen() ||
         cutter.is_thing()) {
         return;
     }
     numbers_.clear();
-    network_->pieces_by(least_m + eye_m, most_m + eye_m, numbers_);
+    network_->pieces_by(min_m + eye_m, max_m + eye_m, numbers_);
     std::ranges::sort(numbers_);
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
     const glm::vec3 ground = cutter.colour();
@@ -165,8 +165,8 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
         }
         for (std::size_t i = chosen_[number].first; i < chosen_[number].end; ++i) {
             const Seen& stretch = seen_[i];
-            if (stretch.least_m.x < most_m.x && stretch.most_m.x > least_m.x &&
-                stretch.least_m.y < most_m.y && stretch.most_m.y > least_m.y &&
+            if (stretch.min_m.x < max_m.x && stretch.max_m.x > min_m.x &&
+                stretch.min_m.y < max_m.y && stretch.max_m.y > min_m.y &&
                 cutter.triangles() <= limit) {
                 const glm::vec3 colour = glm::mix(ground, stretch.colour, stretch.own);
                 cutter.lay(
@@ -205,11 +205,11 @@ void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
         const double distance_m =
             glm::distance(glm::dvec3(at_m, piece.middle_m.z), view.camera.eye_m);
         const double seen_px = 2.0 * roads::half_width_m / (distance_m * view.pixel_rad);
-        if (seen_px <= least_road_px) {
+        if (seen_px <= min_road_px) {
             continue;
         }
         const auto own = static_cast<float>(
-            std::clamp((seen_px - least_road_px) / (road_px - least_road_px), 0.0, 1.0));
+            std::clamp((seen_px - min_road_px) / (road_px - min_road_px), 0.0, 1.0));
         const PaintCutter::Patch patch =
             patch_of(points[i - 1], points[i], glm::dvec2(view.camera.eye_m));
         seen_.push_back(

@@ -29,7 +29,7 @@ public:
 
     /// The most triangles that it takes, of so many that are aimed at: none where no road can be
     /// seen, fewer from high up.
-    int most_triangles(const FrameView& view, int triangle_target) const;
+    int max_triangles(const FrameView& view, int triangle_target) const;
 
     /// Paints on the ground whose triangles the cutter has, the nearest first, at most so many
     /// triangles.
@@ -52,8 +52,8 @@ private:
     /// A stretch as it is seen in this frame, on the plan of the cutter.
     struct Seen {
         PaintCutter::Patch patch;
-        glm::dvec2 least_m;
-        glm::dvec2 most_m;
+        glm::dvec2 min_m;
+        glm::dvec2 max_m;
         glm::vec3 colour;
         /// Share of its own colour; the rest is the ground's.
         float own = 1.0F;

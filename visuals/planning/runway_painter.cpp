@@ -16,9 +16,9 @@ namespace octant::visuals::planning {
 namespace {
 
 constexpr double whole_px = 0.6; ///< what looks as wide has its own colour ...
-constexpr double least_px = 0.3; ///< ... and what looks narrower is not painted
+constexpr double min_px = 0.3; ///< ... and what looks narrower is not painted
 constexpr int usual_triangles = 1600;
-constexpr double most_share = 0.2; ///< of the triangles that are aimed at
+constexpr double max_share = 0.2; ///< of the triangles that are aimed at
 constexpr double near_m = 700.0;   ///< up to here all that is usual is kept for it
 
 } // namespace
@@ -28,7 +28,7 @@ RunwayPainter::RunwayPainter(std::shared_ptr<const models::heights::RunwayStrip>
     if (strip_) {
         patches_ = nature::runway_patches(strip_->length_m, strip_->width_m, strip_->heading_rad);
         std::ranges::stable_sort(
-            patches_, {}, [](const nature::RunwayPatch& patch) { return patch.least_m.x; });
+            patches_, {}, [](const nature::RunwayPatch& patch) { return patch.min_m.x; });
     }
 }
 
@@ -36,14 +36,14 @@ void RunwayPainter::light_by(const nature::Daylight& day) {
     light_ = day.ambient() + day.sunlight() * std::max(static_cast<float>(day.to_sun().z), 0.0F);
 }
 
-int RunwayPainter::most_triangles(const glm::dvec3& eye_m, int triangle_target) const {
+int RunwayPainter::max_triangles(const glm::dvec3& eye_m, int triangle_target) const {
     if (!strip_ || triangle_target >= scene::unlimited_triangles) {
         return strip_ ? scene::unlimited_triangles : 0;
     }
     const glm::dvec2 place_m(eye_m);
     const double distance_m =
         std::hypot(strip_->distance_m(place_m), eye_m.z - strip_->plane_m(place_m));
-    const double most = std::min<double>(usual_triangles, most_share * triangle_target);
+    const double most = std::min<double>(usual_triangles, max_share * triangle_target);
     return static_cast<int>(most * std::clamp(near_m / std::max(distance_m, 1.0), 0.1, 1.0));
 }
 
@@ -61,9 +61,9 @@ void RunwayPainter::paint(
     if (seen_.empty()) {
         return;
     }
-    const auto meets_strip = [this](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-        const glm::dvec2 half_m(0.5 * (most_m - least_m));
-        const glm::dvec2 middle = strip_->on_strip(glm::dvec2(0.5 * (least_m + most_m)));
+    const auto meets_strip = [this](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+        const glm::dvec2 half_m(0.5 * (max_m - min_m));
+        const glm::dvec2 middle = strip_->on_strip(glm::dvec2(0.5 * (min_m + max_m)));
         const double along_m = glm::dot(glm::abs(strip_->along()), half_m);
         const double left_m = glm::dot(glm::abs(strip_->left()), half_m);
         return middle.x + along_m >= 0.0 && middle.x - along_m <= strip_->length_m &&
@@ -86,23 +86,23 @@ void RunwayPainter::paint(
 void RunwayPainter::choose_patches(const FrameView& view) {
     seen_.clear();
     for (const nature::RunwayPatch& patch : patches_) {
-        const glm::dvec2 middle_m = strip_->place(0.5 * glm::dvec2(patch.least_m + patch.most_m));
+        const glm::dvec2 middle_m = strip_->place(0.5 * glm::dvec2(patch.min_m + patch.max_m));
         const double distance_m =
             glm::distance(glm::dvec3(middle_m, strip_->plane_m(middle_m)), view.camera.eye_m);
-        const glm::vec2 size_m = patch.most_m - patch.least_m;
+        const glm::vec2 size_m = patch.max_m - patch.min_m;
         const double seen_px =
             static_cast<double>(std::min(size_m.x, size_m.y)) / (distance_m * view.pixel_rad);
-        if (seen_px <= least_px) {
+        if (seen_px <= min_px) {
             continue;
         }
         const auto own =
-            static_cast<float>(std::clamp((seen_px - least_px) / (whole_px - least_px), 0.0, 1.0));
+            static_cast<float>(std::clamp((seen_px - min_px) / (whole_px - min_px), 0.0, 1.0));
         const glm::vec3 colour = patch.is_painted
                                      ? glm::mix(nature::runway_surface, nature::runway_paint, own)
                                      : nature::runway_surface;
         seen_.push_back(
-            {glm::dvec2(patch.least_m),
-             glm::dvec2(patch.most_m),
+            {glm::dvec2(patch.min_m),
+             glm::dvec2(patch.max_m),
              models::packed_colour(colour * light_) & 0x00ffffffU,
              patch.is_painted});
     }
@@ -114,15 +114,15 @@ void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
     for (glm::dvec2& corner : corners) {
         corner = strip_->on_strip(corner + eye_m_);
     }
-    const glm::dvec2 least_m = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-    const glm::dvec2 most_m = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-    const double first_m = least_m.x - static_cast<double>(nature::longest_patch_m);
-    const auto along_m = [](const Seen& patch) { return patch.least_m.x; };
+    const glm::dvec2 min_m = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    const glm::dvec2 max_m = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+    const double first_m = min_m.x - static_cast<double>(nature::longest_patch_m);
+    const auto along_m = [](const Seen& patch) { return patch.min_m.x; };
     for (auto patch = std::ranges::lower_bound(seen_, first_m, {}, along_m);
-         patch != seen_.end() && patch->least_m.x < most_m.x;
+         patch != seen_.end() && patch->min_m.x < max_m.x;
          ++patch) {
-        const bool meets = patch->most_m.x > least_m.x && patch->least_m.y < most_m.y &&
-                           patch->most_m.y > least_m.y;
+        const bool meets = patch->max_m.x > min_m.x && patch->min_m.y < max_m.y &&
+                           patch->max_m.y > min_m.y;
         if (meets && (!patch->is_marking || cutter.triangles() < most)) {
             cutter.lay(
                 on_plan(*patch),
@@ -135,10 +135,10 @@ void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
 
 PaintCutter::Patch RunwayPainter::on_plan(const Seen& patch) const {
     PaintCutter::Patch corners = {
-        patch.least_m,
-        {patch.most_m.x, patch.least_m.y},
-        patch.most_m,
-        {patch.least_m.x, patch.most_m.y}};
+        patch.min_m,
+        {patch.max_m.x, patch.min_m.y},
+        patch.max_m,
+        {patch.min_m.x, patch.max_m.y}};
     for (glm::dvec2& corner : corners) {
         corner = strip_->place(corner) - eye_m_;
     }

@@ -27,7 +27,7 @@ public:
     void light_by(const nature::Daylight& day);
 
     /// The most triangles that it takes, of so many that are aimed at: fewer from farther off.
-    int most_triangles(const glm::dvec3& eye_m, int triangle_target) const;
+    int max_triangles(const glm::dvec3& eye_m, int triangle_target) const;
 
     /// Paints on the ground whose triangles the cutter has, the nearest first; markings only while
     /// the cutter has laid fewer than `most` triangles.
@@ -41,8 +41,8 @@ public:
 private:
     /// A patch as it is seen in this frame.
     struct Seen {
-        glm::dvec2 least_m;
-        glm::dvec2 most_m;
+        glm::dvec2 min_m;
+        glm::dvec2 max_m;
         std::uint32_t colour = 0;
         bool is_marking = false;
     };

@@ -64,16 +64,16 @@ void SceneOrder::find_windows() {
     windows_.clear();
     by_x_.resize(bodies_.size());
     std::iota(by_x_.begin(), by_x_.end(), 0U);
-    const auto least_x = [&](std::uint32_t i) {
+    const auto min_x = [&](std::uint32_t i) {
         return bodies_[i].box.centre_m.x - bodies_[i].radius_m;
     };
     std::ranges::sort(by_x_, [&](std::uint32_t a, std::uint32_t b) {
-        return least_x(a) != least_x(b) ? least_x(a) < least_x(b) : a < b;
+        return min_x(a) != min_x(b) ? min_x(a) < min_x(b) : a < b;
     });
     for (std::size_t i = 0; i < by_x_.size(); ++i) {
         const Body& body = bodies_[by_x_[i]];
-        const double most_x = body.box.centre_m.x + body.radius_m;
-        for (std::size_t k = i + 1; k < by_x_.size() && least_x(by_x_[k]) <= most_x; ++k) {
+        const double max_x = body.box.centre_m.x + body.radius_m;
+        for (std::size_t k = i + 1; k < by_x_.size() && min_x(by_x_[k]) <= max_x; ++k) {
             const Body& other = bodies_[by_x_[k]];
             const glm::dvec3 apart_m = other.box.centre_m - body.box.centre_m;
             const double touch_m = body.radius_m + other.radius_m;
@@ -184,8 +184,8 @@ void SceneOrder::add_knot(std::span<const std::uint32_t> bodies, std::uint32_t f
     HullExtent extent = world_extent(knot.box);
     for (const std::uint32_t body : bodies) {
         const HullExtent own = world_extent(bodies_[first + body].box);
-        extent.least_m = glm::min(extent.least_m, own.least_m);
-        extent.most_m = glm::max(extent.most_m, own.most_m);
+        extent.min_m = glm::min(extent.min_m, own.min_m);
+        extent.max_m = glm::max(extent.max_m, own.max_m);
         members_.push_back(bodies_[first + body].index);
     }
     if (knot.count > 1) {

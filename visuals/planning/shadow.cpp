@@ -18,8 +18,8 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double least_shadow_px = 2.0;
-constexpr int most_march_steps = 200;
+constexpr double min_shadow_px = 2.0;
+constexpr int max_march_steps = 200;
 
 glm::vec4 unpacked(std::uint32_t colour) {
     return glm::vec4(
@@ -43,8 +43,8 @@ ConvexRoom lit_room(const HullBox& hull, const glm::dvec3& to_sun, double path_m
     const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
     ConvexRoom room;
     room.extent = {
-        glm::min(extent.least_m, extent.least_m + down_m),
-        glm::max(extent.most_m, extent.most_m + down_m)};
+        glm::min(extent.min_m, extent.min_m + down_m),
+        glm::max(extent.max_m, extent.max_m + down_m)};
     const LightPrism prism = prism_of(hull, to_sun);
     for (int i = 0; i < prism.count; ++i) {
         room.add(prism.planes[static_cast<std::size_t>(i)]);
@@ -68,7 +68,7 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 
 ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
     : to_sun_(to_sun)
-    , high_enough_(to_sun.z >= std::sin(rad_from_deg(least_sun_elevation_deg))) {}
+    , high_enough_(to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg))) {}
 
 void ShadowCaster::begin(
     const scene::TriangleDraw& triangles,
@@ -116,10 +116,10 @@ void ShadowCaster::cast(
     }
     const glm::dvec3 place_m = hull.centre_m - to_sun_ * path_m;
     const HullExtent& extent = aircraft.model->hull;
-    const double size_m = 0.5 * glm::distance(extent.least_m, extent.most_m);
+    const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
     // On a slope that falls away from the sun a shadow is longer than on the level.
     const double reach_m = 2.0 * size_m / to_sun_.z;
-    if (2.0 * size_m < least_shadow_px * view.pixel_rad * glm::length(place_m) ||
+    if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(place_m) ||
         !scene::in_view(place_m, reach_m, view.frustum)) {
         return;
     }
@@ -132,8 +132,8 @@ void ShadowCaster::cast(
 
     candidates_.clear();
     ground.triangles_in(
-        [&look](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            return may_meet(look.room, least_m - look.eye_m, most_m - look.eye_m);
+        [&look](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+            return may_meet(look.room, min_m - look.eye_m, max_m - look.eye_m);
         },
         candidates_);
     collect_faces(aircraft);
@@ -158,10 +158,10 @@ double ShadowCaster::light_path_m(
         const std::optional<double> ground_m = ground.height_at(at_m.x, at_m.y);
         return ground_m ? std::optional<double>(at_m.z - *ground_m) : std::nullopt;
     };
-    const double least_step_m = radius_m(hull);
+    const double min_step_m = radius_m(hull);
     double above_m = 0.0;
     double path_m = 0.0;
-    for (int step = 0; step < most_march_steps; ++step) {
+    for (int step = 0; step < max_march_steps; ++step) {
         const std::optional<double> height_m = height_over_ground_m(path_m);
         if (!height_m || (step == 0 && *height_m < 0.0)) {
             return -1.0;
@@ -174,7 +174,7 @@ double ShadowCaster::light_path_m(
             return path_m;
         }
         above_m = path_m;
-        path_m += std::max(least_step_m, 0.25 * *height_m / to_sun_.z);
+        path_m += std::max(min_step_m, 0.25 * *height_m / to_sun_.z);
     }
     return -1.0;
 }

@@ -21,7 +21,7 @@ namespace octant::visuals::planning {
 inline constexpr float shadow_share = 0.55F;
 
 /// Below this elevation of the sun there are no shadows: they would be longer than 19 heights.
-inline constexpr double least_sun_elevation_deg = 3.0;
+inline constexpr double min_sun_elevation_deg = 3.0;
 
 /// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each
 /// triangle of the ground below and cut off at the triangle's sides. The pieces are opaque and have

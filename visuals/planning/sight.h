@@ -47,6 +47,6 @@ double solid_angle_sr(const SightPolygon& polygon);
 
 /// What is seen smaller than this cannot meet a pixel's centre but by chance: a pixel of a picture
 /// of 4,000 lines covers 1e-8.
-inline constexpr double least_solid_angle_sr = 1e-13;
+inline constexpr double min_solid_angle_sr = 1e-13;
 
 } // namespace octant::visuals::planning

@@ -133,7 +133,7 @@ void StepWriter::add(const scene::RefinedDraw& draw) {
 }
 
 std::uint32_t StepWriter::add_clip(std::span<const glm::dvec3> normals) {
-    assert(normals.size() <= std::size_t{scene::Clip::most_planes});
+    assert(normals.size() <= std::size_t{scene::Clip::max_planes});
     scene::Clip& clip = plan_.clips.emplace_back();
     for (const glm::dvec3& normal : normals) {
         clip.planes[static_cast<std::size_t>(clip.count++)] = glm::vec4(glm::vec3(normal), 0.0F);
@@ -143,7 +143,7 @@ std::uint32_t StepWriter::add_clip(std::span<const glm::dvec3> normals) {
 
 template <class Paint>
 void StepWriter::for_each_clip(const SightPolygon& region, const Paint& paint) {
-    constexpr std::size_t most = scene::Clip::most_planes;
+    constexpr std::size_t most = scene::Clip::max_planes;
     const auto cuts = static_cast<std::size_t>(
         std::ranges::count_if(region, [](const SightCorner& corner) { return corner.cut; }));
     const auto add_edges = [&](const SightPolygon& piece, bool all) {
@@ -230,7 +230,7 @@ void StepWriter::add_outside(
         place_triangle(ground.all, triangle, piece_);
         cut_to_front(piece_, plane, 0.0, scratch_);
         cut_to_cone(piece_, cone.planes(), scratch_);
-        if (solid_angle_sr(piece_) < least_solid_angle_sr) {
+        if (solid_angle_sr(piece_) < min_solid_angle_sr) {
             continue;
         }
         if (count == 0) {

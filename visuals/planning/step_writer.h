@@ -87,7 +87,7 @@ private:
     void add_range(
         scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth);
 
-    /// Index of a new clip by planes through the eye, at most Clip::most_planes.
+    /// Index of a new clip by planes through the eye, at most Clip::max_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
     void add_outside(
         const GroundFrame& ground,

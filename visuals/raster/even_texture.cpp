@@ -30,7 +30,7 @@ using Corners = std::array<const ScreenVertex*, 3>;
 constexpr double steps_per_px = ScreenVertex::per_px;
 
 /// Thinner triangles have gradients of rounding alone, 1/256 pixel.
-constexpr double least_thickness = 16.0;
+constexpr double min_thickness = 16.0;
 
 /// From a corner to each of the next: its values' differences.
 struct Steps {
@@ -104,7 +104,7 @@ HWY_INLINE TexelSteps texel_steps(const Corners& corners, const Steps& steps) {
     const double area = b[0] * c[1] - b[1] * c[0];
     const double reach = std::max(
         std::max(std::abs(b[0]), std::abs(c[0])), std::max(std::abs(b[1]), std::abs(c[1])));
-    if (std::abs(area) < least_thickness * reach) {
+    if (std::abs(area) < min_thickness * reach) {
         const double texels = thin_footprint(corners, reach);
         return {{texels, 0.0}, {0.0, texels}};
     }
@@ -135,7 +135,7 @@ bool SetEvenTexture(const Corners& corners, std::size_t level_count, EvenTexture
     even.levels = levels_of(texel_steps(corners, steps), level_count);
     const auto scale = std::bit_cast<float>((127U - even.levels.fine) << 23U); // 2^-fine
     const auto most = two_of_each(
-        set(2.0F * EvenTexture::most_texels_wrong / scale), set(EvenTexture::most_share_wrong));
+        set(2.0F * EvenTexture::max_texels_wrong / scale), set(EvenTexture::max_share_wrong));
     if (!hn::AllTrue(four, hn::Le(bend.size(), most))) {
         return false;
     }

@@ -12,8 +12,8 @@ namespace octant::visuals::raster {
 /// A textured triangle whose places, light and haze may lie even between its corners, because
 /// perspective bends them by next to nothing.
 struct EvenTexture {
-    static constexpr float most_texels_wrong = 1.0F / 32.0F; ///< of the level that is looked at
-    static constexpr float most_share_wrong = 1.0F / 512.0F; ///< of light and haze
+    static constexpr float max_texels_wrong = 1.0F / 32.0F; ///< of the level that is looked at
+    static constexpr float max_share_wrong = 1.0F / 512.0F; ///< of light and haze
     /// Of light and haze in ScreenVertex::value: a little less than 256, whose double would need
     /// more than sixteen bits.
     static constexpr float whole_share = 255.98F;

@@ -107,12 +107,12 @@ public:
         const auto around =
             hn::Add(both(of_row(row - away) + first), both(of_row(row + away) + first));
         const auto here = hn::LoadU(real, own);
-        constexpr float most_off = 1.0F / 64.0F; // of four times itself: a pixel's height
+        constexpr float max_off = 1.0F / 64.0F; // of four times itself: a pixel's height
         const auto off = hn::Sub(hn::Mul(here, twos(4.0F)), around);
         const auto above = hn::LoadU(real, own - row_size);
         return {
             is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
-            hn::Le(hn::Abs(off), hn::Mul(here, twos(most_off)))};
+            hn::Le(hn::Abs(off), hn::Mul(here, twos(max_off)))};
     }
 
     /// Of what lies right of the tile, in rows from one on.
@@ -136,7 +136,7 @@ public:
 private:
     static constexpr std::size_t odd_pairs = 32; ///< from those of the first phase to the others
     static constexpr std::size_t row_size = 2 * odd_pairs;
-    static constexpr std::size_t most_rows = tile_height / 2;
+    static constexpr std::size_t max_rows = tile_height / 2;
     static_assert(twos_a_phase + 1 < odd_pairs);
 
     static HWY_INLINE hn::Mask<Twos>
@@ -203,7 +203,7 @@ private:
 
     int rows_;
     std::uint32_t any_ = 0;
-    alignas(64) std::array<float, (most_rows + 3) * row_size> near_; ///< set as far as at() reads
+    alignas(64) std::array<float, (max_rows + 3) * row_size> near_; ///< set as far as at() reads
 };
 
 } // namespace HWY_NAMESPACE

@@ -29,7 +29,7 @@ using Whole = hn::RebindToSigned<Reals>;
 using Bits = hn::RebindToUnsigned<Reals>;
 using Real = hn::Vec<Reals>;
 constexpr std::size_t at_once = hn::MaxLanes(Reals());
-constexpr float most_level = 255.0F;
+constexpr float max_level = 255.0F;
 
 HWY_INLINE Real set(float value) {
     return hn::Set(Reals(), value);
@@ -88,11 +88,11 @@ struct Haze {
         const auto distance_m = hn::Sqrt(squares);
         const auto fallen = hn::Mul(at.z, set(light.falloff_per_m));
         const auto size = hn::Abs(fallen);
-        const auto left = exp_of_minus_each(hn::Min(size, set(most_haze_fall)));
+        const auto left = exp_of_minus_each(hn::Min(size, set(max_haze_fall)));
         const auto over =
             hn::IfThenElse(hn::Gt(fallen, hn::Zero(reals)), size, hn::Mul(size, left));
         const auto density = hn::IfThenElse(
-            hn::Ge(size, set(least_haze_fall)),
+            hn::Ge(size, set(min_haze_fall)),
             hn::Div(hn::Sub(set(1.0F), left), over),
             hn::Sub(set(1.0F), hn::Mul(set(0.5F), fallen)));
         const auto depth = hn::Mul(hn::Mul(distance_m, set(light.per_m)), density);
@@ -104,7 +104,7 @@ struct Haze {
         const auto sunward = hn::Mul(towards, towards);
         for (glm::length_t i = 0; i < 3; ++i) {
             levels[static_cast<std::size_t>(i)] =
-                hn::Mul(mixed(set(light.haze[i]), set(light.sunward[i]), sunward), set(most_level));
+                hn::Mul(mixed(set(light.haze[i]), set(light.sunward[i]), sunward), set(max_level));
         }
     }
 };
@@ -135,8 +135,8 @@ struct CornerStore {
         const auto is_placed = hn::And(
             hn::Ge(w, set(projection.near_m)),
             hn::And(
-                hn::Le(hn::Abs(x), hn::Mul(set(projection.most_by_w.x), w)),
-                hn::Le(hn::Abs(y), hn::Mul(set(projection.most_by_w.y), w))));
+                hn::Le(hn::Abs(x), hn::Mul(set(projection.max_by_w.x), w)),
+                hn::Le(hn::Abs(y), hn::Mul(set(projection.max_by_w.y), w))));
         const auto beside = hn::Or(
             bit_where(hn::Lt(x, minus_w), left_of_view), bit_where(hn::Gt(x, w), right_of_view));
         const auto over =
@@ -230,7 +230,7 @@ void PlaceTextured(
     place_each(from, projection, to, [&](const Places& at, CornerStore& store) HWY_ATTR {
         const auto x = hn::Add(set(to_texels.at_eye.x), hn::Mul(at.x, set(to_texels.per_m.x)));
         const auto y = hn::Add(set(to_texels.at_eye.y), hn::Mul(at.y, set(to_texels.per_m.y)));
-        const auto light_left = hn::Div(at.level<24>(), set(most_level));
+        const auto light_left = hn::Div(at.level<24>(), set(max_level));
         store.put_values(x, y, light_left, Haze(at, light).share);
     });
 }

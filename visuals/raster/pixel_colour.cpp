@@ -12,11 +12,11 @@ namespace octant::visuals::raster {
 namespace {
 
 constexpr double per_level = 16.0;
-constexpr double most_level = 255.0;
-constexpr double least_by_w = 1e-30;
+constexpr double max_level = 255.0;
+constexpr double min_by_w = 1e-30;
 
 std::uint16_t packed(double level) {
-    return static_cast<std::uint16_t>(std::clamp(level, 0.0, most_level) * per_level + 0.5);
+    return static_cast<std::uint16_t>(std::clamp(level, 0.0, max_level) * per_level + 0.5);
 }
 
 /// A level, 2^-16 from the level 128.
@@ -44,7 +44,7 @@ PixelColour by_levels(const Triangle& triangle, int column, int row) {
 }
 
 double depth_of(const TriangleExtra& extra, int column, int row) {
-    return 1.0 / std::max(extra.by_w[4].at(column, row), least_by_w);
+    return 1.0 / std::max(extra.by_w[4].at(column, row), min_by_w);
 }
 
 PixelColour by_perspective(const TileTriangle& one, int column, int row) {
@@ -183,7 +183,7 @@ PixelColour by_mesh(const TileTriangle& one, const TileJob& job, int column, int
     PixelColour colour = by_perspective(one, column, row);
     for (std::size_t i = 0; i < 3; ++i) {
         const double own = colour[i] / per_level;
-        const double filled = own + hue_share * (hue[i] * most_level - own);
+        const double filled = own + hue_share * (hue[i] * max_level - own);
         colour[i] = packed(filled * (0.25 + 0.75 * inside));
     }
     return colour;
@@ -252,7 +252,7 @@ PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, in
     float shine = 0.0F;
     if (towards_sun > 0.0F && length > 0.0F) {
         diffuse = towards_sun / length;
-        shine = scene::Highlight::share * static_cast<float>(most_level) *
+        shine = scene::Highlight::share * static_cast<float>(max_level) *
                 highlight(normal, mixed(extra, weights, &LitCorner::to_eye), to_sun, towards_sun);
     }
     const auto own = mixed(extra, weights, &LitCorner::rgb);
@@ -262,7 +262,7 @@ PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, in
         const auto part = static_cast<glm::length_t>(i);
         const float lit = own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) +
                           light.sunlight[part] * shine;
-        const float seen = std::min(lit, static_cast<float>(most_level)) * clear + haze[i];
+        const float seen = std::min(lit, static_cast<float>(max_level)) * clear + haze[i];
         colour[i] = packed(static_cast<double>(seen));
     }
     return colour;

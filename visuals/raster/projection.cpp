@@ -18,7 +18,7 @@ Projection projection_of(const scene::FramePlan& plan, const glm::ivec2& size_px
     projection.size_px = size_px;
     projection.half_px = glm::vec2(size_px) * 0.5F;
     projection.near_m = plan.view_to_clip[3][2];
-    projection.most_by_w = glm::vec2(farthest_px) / projection.half_px;
+    projection.max_by_w = glm::vec2(farthest_px) / projection.half_px;
     return projection;
 }
 
@@ -34,7 +34,7 @@ void place(const Projection& projection, const ClipPlace& clip, ScreenVertex& ve
     vertex.outside = (clip.x < -clip.w ? left_of_view : 0U) |
                      (clip.x > clip.w ? right_of_view : 0U) | (clip.y > clip.w ? above_view : 0U) |
                      (clip.y < -clip.w ? below_view : 0U);
-    const glm::vec2 most = projection.most_by_w * clip.w;
+    const glm::vec2 most = projection.max_by_w * clip.w;
     // Written so that what is no number counts as unplaced.
     if (!(clip.w >= projection.near_m && std::abs(clip.x) <= most.x &&
           std::abs(clip.y) <= most.y)) {

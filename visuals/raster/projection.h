@@ -15,7 +15,7 @@ struct Projection {
     glm::vec2 half_px{0.0F}; ///< half of the picture's size
     float near_m = 0.0F;     ///< what has a smaller w is cut off
     /// Clip coordinates x and y of a placed corner are at most this many times w.
-    glm::vec2 most_by_w{0.0F};
+    glm::vec2 max_by_w{0.0F};
     glm::ivec2 size_px{0};
 };
 

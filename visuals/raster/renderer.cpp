@@ -14,7 +14,7 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr int most_samples = 16;
+constexpr int max_samples = 16;
 constexpr std::array<std::uint8_t, 4> inset_frame{20, 23, 26, 255};
 constexpr std::array<std::uint8_t, 4> inset_frame_blue_first{26, 23, 20, 255};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
@@ -58,7 +58,7 @@ std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int
 }
 
 void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
-    const int samples = wanted.value_or(most_samples);
+    const int samples = wanted.value_or(max_samples);
     if (samples != samples_) {
         samples_ = samples;
         lanes_ = SampleLanes(sample_pattern(samples));

@@ -54,7 +54,7 @@ inline TextureLevels levels_of(double size2, std::size_t count) {
 /// pixel than wide: the pixel takes the level of its width, at several places along its length.
 /// These are mixed anyway: then a single level does.
 inline TextureLevels levels_of(const TexelSteps& steps, std::size_t count) {
-    constexpr double most_probes = 3.0;
+    constexpr double max_probes = 3.0;
     constexpr double longer = 1.5; ///< than wide, where two probes begin
     const auto& [across, down] = steps;
     const double across2 = across[0] * across[0] + across[1] * across[1];
@@ -64,7 +64,7 @@ inline TextureLevels levels_of(const TexelSteps& steps, std::size_t count) {
     if (!(length2 > 1.0) || !(longer * area < length2)) {
         return levels_of(length2, count);
     }
-    double size = std::max(area / length2, 1.0 / most_probes); // of a probe, in lengths
+    double size = std::max(area / length2, 1.0 / max_probes); // of a probe, in lengths
     if (size * size * length2 < 1.0) {
         size = 1.0 / std::sqrt(length2); // no finer than the finest level
     }

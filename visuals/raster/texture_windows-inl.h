@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_of_row = strip_px / texture_window_px;
+    static constexpr std::size_t max_of_row = strip_px / texture_window_px;
 
     HWY_INLINE void put_none(std::size_t at) {
         hn::StoreU(hn::Zero(TextureWindow()), TextureWindow(), fresh_.data() + at);
@@ -117,7 +117,7 @@ private:
     /// New samples of pixels; rows lie as a tile's do.
     alignas(64) std::array<std::uint16_t, (tile_height + 1) * tile_width> fresh_;
     /// As TextureWindows::begin; eight are read at once.
-    std::array<std::uint16_t, tile_height * most_of_row + 8> windows_;
+    std::array<std::uint16_t, tile_height * max_of_row + 8> windows_;
     std::size_t count_ = 0;
 };
 

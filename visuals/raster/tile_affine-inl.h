@@ -25,8 +25,8 @@ namespace HWY_NAMESPACE {
 /// middle's, as a share of it: without e it is wrong by no more than |s dx + t dy| |e| / (1 - |e|).
 class AffineTexture {
 public:
-    static constexpr double most_texels_wrong = 1.0 / 16.0; ///< of the level that is looked at
-    static constexpr double most_share_wrong = 1.0 / 512.0; ///< of light and haze
+    static constexpr double max_texels_wrong = 1.0 / 16.0; ///< of the level that is looked at
+    static constexpr double max_share_wrong = 1.0 / 512.0; ///< of light and haze
 
     HWY_INLINE AffineTexture(
         const TexturePlanes& planes,
@@ -58,8 +58,8 @@ public:
         Values first;
         for (std::size_t i = 0; i < value.size(); ++i) {
             const double reach = std::abs(per_x[i]) * reach_px.x + std::abs(per_y[i]) * reach_px.y;
-            const double limit = i < 2 ? most_texels_wrong * texel : most_share_wrong;
-            const double range = i < 2 ? most_texels * texel : most_share;
+            const double limit = i < 2 ? max_texels_wrong * texel : max_share_wrong;
+            const double range = i < 2 ? max_texels * texel : max_share;
             is_near_enough = is_near_enough && reach * bent <= limit * (1.0 - bent) &&
                              std::abs(value[i]) + reach < range;
             first[i] = value[i] - per_x[i] * half_px.x - per_y[i] * half_px.y;
@@ -100,8 +100,8 @@ public:
 private:
     using Values = std::array<double, 4>;
     static constexpr double share_unit = 0x1p26;
-    static constexpr double most_texels = 16384.0; ///< what 32 bits hold, 2^-16, and half of it
-    static constexpr double most_share = 1.9;      ///< what 16 bits hold, 2^-14
+    static constexpr double max_texels = 16384.0; ///< what 32 bits hold, 2^-16, and half of it
+    static constexpr double max_share = 1.9;      ///< what 16 bits hold, 2^-14
 
     /// Whole numbers that wrap.
     struct Plane {

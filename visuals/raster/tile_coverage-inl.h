@@ -128,7 +128,7 @@ HWY_INLINE void bound_by(
     std::int32_t row,
     hn::Vec<Bytes>& least,
     hn::Vec<Bytes>& end) {
-    alignas(16) std::array<std::uint8_t, 16> line_least{};
+    alignas(16) std::array<std::uint8_t, 16> line_min{};
     alignas(16) std::array<std::uint8_t, 16> line_end{};
     const double at_tile = line.c + line.a * tile_px.x + line.b * row;
     for (std::size_t lane = 0; lane < 16; ++lane) {
@@ -141,13 +141,13 @@ HWY_INLINE void bound_by(
         }
         const double at = std::clamp(-here / line.a, -1.0, 1.0 + tile_width);
         if (line.a > 0.0) {
-            line_least[lane] = static_cast<std::uint8_t>(std::max(std::ceil(at), 0.0));
+            line_min[lane] = static_cast<std::uint8_t>(std::max(std::ceil(at), 0.0));
         } else {
             line_end[lane] =
                 static_cast<std::uint8_t>(std::clamp(std::floor(at) + 1.0, 0.0, 1.0 * tile_width));
         }
     }
-    least = hn::Max(least, hn::Load(Bytes(), line_least.data()));
+    least = hn::Max(least, hn::Load(Bytes(), line_min.data()));
     end = hn::Min(end, hn::Load(Bytes(), line_end.data()));
 }
 

@@ -45,8 +45,8 @@ public:
         const glm::ivec2 at(first, job.first_px.y);
         first_cover_ = GroundPlace::first_cover(triangle.levels, at);
         cover_per_row_ = static_cast<std::uint32_t>(triangle.levels.per_y[3]);
-        least_cover_ = hn::Set(Whole(), GroundPlace::limit(triangle.levels.least[3]));
-        most_cover_ = hn::Set(Whole(), GroundPlace::limit(triangle.levels.most[3]));
+        min_cover_ = hn::Set(Whole(), GroundPlace::limit(triangle.levels.least[3]));
+        max_cover_ = hn::Set(Whole(), GroundPlace::limit(triangle.levels.most[3]));
     }
 
     /// Writes it for those in even columns of an even row of the tile where samples are fresh.
@@ -61,7 +61,7 @@ public:
             first_cover_ + cover_per_row_ * static_cast<std::uint32_t>(row));
         const auto raw_cover = hn::Add(hn::Set(Whole(), cover_in_row), cover_steps_);
         const auto cover =
-            hn::BitCast(bits, hn::Min(hn::Max(raw_cover, least_cover_), most_cover_));
+            hn::BitCast(bits, hn::Min(hn::Max(raw_cover, min_cover_), max_cover_));
         const auto both = hn::Or(
             hn::AndNot(hn::Set(bits, GroundPlace::cover_bits), hn::BitCast(bits, near)),
             hn::ShiftRight<GroundPlace::cover_shift>(cover));
@@ -81,8 +81,8 @@ private:
     hn::Vec<Bits> is_even_;      ///< the columns, in pairs of pixels
     hn::Vec<Real> steps_;        ///< from the triangle's first column
     hn::Vec<Whole> cover_steps_; ///< from the first even column
-    hn::Vec<Whole> least_cover_;
-    hn::Vec<Whole> most_cover_;
+    hn::Vec<Whole> min_cover_;
+    hn::Vec<Whole> max_cover_;
     std::uint32_t first_cover_; ///< of the first even column, in the tile's first row
     std::uint32_t cover_per_row_;
 };

@@ -83,7 +83,7 @@ struct TriangleExtra {
     float opacity = 1.0F;     ///< as scene::PaintStep
     /// value / w of each value, then 1 / w.
     std::array<RealPlane, 5> by_w{};
-    std::array<CutLine, scene::Clip::most_planes> cuts{};
+    std::array<CutLine, scene::Clip::max_planes> cuts{};
     int cut_count = 0;
     std::array<RealPlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
     std::array<const LitCorner*, 3> lit{}; ///< of from_edges, for Fill::Lit

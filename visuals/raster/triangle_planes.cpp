@@ -143,7 +143,7 @@ HWY_INLINE void store_short(hn::Vec<Whole> value, std::int16_t* to) {
 HWY_INLINE void set_levels(
     const FallingCorners& corners,
     const PlaneBase& base,
-    double most_per_px,
+    double max_per_px,
     std::size_t i,
     Levels& levels) {
     const Reals real;
@@ -165,7 +165,7 @@ HWY_INLINE void set_levels(
                            HWY_ATTR { return hn::Mul(value, hn::Set(real, factor)); };
     const auto real_x = hn::Sub(times(to_b, base.bottom_y), times(to_c, base.middle_y));
     const auto real_y = hn::Sub(times(to_c, base.middle_x), times(to_b, base.bottom_x));
-    const auto most = hn::Set(real, most_per_px);
+    const auto most = hn::Set(real, max_per_px);
     const auto is_sliver = hn::Or(hn::Gt(hn::Abs(real_x), most), hn::Gt(hn::Abs(real_y), most));
     const auto per_x = rounded(hn::IfThenZeroElse(is_sliver, times(real_x, level_fraction)));
     const auto per_y = rounded(hn::IfThenZeroElse(is_sliver, times(real_y, level_fraction)));
@@ -218,10 +218,10 @@ void SetEdges(const FallingCorners& corners, Triangle& triangle) {
     }
 }
 
-void SetEdgesAndLevels(const FallingCorners& corners, double most_per_px, Triangle& triangle) {
+void SetEdgesAndLevels(const FallingCorners& corners, double max_per_px, Triangle& triangle) {
     const PlaneBase base = edges_of(corners, triangle);
     for (std::size_t i = 0; i < corners.top.value.size(); i += hn::Lanes(Reals())) {
-        set_levels(corners, base, most_per_px, i, triangle.levels);
+        set_levels(corners, base, max_per_px, i, triangle.levels);
     }
     if (triangle.has_grain) {
         set_nearness(corners, base, triangle);
@@ -243,8 +243,8 @@ void set_edges(const FallingCorners& corners, Triangle& triangle) {
     HWY_DYNAMIC_DISPATCH(SetEdges)(corners, triangle);
 }
 
-void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle) {
-    HWY_DYNAMIC_DISPATCH(SetEdgesAndLevels)(corners, most_per_px, triangle);
+void set_edges_and_levels(const FallingCorners& corners, double max_per_px, Triangle& triangle) {
+    HWY_DYNAMIC_DISPATCH(SetEdgesAndLevels)(corners, max_per_px, triangle);
 }
 
 Levels even_levels(const std::array<float, 3>& rgb) {

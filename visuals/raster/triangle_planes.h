@@ -27,8 +27,8 @@ struct FallingCorners {
 void set_edges(const FallingCorners& corners, Triangle& triangle);
 
 /// Fills in these and the four values at the corners as planes of levels. Where a level would
-/// change by more than `most_per_px` it is the corners' mean.
-void set_edges_and_levels(const FallingCorners& corners, double most_per_px, Triangle& triangle);
+/// change by more than `max_per_px` it is the corners' mean.
+void set_edges_and_levels(const FallingCorners& corners, double max_per_px, Triangle& triangle);
 
 /// The levels of a triangle that has one colour everywhere.
 Levels even_levels(const std::array<float, 3>& rgb);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int32_t per_px = ScreenVertex::per_px;
 
 /// Levels that a straight line over the picture may be wrong by without correction.
-constexpr float least_correction = 1.0F;
+constexpr float min_correction = 1.0F;
 
 /// Of an even texture: texels a pixel above which a triangle counts as a sliver.
 constexpr double texture_per_px = 8.0;
@@ -132,11 +132,11 @@ Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, b
     if (is_cut) {
         return Fill::Perspective;
     }
-    const float least_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
-    const float most_by_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float min_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float max_by_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
     // At the middle of an edge the line is wrong by range * correction.
-    const float correction = (most_by_w - least_by_w) / (2.0F * (most_by_w + least_by_w));
-    if (correction * 255.0F <= least_correction) {
+    const float correction = (max_by_w - min_by_w) / (2.0F * (max_by_w + min_by_w));
+    if (correction * 255.0F <= min_correction) {
         return Fill::Levels;
     }
     float range = 0.0F;
@@ -144,7 +144,7 @@ Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, b
         const auto [least, most] = std::minmax({a->value[i], b->value[i], c->value[i]});
         range = std::max(range, most - least);
     }
-    return correction * range > least_correction ? Fill::Perspective : Fill::Levels;
+    return correction * range > min_correction ? Fill::Perspective : Fill::Levels;
 }
 
 void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& list) {
@@ -228,12 +228,12 @@ void TriangleSetup::add_cut(std::span<const Corner> corners, TriangleList& list)
     // A little inside the limits of place(), so that rounding leaves no corner unplaced.
     constexpr double within = 1.0 - 1e-5;
     cut({0.0, 0.0, 1.0}, -static_cast<double>(projection_.near_m) * (2.0 - within));
-    const double x_most = static_cast<double>(projection_.most_by_w.x) * within;
-    const double y_most = static_cast<double>(projection_.most_by_w.y) * within;
-    cut({1.0, 0.0, x_most}, 0.0);
-    cut({-1.0, 0.0, x_most}, 0.0);
-    cut({0.0, 1.0, y_most}, 0.0);
-    cut({0.0, -1.0, y_most}, 0.0);
+    const double x_max = static_cast<double>(projection_.max_by_w.x) * within;
+    const double y_max = static_cast<double>(projection_.max_by_w.y) * within;
+    cut({1.0, 0.0, x_max}, 0.0);
+    cut({-1.0, 0.0, x_max}, 0.0);
+    cut({0.0, 1.0, y_max}, 0.0);
+    cut({0.0, -1.0, y_max}, 0.0);
     for (Corner& corner : polygon_) {
         place(projection_, corner.clip, corner.vertex);
         assert((corner.vertex.outside & unplaced) == 0);
@@ -263,9 +263,9 @@ void TriangleSetup::add_placed(
     const ScreenVertex& top = *order[0];
     const ScreenVertex& middle = *order[1];
     const ScreenVertex& bottom = *order[2];
-    const auto [least_x, most_x] = std::minmax({a.x, b.x, c.x});
-    const std::int32_t left = std::max(first_row_of(least_x - reach_), 0);
-    const std::int32_t right = std::min((most_x + reach_) >> 8, projection_.size_px.x - 1);
+    const auto [min_x, max_x] = std::minmax({a.x, b.x, c.x});
+    const std::int32_t left = std::max(first_row_of(min_x - reach_), 0);
+    const std::int32_t right = std::min((max_x + reach_) >> 8, projection_.size_px.x - 1);
     const std::int32_t first = std::max(first_row_of(top.y - reach_), 0);
     const std::int32_t last = std::min((bottom.y - 1 + reach_) >> 8, projection_.size_px.y - 1);
     const std::int64_t area = doubled_area(top, middle, bottom);

@@ -12,10 +12,10 @@ namespace octant::visuals::raster {
 
 namespace {
 
-constexpr float most_level = 255.0F;
+constexpr float max_level = 255.0F;
 /// Cosine between a line of sight and a polygon's normal above which its back is seen: a hundred
 /// times what rounding leaves open.
-constexpr float least_turn = 1e-5F;
+constexpr float min_turn = 1e-5F;
 
 glm::vec4 unpacked(std::uint32_t colour) {
     const auto byte = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xffU); };
@@ -35,14 +35,14 @@ Air air_before(const glm::vec3& place_m, const Light& light) {
     const float fallen = place_m.z * light.falloff_per_m;
     const float size = std::abs(fallen);
     float density = 1.0F - 0.5F * fallen;
-    if (size >= least_haze_fall) {
-        const float left = exp_of_minus(std::min(size, most_haze_fall));
+    if (size >= min_haze_fall) {
+        const float left = exp_of_minus(std::min(size, max_haze_fall));
         density = (1.0F - left) / (fallen > 0.0F ? size : size * left);
     }
     const float level_m = place_m.x * light.to_sun_level.x + place_m.y * light.to_sun_level.y;
     const float towards = std::max(level_m / std::max(distance_m, 1e-6F), 0.0F);
     return {
-        glm::mix(light.haze, light.sunward, towards * towards) * most_level,
+        glm::mix(light.haze, light.sunward, towards * towards) * max_level,
         1.0F - exp_of_minus(distance_m * light.per_m * density)};
 }
 
@@ -50,7 +50,7 @@ Air air_before(const glm::vec3& place_m, const Light& light) {
 glm::vec3 lit(const glm::vec3& levels, const glm::vec3& outwards, const Light& light) {
     const glm::vec3 sum =
         light.ambient + light.sunlight * std::max(glm::dot(outwards, light.to_sun), 0.0F);
-    return glm::min(levels * sum, glm::vec3(most_level));
+    return glm::min(levels * sum, glm::vec3(max_level));
 }
 
 /// The colour over which a tint lies, if its alpha says so; levels.
@@ -61,7 +61,7 @@ glm::vec3 tinted(std::uint32_t colour, std::uint32_t tint) {
     }
     const glm::vec4 over = unpacked(tint);
     return glm::mix(
-        glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / most_level);
+        glm::vec3(own.x, own.y, own.z), glm::vec3(over.x, over.y, over.z), over.w / max_level);
 }
 
 void set_three(const glm::vec3& from, std::span<float> to) {
@@ -110,7 +110,7 @@ void place_aircraft(
         set_three(coloured(vertex.colour, look.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
         to.flat[i].is_turned_away =
-            glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > least_turn * glm::length(at_m);
+            glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > min_turn * glm::length(at_m);
         set_three(
             coloured(vertex.face_colour, look.tints.flat, vertex.face_normal), to.flat[i].rgb);
         if (!to.lit.empty()) {

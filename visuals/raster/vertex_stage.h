@@ -26,8 +26,8 @@ struct Light {
 
 // Where the fall of the haze's density is looked at as a straight line, and where it ends; powers
 // of e.
-constexpr float least_haze_fall = 4e-3F;
-constexpr float most_haze_fall = 60.0F;
+constexpr float min_haze_fall = 4e-3F;
+constexpr float max_haze_fall = 60.0F;
 
 Light light_of(const scene::FramePlan& plan);
 

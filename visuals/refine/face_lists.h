@@ -157,8 +157,8 @@ private:
     /// The head of the list of free vertices, linked through Vertex::first.
     std::uint32_t free_vertices_ = no_corner;
     std::size_t face_count_ = 0;
-    std::size_t vertices_at_most_;
-    std::size_t faces_at_most_;
+    std::size_t vertices_at_max_;
+    std::size_t faces_at_max_;
 };
 
 } // namespace octant::visuals::refine

@@ -117,8 +117,8 @@ std::size_t Geomorphs::move(SelectiveRefiner& refiner, const RefineView& view) {
             const glm::dvec3 at_m(mixed(move.from, to, move.share).position_m);
             const auto way_m =
                 static_cast<double>(glm::distance(move.from.position_m, to.position_m));
-            const double most_m = step_m(at_m - eye_m, view, options_.step_px);
-            const double step = way_m > 0.0 ? std::min(most_m / way_m, 1.0 / options_.frames)
+            const double max_m = step_m(at_m - eye_m, view, options_.step_px);
+            const double step = way_m > 0.0 ? std::min(max_m / way_m, 1.0 / options_.frames)
                                             : 1.0 / options_.frames;
             move.share = std::min(1.0, move.share + step);
             ++moved;

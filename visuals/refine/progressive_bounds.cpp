@@ -34,14 +34,14 @@ void ProgressiveMesh::bound_all() {
     if (leaf_count() == 0) {
         return;
     }
-    glm::vec3 least_m = position_m(0);
-    glm::vec3 most_m = least_m;
+    glm::vec3 min_m = position_m(0);
+    glm::vec3 max_m = min_m;
     for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
-        least_m = glm::min(least_m, position_m(leaf));
-        most_m = glm::max(most_m, position_m(leaf));
+        min_m = glm::min(min_m, position_m(leaf));
+        max_m = glm::max(max_m, position_m(leaf));
     }
-    middle_m_ = parts_.origin_m + 0.5 * (glm::dvec3(least_m) + glm::dvec3(most_m));
-    half_diagonal_m_ = 0.5 * glm::distance(glm::dvec3(least_m), glm::dvec3(most_m));
+    middle_m_ = parts_.origin_m + 0.5 * (glm::dvec3(min_m) + glm::dvec3(max_m));
+    half_diagonal_m_ = 0.5 * glm::distance(glm::dvec3(min_m), glm::dvec3(max_m));
 }
 
 /// Bounds each leaf by its adjacent original faces: their corners by a sphere, their normals by a

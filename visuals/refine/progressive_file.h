@@ -26,6 +26,6 @@ void write_progressive(const std::filesystem::path& path, const ProgressiveMesh&
 /// is bounded by what the file holds, whatever counts it claims.
 ProgressiveMesh read_progressive(
     const std::filesystem::path& path,
-    std::size_t most_vertices = std::numeric_limits<std::size_t>::max());
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max());
 
 } // namespace octant::visuals::refine

@@ -45,12 +45,12 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
     : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
-    if (face_count() > most_faces || leaf_count() > most_leaves) {
+    if (face_count() > max_faces || leaf_count() > max_leaves) {
         throw Error(fmt::format(
             "{}: expected at most {} faces and {} vertices to refine, got {} and {}",
             parts_.name,
-            most_faces,
-            most_leaves,
+            max_faces,
+            max_leaves,
             face_count(),
             leaf_count()));
     }

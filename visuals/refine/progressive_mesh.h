@@ -36,7 +36,7 @@ struct NodeShape {
 class ProgressiveMesh {
 public:
     /// The parts must keep the promises stated at ProgressiveParts (asserted where that is cheap).
-    /// Throws Error for more faces than `most_faces` or more leaves than `most_leaves`.
+    /// Throws Error for more faces than `max_faces` or more leaves than `max_leaves`.
     explicit ProgressiveMesh(ProgressiveParts parts);
 
     /// Makes a hierarchy from a simplification. Positions that are floats already are kept bit for
@@ -46,8 +46,8 @@ public:
     explicit ProgressiveMesh(const models::CollapseSequence& sequence);
 
     /// A front numbers its corners in 24 bits.
-    static constexpr std::size_t most_faces = 5'592'400;
-    static constexpr std::size_t most_leaves = 16'777'000;
+    static constexpr std::size_t max_faces = 5'592'400;
+    static constexpr std::size_t max_leaves = 16'777'000;
 
     std::size_t leaf_count() const { return parts_.original_vertices.size(); }
 

@@ -47,7 +47,7 @@ public:
         }
     }
 
-    ProgressiveMesh read(std::size_t most_vertices) {
+    ProgressiveMesh read(std::size_t max_vertices) {
         read_mark();
         const auto head_block = next_block();
         if (!head_block) {
@@ -60,7 +60,7 @@ public:
         }
         read_base(*base_block);
         const std::size_t wanted = std::min<std::size_t>(
-            head_.splits, most_vertices - std::min<std::size_t>(most_vertices, head_.roots));
+            head_.splits, max_vertices - std::min<std::size_t>(max_vertices, head_.roots));
         const bool whole_splits = read_splits(wanted);
         if (whole_splits && wanted == head_.splits) {
             keep(tree_.is_whole(head_.leaves, head_.faces));
@@ -161,12 +161,12 @@ private:
             !std::isfinite(origin_m_.y) || !std::isfinite(origin_m_.z)) {
             refuse("expected a head, got numbers that do not fit together");
         }
-        if (head_.leaves > ProgressiveMesh::most_leaves ||
-            head_.faces > ProgressiveMesh::most_faces) {
+        if (head_.leaves > ProgressiveMesh::max_leaves ||
+            head_.faces > ProgressiveMesh::max_faces) {
             refuse(fmt::format(
                 "expected at most {} vertices and {} faces, got {} and {}",
-                ProgressiveMesh::most_leaves,
-                ProgressiveMesh::most_faces,
+                ProgressiveMesh::max_leaves,
+                ProgressiveMesh::max_faces,
                 head_.leaves,
                 head_.faces));
         }
@@ -292,8 +292,8 @@ private:
 
 } // namespace
 
-ProgressiveMesh read_progressive(const std::filesystem::path& path, std::size_t most_vertices) {
-    return ProgressiveReading(path).read(most_vertices);
+ProgressiveMesh read_progressive(const std::filesystem::path& path, std::size_t max_vertices) {
+    return ProgressiveReading(path).read(max_vertices);
 }
 
 } // namespace octant::visuals::refine

@@ -160,7 +160,7 @@ ProgressiveParts parts_of(const CollapseSequence& sequence) {
     parts.name = mesh.name;
     if (!all_floats(sequence)) {
         const models::Bounds bounds = models::bounds_of(mesh);
-        parts.origin_m = glm::dvec3(glm::vec3(0.5 * (bounds.least_m + bounds.most_m)));
+        parts.origin_m = glm::dvec3(glm::vec3(0.5 * (bounds.min_m + bounds.max_m)));
     }
     const std::vector<std::uint32_t> places = leaf_order(sequence);
     parts.original_vertices.resize(places.size());

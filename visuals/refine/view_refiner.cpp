@@ -49,13 +49,13 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
 
 void ViewRefiner::settle(const RefineView& view) {
     // Repair and merging could otherwise undo each other's work for ever.
-    constexpr int most_rounds = 100;
+    constexpr int max_rounds = 100;
     const ViewRefinerOptions kept = options_;
     options_.geomorphs = false;
     options_.operations = std::numeric_limits<std::size_t>::max();
     options_.rest_frames = 0;
     settled_ = false;
-    for (int round = 0; round < most_rounds && !update(view).settled; ++round) {
+    for (int round = 0; round < max_rounds && !update(view).settled; ++round) {
     }
     options_ = kept;
 }

@@ -82,13 +82,13 @@ std::vector<RoadPoint> level_of(
 }
 
 void measure(RoadPiece& piece) {
-    piece.least_m = glm::dvec2(std::numeric_limits<double>::infinity());
-    piece.most_m = -piece.least_m;
+    piece.min_m = glm::dvec2(std::numeric_limits<double>::infinity());
+    piece.max_m = -piece.min_m;
     for (const std::vector<RoadPoint>& level : piece.levels) {
         for (const RoadPoint& point : level) {
             const glm::dvec2 aside_m = glm::abs(point.left_m);
-            piece.least_m = glm::min(piece.least_m, point.at_m - aside_m);
-            piece.most_m = glm::max(piece.most_m, point.at_m + aside_m);
+            piece.min_m = glm::min(piece.min_m, point.at_m - aside_m);
+            piece.max_m = glm::max(piece.max_m, point.at_m + aside_m);
         }
     }
 }
@@ -133,11 +133,11 @@ enough_points(std::span<const glm::dvec2> line_m, double error_m, double apart_m
         const std::size_t first = kept.back();
         const std::size_t last = open.back();
         std::size_t farthest = last;
-        double most_m = error_m;
+        double max_m = error_m;
         for (std::size_t i = first + 1; i < last; ++i) {
             const double off_m = distance_from_stretch_m(line_m[i], line_m[first], line_m[last]);
-            if (off_m > most_m) {
-                most_m = off_m;
+            if (off_m > max_m) {
+                max_m = off_m;
                 farthest = i;
             }
         }

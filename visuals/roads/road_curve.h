@@ -29,8 +29,8 @@ inline constexpr std::array<double, level_error_m.size()> longest_stretch_m = {
 /// axes.
 struct RoadPiece {
     std::array<std::vector<RoadPoint>, level_error_m.size()> levels; ///< at least two points each
-    glm::dvec2 least_m{0.0};                                         ///< of its edges
-    glm::dvec2 most_m{0.0};
+    glm::dvec2 min_m{0.0};                                         ///< of its edges
+    glm::dvec2 max_m{0.0};
 };
 
 /// The middle line through these places, rounded like a road, its ends where they are. Where

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double usual_cell_m = 100.0;
 constexpr double widest_cell_m = 600.0;
-constexpr int most_cells = 512; ///< a side
-constexpr int least_cells = 12; ///< a side
+constexpr int max_cells = 512; ///< a side
+constexpr int min_cells = 12; ///< a side
 constexpr double valley_m = 1500.0;
-constexpr int least_looks = 8; ///< for water, along each side of a cell, if there are samples
+constexpr int min_looks = 8; ///< for water, along each side of a cell, if there are samples
 constexpr double clear_of_water_m = 0.5;
-constexpr double most_relief = 0.8; ///< of a cell that is no cliff, over its width
+constexpr double max_relief = 0.8; ///< of a cell that is no cliff, over its width
 // What doubles the cost of a road.
 constexpr double hard_climb = 0.08;
 constexpr double hard_slope = 0.18;
@@ -26,11 +26,11 @@ constexpr double hard_above_valley_m = 120.0;
 int stride_of(const terrain::GroundSamples& ground) {
     const int longest = std::max(ground.columns(), ground.rows()) - 1;
     const int by_width = static_cast<int>(std::ceil(usual_cell_m / ground.spacing_m()));
-    return std::max({by_width, (longest + most_cells - 1) / most_cells, 1});
+    return std::max({by_width, (longest + max_cells - 1) / max_cells, 1});
 }
 
 /// The least of each value and those up to `reach` places before and after it.
-void spread_least(const std::vector<double>& from, int reach, std::vector<double>& to) {
+void spread_min(const std::vector<double>& from, int reach, std::vector<double>& to) {
     const auto count = static_cast<int>(from.size());
     to.resize(from.size());
     for (int i = 0; i < count; ++i) {
@@ -46,7 +46,7 @@ RoadGround::RoadGround(const terrain::GroundSamples& ground, const RoadWish& wis
     const int stride = stride_of(ground);
     const glm::ivec2 cells = (glm::ivec2(ground.columns(), ground.rows()) - 1) / stride;
     cell_m_ = stride * ground.spacing_m();
-    if (cell_m_ > widest_cell_m || std::min(cells.x, cells.y) < least_cells) {
+    if (cell_m_ > widest_cell_m || std::min(cells.x, cells.y) < min_cells) {
         return;
     }
     columns_ = cells.x;
@@ -61,7 +61,7 @@ void RoadGround::read(const terrain::GroundSamples& ground, int stride, const Ro
     const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
     heights_m_.reserve(count);
     free_.reserve(count);
-    const int step = std::max(stride / least_looks, 1);
+    const int step = std::max(stride / min_looks, 1);
     for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
             double lowest_m = ground.height_m(column * stride, row * stride);
@@ -81,7 +81,7 @@ void RoadGround::read(const terrain::GroundSamples& ground, int stride, const Ro
             heights_m_.push_back(sum_m / seen);
             const bool is_dry = lowest_m > wish.water_m + clear_of_water_m;
             const bool is_taken = wish.is_taken && wish.is_taken(place_m(free_.size()));
-            const bool is_cliff = highest_m - lowest_m > most_relief * cell_m_;
+            const bool is_cliff = highest_m - lowest_m > max_relief * cell_m_;
             free_.push_back(is_dry && !is_cliff && !is_taken ? 1 : 0);
         }
     }
@@ -116,7 +116,7 @@ void RoadGround::find_valley_floors() {
             for (int j = 0; j < length; ++j) {
                 line.push_back(floors_m_[cell_of(i, j)]);
             }
-            spread_least(line, reach, least);
+            spread_min(line, reach, least);
             for (int j = 0; j < length; ++j) {
                 floors_m_[cell_of(i, j)] = least[static_cast<std::size_t>(j)];
             }

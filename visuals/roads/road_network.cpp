@@ -14,8 +14,8 @@ namespace octant::visuals::roads {
 
 namespace {
 
-constexpr double least_square_m = 150.0;
-constexpr double most_squares = 700.0; ///< a side
+constexpr double min_square_m = 150.0;
+constexpr double max_squares = 700.0; ///< a side
 
 /// Height between samples; those of the border beyond it.
 double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m) {
@@ -75,13 +75,13 @@ std::size_t RoadNetwork::square(int column, int row) const {
 }
 
 RoadNetwork::Squares
-RoadNetwork::squares(const glm::dvec2& least_m, const glm::dvec2& most_m) const {
+RoadNetwork::squares(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
     const glm::dvec2 end(counts_);
     const auto clamped = [&](const glm::dvec2& at_m) {
         return glm::ivec2(
             glm::clamp(glm::floor((at_m - first_m_) / square_m_), glm::dvec2(-1.0), end));
     };
-    return {glm::max(clamped(least_m), glm::ivec2(0)), glm::min(clamped(most_m), counts_ - 1)};
+    return {glm::max(clamped(min_m), glm::ivec2(0)), glm::min(clamped(max_m), counts_ - 1)};
 }
 
 /// The squares that a stretch of a piece may touch.
@@ -108,14 +108,14 @@ void RoadNetwork::add_places(
 }
 
 void RoadNetwork::index() {
-    glm::dvec2 most_m = pieces_.front().most_m;
-    first_m_ = pieces_.front().least_m;
+    glm::dvec2 max_m = pieces_.front().max_m;
+    first_m_ = pieces_.front().min_m;
     for (const RoadPiece& piece : pieces_) {
-        first_m_ = glm::min(first_m_, piece.least_m);
-        most_m = glm::max(most_m, piece.most_m);
+        first_m_ = glm::min(first_m_, piece.min_m);
+        max_m = glm::max(max_m, piece.max_m);
     }
-    const glm::dvec2 extent_m = most_m - first_m_;
-    square_m_ = std::max(least_square_m, std::max(extent_m.x, extent_m.y) / most_squares);
+    const glm::dvec2 extent_m = max_m - first_m_;
+    square_m_ = std::max(min_square_m, std::max(extent_m.x, extent_m.y) / max_squares);
     counts_ = glm::ivec2(glm::floor(extent_m / square_m_)) + 1;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> places; // square, piece
     for (std::uint32_t number = 0; number < pieces_.size(); ++number) {
@@ -148,11 +148,11 @@ void RoadNetwork::index() {
     }
 }
 
-bool RoadNetwork::may_meet(const glm::dvec2& least_m, const glm::dvec2& most_m) const {
+bool RoadNetwork::may_meet(const glm::dvec2& min_m, const glm::dvec2& max_m) const {
     if (pieces_.empty()) {
         return false;
     }
-    const Squares in = squares(least_m, most_m);
+    const Squares in = squares(min_m, max_m);
     if (in.first.x > in.last.x || in.first.y > in.last.y) {
         return false;
     }
@@ -166,13 +166,13 @@ bool RoadNetwork::may_meet(const glm::dvec2& least_m, const glm::dvec2& most_m) 
 }
 
 void RoadNetwork::pieces_by(
-    const glm::dvec2& least_m,
-    const glm::dvec2& most_m,
+    const glm::dvec2& min_m,
+    const glm::dvec2& max_m,
     std::vector<std::uint32_t>& numbers) const {
     if (pieces_.empty()) {
         return;
     }
-    const Squares in = squares(least_m, most_m);
+    const Squares in = squares(min_m, max_m);
     for (int row = in.first.y; row <= in.last.y; ++row) {
         for (int column = in.first.x; column <= in.last.x; ++column) {
             const std::size_t own = square(column, row);

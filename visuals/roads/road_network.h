@@ -24,12 +24,12 @@ public:
     std::span<const RoadPiece> pieces() const { return pieces_; }
 
     /// False only where no road touches this box.
-    bool may_meet(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
+    bool may_meet(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
 
     /// Appends numbers of the pieces that may touch this box, some of them more than once.
     void pieces_by(
-        const glm::dvec2& least_m,
-        const glm::dvec2& most_m,
+        const glm::dvec2& min_m,
+        const glm::dvec2& max_m,
         std::vector<std::uint32_t>& numbers) const;
 
     /// Whether a road's middle line is nearer than so much.
@@ -49,7 +49,7 @@ private:
         const RoadPoint& to,
         std::uint32_t number,
         std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const;
-    Squares squares(const glm::dvec2& least_m, const glm::dvec2& most_m) const;
+    Squares squares(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
     std::size_t square(int column, int row) const;
 
     std::vector<RoadPiece> pieces_;

@@ -19,12 +19,12 @@ namespace octant::visuals::roads {
 
 namespace {
 
-constexpr double least_block_m = 4000.0;
-constexpr int most_blocks = 20; ///< a side
-constexpr double most_town_slope = 0.1;
-constexpr double most_town_above_m = 90.0;
-constexpr double most_climb = 0.25;     ///< from one cell of a road to the next
-constexpr double most_mean_cost = 9.0;  ///< of a road, over that of one on even ground
+constexpr double min_block_m = 4000.0;
+constexpr int max_blocks = 20; ///< a side
+constexpr double max_town_slope = 0.1;
+constexpr double max_town_above_m = 90.0;
+constexpr double max_climb = 0.25;     ///< from one cell of a road to the next
+constexpr double max_mean_cost = 9.0;  ///< of a road, over that of one on even ground
 constexpr double long_way_around = 2.2; ///< over the way by a road of its own
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 constexpr double endless = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ void for_each_next(const RoadGround& ground, std::size_t cell, const Visit& visi
                             ground.is_free(ground.cell(next.x - half.x, next.y - half.y))));
         const double climb_m = std::abs(ground.height_m(to) - ground.height_m(cell));
         const double length_m = glm::distance(ground.place_m(cell), ground.place_m(to));
-        if (is_free && climb_m <= most_climb * length_m) {
+        if (is_free && climb_m <= max_climb * length_m) {
             visit(to);
         }
     }
@@ -205,7 +205,7 @@ routes_of_links(const RoadGround& ground, const WaysHome& ways, std::size_t town
             continue;
         }
         Route cells = cells_of(link, ways);
-        if (link.cost_m > most_mean_cost * length_m(ground, cells)) {
+        if (link.cost_m > max_mean_cost * length_m(ground, cells)) {
             continue;
         }
         built[link.towns[0]].emplace_back(link.towns[1], link.cost_m);
@@ -253,17 +253,17 @@ std::vector<std::size_t> road_towns(const RoadGround& ground, const RoadWish& wi
         return {};
     }
     const double extent_m = ground.cell_m() * std::max(ground.columns(), ground.rows());
-    const double block_m = std::max(least_block_m, extent_m / most_blocks);
+    const double block_m = std::max(min_block_m, extent_m / max_blocks);
     const int block = std::max(static_cast<int>(block_m / ground.cell_m()), 2);
     const auto lives = [&](std::size_t cell) {
-        return ground.is_free(cell) && ground.slope(cell) <= most_town_slope &&
-               ground.above_valley_m(cell) <= most_town_above_m &&
+        return ground.is_free(cell) && ground.slope(cell) <= max_town_slope &&
+               ground.above_valley_m(cell) <= max_town_above_m &&
                ground.height_m(cell) <= wish.water_m + wish.highest_town_m;
     };
     const auto dislike = [&](std::size_t cell) {
         const double dice = scrambled(static_cast<std::uint32_t>(cell)) * 0x1p-32;
-        return ground.slope(cell) / most_town_slope +
-               ground.above_valley_m(cell) / most_town_above_m + 0.3 * dice;
+        return ground.slope(cell) / max_town_slope +
+               ground.above_valley_m(cell) / max_town_above_m + 0.3 * dice;
     };
     std::vector<std::size_t> towns;
     for (int south = 0; south < ground.rows(); south += block) {

@@ -16,8 +16,8 @@ namespace {
 constexpr double border_width = 0.6;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_kept = 0.45;
-constexpr double least_mean = 1e-3;
-constexpr double most_share = 511.0 / 512.0;
+constexpr double min_mean = 1e-3;
+constexpr double max_share = 511.0 / 512.0;
 
 /// The pattern in the middle of an entry, in its standard deviations.
 double deviations_at(int pattern) {
@@ -81,8 +81,8 @@ Shares shares_of_mixture(const Mixture& mixture) {
         mean += weight * shown;
         whole += weight;
     }
-    mean = glm::max(mean / whole, glm::dvec3(least_mean));
-    double most = most_share;
+    mean = glm::max(mean / whole, glm::dvec3(min_mean));
+    double most = max_share;
     for (glm::dvec3& share : shares) {
         share = share / mean - 1.0;
         const glm::dvec3 grey((share.x + share.y + share.z) / 3.0);
@@ -91,7 +91,7 @@ Shares shares_of_mixture(const Mixture& mixture) {
     }
     // Less contrast rather than another mean.
     for (glm::dvec3& share : shares) {
-        share *= most_share / most;
+        share *= max_share / most;
     }
     return shares;
 }

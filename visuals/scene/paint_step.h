@@ -33,8 +33,8 @@ struct PixelBox {
 /// Planes that a draw is cut by: what lies in front of all of them is drawn. World axes with the
 /// eye subtracted; xyz = normal, w = offset.
 struct Clip {
-    static constexpr int most_planes = 8;
-    std::array<glm::vec4, most_planes> planes{};
+    static constexpr int max_planes = 8;
+    std::array<glm::vec4, max_planes> planes{};
     int count = 0;
 };
 

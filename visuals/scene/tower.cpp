@@ -18,7 +18,7 @@ namespace {
 /// widens for the skyline, and at the least where the lens must stay wide for the ground.
 constexpr double close_share = 0.5;
 constexpr double wide_share = 0.14;
-constexpr double least_share = 0.18;
+constexpr double min_share = 0.18;
 constexpr double widest_fov_rad = rad_from_deg(55.0);
 /// How far from the picture's middle, in heights, the aircraft may stand, and the skyline.
 constexpr double aircraft_off = 0.28;
@@ -60,13 +60,13 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     const double fov_rad = glm::mix(close_rad, std::clamp(wanted_rad, close_rad, wide_rad), reach);
     Camera camera = camera_looking_at(tower.eye_m, aircraft_m);
     // Where no ground is in the picture its samples do not hold the lens wide.
-    const double known_rad = fov_for_share(radius_m, distance_m, least_share);
+    const double known_rad = fov_for_share(radius_m, distance_m, min_share);
     const double lens_rad = std::min(narrowest_fov_rad, known_rad);
-    const double ground_rad = std::min(tower.least_fov_rad, known_rad);
+    const double ground_rad = std::min(tower.min_fov_rad, known_rad);
     const double without_ground = glm::smoothstep(aircraft_off + 0.5, 1.1, above_rad / ground_rad);
     camera.vertical_fov_rad = std::max(fov_rad, glm::mix(ground_rad, lens_rad, without_ground));
-    const double most_rad = aircraft_off * camera.vertical_fov_rad;
-    const double tilt_rad = reach * std::clamp(0.5 * above_rad, -most_rad, most_rad);
+    const double max_rad = aircraft_off * camera.vertical_fov_rad;
+    const double tilt_rad = reach * std::clamp(0.5 * above_rad, -max_rad, max_rad);
     camera.view_to_world =
         glm::normalize(camera.view_to_world * glm::angleAxis(-tilt_rad, glm::dvec3(1.0, 0.0, 0.0)));
     return camera;

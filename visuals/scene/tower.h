@@ -21,7 +21,7 @@ struct Tower {
     /// Elevation of the skyline at even steps of heading from north; empty: level all around.
     std::vector<float> skyline_rad;
     /// A narrower field of view would show single samples of the ground.
-    double least_fov_rad = narrowest_fov_rad;
+    double min_fov_rad = narrowest_fov_rad;
 };
 
 /// Elevation of the skyline at a heading, radians.

@@ -47,7 +47,7 @@ constexpr double fine_walk = 1.03;
 constexpr std::array sideways_radii = {7.0, 14.0, 28.0, 56.0, 112.0, 224.0};
 constexpr std::array heights_m = {20.0, 40.0, 90.0};
 /// The most places of the flight beside which spots are looked for.
-constexpr std::size_t most_stations = 24;
+constexpr std::size_t max_stations = 24;
 /// The number of looks at the flight by which all spots are compared.
 constexpr std::size_t coarse_looks = 32;
 /// The number of spots that are then compared finely.
@@ -176,7 +176,7 @@ double score(
 /// Spots on the ground beside the flight, each at every height.
 std::vector<glm::dvec3> spots_for(const TowerWish& wish, const GroundHeight& ground) {
     std::vector<glm::dvec3> spots;
-    const std::size_t stride = stride_for(wish.flight.size(), most_stations);
+    const std::size_t stride = stride_for(wish.flight.size(), max_stations);
     for (std::size_t i = 0; i < wish.flight.size(); i += stride) {
         const sim::AircraftState& state = wish.flight[i];
         const glm::dvec2 course(state.velocity_mps);

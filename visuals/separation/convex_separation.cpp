@@ -28,18 +28,18 @@ namespace {
 
 /// These are n.x, n.y, n.z, d, t, and y_0, which is subtracted from all of them.
 constexpr std::size_t unknowns = 6;
-constexpr double least_air = 1e-9; ///< The margin that is enough.
+constexpr double min_air = 1e-9; ///< The margin that is enough.
 constexpr double rounding = 1e-10;
 constexpr double slack_tolerance = 1e-13;
-constexpr int most_steps = 400; ///< A programme that takes more steps counts as unsolved.
+constexpr int max_steps = 400; ///< A programme that takes more steps counts as unsolved.
 
 /// A dictionary of the simplex method: slack = bound - sum of factors * unknowns for every row, and
 /// value = sum of gain * unknowns. Four rows lie side by side, so that they are worked on at once.
 class Dictionary {
 public:
-    explicit Dictionary(std::size_t most_rows) {
-        fours_.reserve((most_rows + lanes - 1) / lanes);
-        row_name_.reserve(most_rows);
+    explicit Dictionary(std::size_t max_rows) {
+        fours_.reserve((max_rows + lanes - 1) / lanes);
+        row_name_.reserve(max_rows);
         gain_ = {0, 0, 0, 0, 1, -1};
         for (std::size_t i = 0; i < unknowns; ++i) {
             column_name_.at(i) = i;
@@ -63,7 +63,7 @@ public:
 
     /// Climbs until the value exceeds a limit. Returns false when it cannot.
     bool exceeds(double limit) {
-        for (int step = 0; step < most_steps && value_ <= limit; ++step) {
+        for (int step = 0; step < max_steps && value_ <= limit; ++step) {
             const std::size_t enter = entering();
             if (gain_.at(enter) <= rounding) {
                 return false;
@@ -199,7 +199,7 @@ bool separable(
     for (const glm::dvec4& eye : eyes) {
         programme.add({eye.x, eye.y, eye.z}, -eye.w, 0.0, 0.0);
     }
-    if (!programme.exceeds(least_air)) {
+    if (!programme.exceeds(min_air)) {
         return false;
     }
     const glm::dvec4 plane = programme.plane();

@@ -11,7 +11,7 @@ namespace octant::visuals::separation {
 namespace {
 
 constexpr double tolerance = 1e-9;
-constexpr int most_iterations = 10000;
+constexpr int max_iterations = 10000;
 constexpr int optimal = 0;
 constexpr int no_perturbation = 100;
 /// CLP's own scaling suits programmes of unequal factors. With factors of about 1 it ends in
@@ -27,7 +27,7 @@ ClpSimplex fresh_solver() {
     solver.setOptimizationDirection(maximise);
     solver.setPrimalTolerance(tolerance);
     solver.setDualTolerance(tolerance);
-    solver.setMaximumIterations(most_iterations);
+    solver.setMaximumIterations(max_iterations);
     solver.scaling(no_scaling);
     solver.setPerturbation(no_perturbation);
     return solver;
@@ -47,8 +47,8 @@ struct Columns {
     std::vector<double> weights;
     std::vector<double> least;
     std::vector<double> most;
-    std::vector<double> row_least;
-    std::vector<double> row_most;
+    std::vector<double> row_min;
+    std::vector<double> row_max;
 };
 
 Columns columns_of(const LinearProgramme& programme) {
@@ -68,8 +68,8 @@ Columns columns_of(const LinearProgramme& programme) {
         columns.starts.push_back(static_cast<CoinBigIndex>(columns.rows.size()));
     }
     for (const LinearProgramme::Row& row : programme.rows) {
-        columns.row_least.push_back(clp_bound(row.least));
-        columns.row_most.push_back(clp_bound(row.most));
+        columns.row_min.push_back(clp_bound(row.least));
+        columns.row_max.push_back(clp_bound(row.most));
     }
     return columns;
 }
@@ -77,15 +77,15 @@ Columns columns_of(const LinearProgramme& programme) {
 void load(ClpSimplex& solver, const Columns& columns) {
     solver.loadProblem(
         static_cast<int>(columns.weights.size()),
-        static_cast<int>(columns.row_least.size()),
+        static_cast<int>(columns.row_min.size()),
         columns.starts.data(),
         columns.rows.data(),
         columns.factors.data(),
         columns.least.data(),
         columns.most.data(),
         columns.weights.data(),
-        columns.row_least.data(),
-        columns.row_most.data());
+        columns.row_min.data(),
+        columns.row_max.data());
 }
 
 } // namespace

@@ -40,8 +40,8 @@ public:
 
     std::vector<double> shares() {
         // Far more steps than are ever needed: a circle would end here.
-        const std::size_t most_steps = 8 * (choices_ + cases_) + 32;
-        for (std::size_t step = 0; step < most_steps; ++step) {
+        const std::size_t max_steps = 8 * (choices_ + cases_) + 32;
+        for (std::size_t step = 0; step < max_steps; ++step) {
             const std::size_t column = entering();
             if (column == cases_) {
                 break;

@@ -22,7 +22,7 @@ namespace octant::visuals::separation {
 namespace {
 
 /// A sum of unit normals below this is no direction: the region has no interior.
-constexpr double least_normal = 1e-9;
+constexpr double min_normal = 1e-9;
 
 constexpr double redundancy_tolerance = 1e-9;
 
@@ -100,7 +100,7 @@ Certificate separated(
     }
     const Plane sum = sum_of(planes, *factors);
     const double length = glm::length(sum.normal);
-    const bool no_inside = length < least_normal && sum.offset_m < least_normal;
+    const bool no_inside = length < min_normal && sum.offset_m < min_normal;
     const bool good = no_inside || parts(sum, check_tolerance * length, near_one, far_one);
     return good ? Certificate::LinearProgramme : Certificate::None;
 }

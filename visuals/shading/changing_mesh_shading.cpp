@@ -23,7 +23,7 @@ namespace {
 /// The key of an empty place; it is never chosen, because there are at least as many triangles as
 /// smooth ones.
 constexpr std::uint32_t no_triangle = 0;
-constexpr std::uint32_t least_key = 1; ///< The least key of a place that has a triangle.
+constexpr std::uint32_t min_key = 1; ///< The least key of a place that has a triangle.
 
 } // namespace
 
@@ -70,7 +70,7 @@ std::uint32_t ChangingMeshSelector::by_error(
     const float in_front_m3 = glm::dot(doubled_m2, to_eye_m);
     const float size_m2 = glm::length(doubled_m2);
     if (!(in_front_m3 > 0.0F) || !(size_m2 > 0.0F)) {
-        return least_key;
+        return min_key;
     }
     const float colour_sum = (a.colour_sum + b.colour_sum + c.colour_sum) / 3.0F;
     const ShadingLight& light = look_.light;
@@ -93,7 +93,7 @@ std::uint32_t ChangingMeshSelector::by_paper(const ChangingMesh& mesh, std::size
         std::minmax({intensities_[corners[0]], intensities_[corners[1]], intensities_[corners[2]]});
     const bool differs = hold_of(place) * (most - least) > settings_.threshold;
     const bool is_large = perimeters_m_[place] > mean_perimeter_m_;
-    return std::max(key_of(differs ? (is_large ? 2U : 1U) : 0U, perimeters_m_[place]), least_key);
+    return std::max(key_of(differs ? (is_large ? 2U : 1U) : 0U, perimeters_m_[place]), min_key);
 }
 
 void ChangingMeshSelector::measure_perimeters(const ChangingMesh& mesh) {

@@ -39,14 +39,14 @@ double outside_m(
     const models::polygons::PolygonModel& model, std::size_t polygon, const glm::dvec3& point_m) {
     const glm::dvec3 normal = models::polygons::normal_of(model, polygon);
     const auto corners = model.corners(polygon);
-    double most_m = std::abs(distance_m(models::polygons::plane_of(model, polygon), point_m));
+    double max_m = std::abs(distance_m(models::polygons::plane_of(model, polygon), point_m));
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3& here_m = model.vertices_m[corners[i]];
         const glm::dvec3& next_m = model.vertices_m[corners[(i + 1) % corners.size()]];
         const glm::dvec3 outwards = glm::normalize(glm::cross(next_m - here_m, normal));
-        most_m = std::max(most_m, glm::dot(outwards, point_m - here_m));
+        max_m = std::max(max_m, glm::dot(outwards, point_m - here_m));
     }
-    return most_m;
+    return max_m;
 }
 
 /// The index of that candidate polygon of `whole` in which a point lies, or which is nearest to it.
@@ -56,11 +56,11 @@ std::size_t polygon_around(
     std::span<const std::size_t> candidates,
     const glm::dvec3& point_m) {
     std::size_t best = candidates.front();
-    double least_m = std::numeric_limits<double>::max();
+    double min_m = std::numeric_limits<double>::max();
     for (const std::size_t candidate : candidates) {
         const double outside = outside_m(whole, candidate, point_m);
-        if (outside < least_m) {
-            least_m = outside;
+        if (outside < min_m) {
+            min_m = outside;
             best = candidate;
         }
     }

@@ -86,13 +86,13 @@ void enclose(ShadedPolygons& shaded) {
     if (shaded.points.empty()) {
         return;
     }
-    glm::vec3 least_m(std::numeric_limits<float>::max());
-    glm::vec3 most_m = -least_m;
+    glm::vec3 min_m(std::numeric_limits<float>::max());
+    glm::vec3 max_m = -min_m;
     for (const LitPoint& point : shaded.points) {
-        least_m = glm::min(least_m, point.place_m);
-        most_m = glm::max(most_m, point.place_m);
+        min_m = glm::min(min_m, point.place_m);
+        max_m = glm::max(max_m, point.place_m);
     }
-    shaded.centre_m = 0.5F * (least_m + most_m);
+    shaded.centre_m = 0.5F * (min_m + max_m);
     for (const LitPoint& point : shaded.points) {
         shaded.radius_m = std::max(shaded.radius_m, glm::distance(point.place_m, shaded.centre_m));
     }

@@ -112,14 +112,14 @@ public:
         }
     }
 
-    /// The normal of one corner (by its index among those looked at). `least_cosine` is the cosine
+    /// The normal of one corner (by its index among those looked at). `min_cosine` is the cosine
     /// of the crease angle.
-    glm::vec3 normal_at(std::uint32_t start, double least_cosine) {
+    glm::vec3 normal_at(std::uint32_t start, double min_cosine) {
         const Face& own = face(start);
         if (own.normal == glm::dvec3(0.0)) {
             return glm::vec3(0.0F, 0.0F, 1.0F);
         }
-        reach(start, least_cosine);
+        reach(start, min_cosine);
         // Summed in the order of corners, so that corners with the same faces get the same bits.
         glm::dvec3 sum(0.0);
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
@@ -153,7 +153,7 @@ private:
     }
 
     /// Marks the corners that share a smooth surface with `start`.
-    void reach(std::uint32_t start, double least_cosine) {
+    void reach(std::uint32_t start, double min_cosine) {
         reached_.assign(corners_.size(), 0);
         reached_[start] = 1;
         waiting_.assign(1, start);
@@ -163,7 +163,7 @@ private:
             for (const std::uint32_t to : neighbours_[from]) {
                 if (reached_[to] == 0 && face(to).turns_with == face(start).turns_with &&
                     face(to).normal != glm::dvec3(0.0) &&
-                    glm::dot(face(to).normal, face(start).normal) >= least_cosine) {
+                    glm::dot(face(to).normal, face(start).normal) >= min_cosine) {
                     reached_[to] = 1;
                     waiting_.push_back(to);
                 }

@@ -15,10 +15,10 @@ void BoxReach::look(const glm::dvec3& ahead, double corner_cos) {
     level_ = static_cast<float>(level);
     corner_cos_squared_ = static_cast<float>(corner_cos * corner_cos);
     const double corner = std::sqrt(1.0 - corner_cos * corner_cos) / corner_cos;
-    const double most_aside = std::abs(ahead.z) * corner;
-    most_aside_squared_ = static_cast<float>(most_aside * most_aside);
-    const double most_across = level + most_aside;
-    near_factor_ = static_cast<float>(1.0 / (most_across * most_across));
+    const double max_aside = std::abs(ahead.z) * corner;
+    max_aside_squared_ = static_cast<float>(max_aside * max_aside);
+    const double max_across = level + max_aside;
+    near_factor_ = static_cast<float>(1.0 / (max_across * max_across));
 }
 
 } // namespace octant::visuals::terrain

@@ -45,12 +45,12 @@ private:
 
     /// The ends of what boxes reach along a direction.
     struct Range {
-        FourFloats least_m;
-        FourFloats most_m;
+        FourFloats min_m;
+        FourFloats max_m;
     };
 
     static Range range_along(const FourBoxes& boxes, const Along& along);
-    FourFloats least_share(const FourBoxes& boxes, const Range& level) const;
+    FourFloats min_share(const FourBoxes& boxes, const Range& level) const;
 
     double spacing_m_;
     float spacing_squared_m2_;
@@ -59,7 +59,7 @@ private:
     Along aside_;        ///< Square to it, times the sine of the pitch.
     float level_ = 1.0F; ///< The cosine of the pitch.
     float corner_cos_squared_ = 1.0F;
-    float most_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
+    float max_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
     float near_factor_ = 1.0F;
 };
 
@@ -72,29 +72,29 @@ inline FourFloats squared_distance(FourFloats before, FourFloats after) {
 
 /// A linear function at `before` where it rises and at `after` where it falls: its least over what
 /// reaches from `before` to `after`, and its most with the ends exchanged.
-inline FourFloats least_along(FourFloats before, FourFloats after, float slope) {
+inline FourFloats min_along(FourFloats before, FourFloats after, float slope) {
     return four(slope) * (slope > 0.0F ? before : after);
 }
 
 inline BoxReach::Range BoxReach::range_along(const FourBoxes& b, const Along& along) {
     return {
-        least_along(b.west, b.east, along.east_m) + least_along(b.south, b.north, along.north_m),
-        least_along(b.east, b.west, along.east_m) + least_along(b.north, b.south, along.north_m)};
+        min_along(b.west, b.east, along.east_m) + min_along(b.south, b.north, along.north_m),
+        min_along(b.east, b.west, along.east_m) + min_along(b.north, b.south, along.north_m)};
 }
 
 /// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a
 /// picture may show.
-inline FourFloats BoxReach::least_share(const FourBoxes& b, const Range& level) const {
+inline FourFloats BoxReach::min_share(const FourBoxes& b, const Range& level) const {
     constexpr float no_way_m = 1e-6F; // in place of a division by zero
     // Only a picture that shows what lies straight below or above the eye shows what lies behind
     // it; sums up to this count, because of rounding.
     constexpr float sees_under = 1.0001F;
-    const FourFloats worst_m = b.ahead_m < four(0.0F) ? level.least_m : level.most_m;
+    const FourFloats worst_m = b.ahead_m < four(0.0F) ? level.min_m : level.max_m;
     const FourFloats before = four(1.0F) + b.ahead_m / larger(worst_m, four(no_way_m));
     FourFloats share = before;
     if (level_ * level_ + corner_cos_squared_ < sees_under) {
-        const FourFloats behind = b.ahead_m / larger(-level.least_m, four(no_way_m)) - four(1.0F);
-        share = level.least_m < four(0.0F) ? smaller(before, behind) : before;
+        const FourFloats behind = b.ahead_m / larger(-level.min_m, four(no_way_m)) - four(1.0F);
+        share = level.min_m < four(0.0F) ? smaller(before, behind) : before;
     }
     return four(level_) * larger(share, four(0.0F));
 }
@@ -109,13 +109,13 @@ inline FourFloats BoxReach::squared_m2(const FourBoxes& b) const {
         return distance_m2;
     }
     const Range level = range_along(b, ahead_);
-    const FourFloats depth_m = larger(level.least_m + b.ahead_m, four(0.0F));
+    const FourFloats depth_m = larger(level.min_m + b.ahead_m, four(0.0F));
     const FourFloats depth_m2 = larger(depth_m * depth_m, four(corner_cos_squared_) * distance_m2);
     const Range aside = range_along(b, aside_);
-    const FourFloats aside_m2 = larger(aside.least_m * aside.least_m, aside.most_m * aside.most_m);
-    const FourFloats share = least_share(b, level);
+    const FourFloats aside_m2 = larger(aside.min_m * aside.min_m, aside.max_m * aside.max_m);
+    const FourFloats share = min_share(b, level);
     const FourFloats across =
-        four(1.0F) / (share * share) + smaller(aside_m2 / depth_m2, four(most_aside_squared_));
+        four(1.0F) / (share * share) + smaller(aside_m2 / depth_m2, four(max_aside_squared_));
     return depth_m2 * larger(four(1.0F) / across, four(near_factor_));
 }
 

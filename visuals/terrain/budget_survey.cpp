@@ -45,8 +45,8 @@ float BudgetSurvey::limit_for(const SplitRule& rule, const TriangleBudget& budge
         last,
         first_look};
     const float found =
-        limit_within(search, steps_, [&](float low, float high, int most_triangles) {
-            return survey(low, high, most_triangles);
+        limit_within(search, steps_, [&](float low, float high, int max_triangles) {
+            return survey(low, high, max_triangles);
         });
     last_resolution_ = rule.resolution_of(found);
     return found;
@@ -54,11 +54,11 @@ float BudgetSurvey::limit_for(const SplitRule& rule, const TriangleBudget& budge
 
 /// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above
 /// it.
-bool BudgetSurvey::survey(float low, float high, int most_triangles) {
+bool BudgetSurvey::survey(float low, float high, int max_triangles) {
     nodes_.clear();
     steps_.start(low, high);
     high_ = high;
-    most_triangles_ = most_triangles;
+    max_triangles_ = max_triangles;
     more_above_ = false;
     Visit root;
     root.planes = planes_of(rule_->view().frustum_normals);
@@ -68,7 +68,7 @@ bool BudgetSurvey::survey(float low, float high, int most_triangles) {
 
 /// Surveys a node and the nodes below it.
 void BudgetSurvey::visit(const Visit& from) {
-    if (steps_.at_high() > most_triangles_) {
+    if (steps_.at_high() > max_triangles_) {
         return;
     }
     SurveyedNode node;

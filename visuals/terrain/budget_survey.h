@@ -57,7 +57,7 @@ private:
         int replaced = 0; ///< How many triangles of its parent it replaces.
     };
 
-    bool survey(float low, float high, int most_triangles);
+    bool survey(float low, float high, int max_triangles);
     void visit(const Visit& from);
     void test_quadrants(const Visit& from, SurveyedNode& node, std::array<unsigned, 4>& planes);
     Visit below(const Visit& from, const SurveyedNode& node, unsigned quadrant) const;
@@ -68,7 +68,7 @@ private:
     std::vector<SurveyedNode> nodes_;
     StepCount steps_;
     float high_ = 0.0F;
-    int most_triangles_ = 0;  ///< A walk stops once it has counted more.
+    int max_triangles_ = 0;  ///< A walk stops once it has counted more.
     bool more_above_ = false; ///< Something visible appears only above the limits looked at.
     int nodes_tested_ = 0;
     double last_resolution_ = 0.0; ///< 0 before the first call.

@@ -55,7 +55,7 @@ constexpr double step_width = 1.001;
 /// smooth curve does.
 constexpr double step_steepness = 4.0;
 /// C changes at most by this factor in a frame while points lie on one side of the target only.
-constexpr double most_change = 2.0;
+constexpr double max_change = 2.0;
 constexpr double smallest_exponent = 0.25; ///< The least exponent p that is believed then.
 
 /// `state` with the last mesh added to the points of its view.
@@ -109,15 +109,15 @@ double read_beyond(const CountAt& before, const CountAt& nearest, double target)
     const double ratio = std::pow(
         target / std::max(nearest.triangles, 1.0),
         1.0 / std::clamp(exponent, smallest_exponent, 1.0));
-    return nearest.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+    return nearest.resolution * std::clamp(ratio, 1.0 / max_change, max_change);
 }
 
 /// p of N ~ C^p with what another mesh of the same view tells about it.
 double tuned_exponent(const DetailState& state, double triangles) {
-    constexpr double least_change = 1e-4; // of C; less tells of single steps only
+    constexpr double min_change = 1e-4; // of C; less tells of single steps only
     constexpr double trust = 0.3;
     const double change = std::log(state.resolution / state.last.resolution);
-    if (std::abs(change) < least_change || triangles < 1.0 || state.last.triangles < 1.0) {
+    if (std::abs(change) < min_change || triangles < 1.0 || state.last.triangles < 1.0) {
         return state.exponent;
     }
     const double seen = std::log(triangles / state.last.triangles) / change;
@@ -134,7 +134,7 @@ double tuned_resolution(const DetailState& state, double target, double triangle
     }
     if (!is_enclosed(state)) {
         const double ratio = std::pow(target / std::max(triangles, 1.0), 1.0 / state.exponent);
-        return state.resolution * std::clamp(ratio, 1.0 / most_change, most_change);
+        return state.resolution * std::clamp(ratio, 1.0 / max_change, max_change);
     }
     const double rise = std::log(state.above.triangles / std::max(state.below.triangles, 1.0));
     const double share = state.standing_frames % tuned_meshes == 0 || rise <= 0.0

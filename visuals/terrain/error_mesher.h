@@ -58,7 +58,7 @@ public:
     void measure_boxes() const;
 
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
-    using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
+    using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
     /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
     /// which `wanted` accepts the box around all of their triangles as drawn, and also accepts

@@ -15,40 +15,40 @@ namespace octant::visuals::terrain {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float least_limit = 1e-30F; ///< Below every critical value but the root's.
+constexpr float min_limit = 1e-30F; ///< Below every critical value but the root's.
 /// The error that is tried first when there is no last frame.
 constexpr double first_look_px = 4.0;
 
 } // namespace
 
 double room_share(const ErrorTarget& target) {
-    const bool has_budget = target.most_triangles < any_triangles;
+    const bool has_budget = target.max_triangles < any_triangles;
     const double share =
         target.error_px / full_room_px * std::max(target.error_px / near_room_px, 1.0);
     return has_budget ? 1.0 : std::min(share, 1.0);
 }
 
 float ErrorSurvey::limit_for(const ErrorTarget& target) {
-    assert(target.error_px >= 0.0 && target.most_triangles >= 1);
+    assert(target.error_px >= 0.0 && target.max_triangles >= 1);
     nodes_tested_ = 0;
     geomorphs_ = target.geomorphs;
-    const float most = std::max(rule_->limit_of(target.error_px), least_limit);
-    if (target.most_triangles >= any_triangles) {
+    const float most = std::max(rule_->limit_of(target.error_px), min_limit);
+    if (target.max_triangles >= any_triangles) {
         start(most);
         visit<false>(root_visit());
         return most;
     }
     const LimitSearch search{
-        target.most_triangles,
-        least_limit,
+        target.max_triangles,
+        min_limit,
         most,
         last_error_px_ > 0.0 ? rule_->limit_of(last_error_px_) : 0.0F,
         rule_->limit_of(first_look_px)};
     const float found =
-        limit_within(search, steps_, [&](float low, float high, int most_triangles) {
+        limit_within(search, steps_, [&](float low, float high, int max_triangles) {
             start(high);
             steps_.start(low, high);
-            most_triangles_ = most_triangles;
+            max_triangles_ = max_triangles;
             visit<true>(root_visit());
             return more_above_;
         });
@@ -86,7 +86,7 @@ inline std::size_t ErrorSurvey::next_node() {
 template <bool counting>
 std::uint32_t ErrorSurvey::visit(const Visit& from) {
     const std::size_t own = next_node();
-    if (counting && steps_.at_high() > most_triangles_) {
+    if (counting && steps_.at_high() > max_triangles_) {
         return static_cast<std::uint32_t>(own);
     }
     const FanCriticals criticals = rule_->criticals_of(from.place);

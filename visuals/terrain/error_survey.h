@@ -20,7 +20,7 @@ struct ErrorTarget {
     double error_px = 1.0;
     /// A larger error is allowed where this number would be exceeded; with any_triangles it never
     /// is.
-    int most_triangles = 32000;
+    int max_triangles = 32000;
     bool geomorphs = true;
 
     bool operator==(const ErrorTarget&) const = default;
@@ -116,7 +116,7 @@ private:
     /// Whether vertices of a quadrant's triangles may be drawn as far from their samples as the
     /// error of the parent's centre, which all those that move need.
     bool geomorphs_ = false;
-    int most_triangles_ = 0;  ///< A walk stops once it has counted more.
+    int max_triangles_ = 0;  ///< A walk stops once it has counted more.
     bool more_above_ = false; ///< Something visible appears only above high_.
     int nodes_tested_ = 0;
     double last_error_px_ = 0.0; ///< 0 before the first call.

@@ -41,9 +41,9 @@ std::size_t tiles_of(const GroundLayout::Level& level) {
 } // namespace
 
 GroundShape shape_of(int columns, int rows, double spacing_m, double lowest_m, double highest_m) {
-    constexpr double most_units = 65000.0;
+    constexpr double max_units = 65000.0;
     double unit_m = 0x1p-12;
-    while (highest_m - lowest_m > most_units * unit_m) {
+    while (highest_m - lowest_m > max_units * unit_m) {
         unit_m *= 2.0;
     }
     const double base_m = std::round(0.5 * (lowest_m + highest_m) / unit_m) * unit_m;

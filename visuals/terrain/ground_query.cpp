@@ -121,11 +121,11 @@ void walk(const GroundSamples& ground, const Line& line, const Part& part, const
         const double whole = way > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
         return (whole - at) / way;
     };
-    constexpr double least_step = 1e-12;
+    constexpr double min_step = 1e-12;
     while (share < part.last) {
         const glm::dvec2 at = line.start + line.way * share;
         const double step = std::max(
-            std::min(next_line(at.x, line.way.x), next_line(at.y, line.way.y)), least_step);
+            std::min(next_line(at.x, line.way.x), next_line(at.y, line.way.y)), min_step);
         const double length = std::min(step, part.last - share);
         CellPlace cell = cell_at(ground, at + line.way * (0.5 * length));
         cell.east = at.x - cell.column;

@@ -14,7 +14,7 @@ constexpr float no_end = std::numeric_limits<float>::infinity();
 using NineBlocks = std::array<float, 9>;
 
 /// The least of the block's own number and those of neighbours, indexed as HeightGaps::squared_m2.
-std::array<float, 16> least_by_reach(const NineBlocks& of) {
+std::array<float, 16> min_by_reach(const NineBlocks& of) {
     std::array<float, 16> least{};
     for (unsigned reach = 0; reach < 16; ++reach) {
         const int west = (reach & 1U) != 0 ? 0 : 1;
@@ -58,8 +58,8 @@ HeightGaps height_gaps(const GroundTiles& ground, const BlockPlace& block, const
     HeightGaps gaps;
     gaps.lowest_m = ground.lowest_m(level, block.column, block.row);
     gaps.highest_m = ground.highest_m(level, block.column, block.row);
-    gaps.squared_m2 = least_by_reach(gap);
-    gaps.ahead_m = least_by_reach(ahead);
+    gaps.squared_m2 = min_by_reach(gap);
+    gaps.ahead_m = min_by_reach(ahead);
     return gaps;
 }
 

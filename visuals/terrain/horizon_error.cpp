@@ -44,20 +44,20 @@ constexpr double highest_band_rad = rad_from_deg(15.0);
 /// A picture whose border is nearer to its middle than this is widened by a smaller share of itself,
 /// down to the least one: a zoomed view of a tower would need most triangles for what it does not show.
 constexpr double wide_view_rad = rad_from_deg(20.0);
-constexpr double least_widening = 0.1;
+constexpr double min_widening = 0.1;
 /// How far vertices may move in a turn, as a share of how far that moves the picture.
 constexpr double vertex_share_of_turn = 0.056;
 
 /// The angle from the view's middle to the frustum's border in a direction square to `ahead`.
 double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
-    double least_rad = std::numeric_limits<double>::infinity();
+    double min_rad = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& normal : view.frustum_normals) {
         const double falling = -glm::dot(normal, towards);
         if (falling > 0.0) {
-            least_rad = std::min(least_rad, std::atan2(glm::dot(normal, view.ahead), falling));
+            min_rad = std::min(min_rad, std::atan2(glm::dot(normal, view.ahead), falling));
         }
     }
-    return least_rad;
+    return min_rad;
 }
 
 MeshView turned(const MeshView& view, const glm::dquat& turn) {
@@ -107,20 +107,20 @@ MeshView widened(const MeshView& view, const glm::dquat& turn) {
 }
 
 /// How far the ground reaches at least in directions that the picture may show, level.
-double least_reach_m(const MeshView& view, const glm::dvec2& half_m) {
+double min_reach_m(const MeshView& view, const glm::dvec2& half_m) {
     const double corner_rad = std::acos(std::min(view.corner_cos, 1.0));
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (const double aside_rad : {-corner_rad, 0.0, corner_rad}) {
         const double azimuth_rad = std::atan2(view.ahead.y, view.ahead.x) + aside_rad;
         const glm::dvec2 along(std::cos(azimuth_rad), std::sin(azimuth_rad));
         for (const int axis : {0, 1}) {
             const double to_end_m = std::copysign(half_m[axis], along[axis]) - view.eye_m[axis];
             if (along[axis] != 0.0) {
-                least_m = std::min(least_m, to_end_m / along[axis]);
+                min_m = std::min(min_m, to_end_m / along[axis]);
             }
         }
     }
-    return least_m;
+    return min_m;
 }
 
 } // namespace
@@ -140,7 +140,7 @@ std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& b
     // A picture with the band's middle in its own middle shows all that counts of the band.
     const double half_rad = std::min(
         way > 0.0 ? band.high_rad - middle_rad : middle_rad - band.low_rad + far_ground_rad,
-        std::clamp(to_border_rad / wide_view_rad, least_widening, 1.0) *
+        std::clamp(to_border_rad / wide_view_rad, min_widening, 1.0) *
             (to_border_rad - margin_rad));
     const double whole_rad = way * (middle_rad - own_rad) + half_rad - to_border_rad + margin_rad;
     if (!(whole_rad > 0.0)) {
@@ -162,7 +162,7 @@ HorizonError::HorizonError(const GroundTiles& ground)
           static_cast<double>(far_move_on(ground.facts().highest_m - ground.facts().lowest_m))) {}
 
 ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target) {
-    if (!target.geomorphs || target.most_triangles >= any_triangles) {
+    if (!target.geomorphs || target.max_triangles >= any_triangles) {
         return target;
     }
     const auto there = turned_to(view, far_ground(view));
@@ -180,7 +180,7 @@ ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target)
 /// Between which elevations ground at the map's end may be seen.
 ElevationBand HorizonError::far_ground(const MeshView& view) const {
     const GroundTiles& ground = rule_.ground();
-    const double away_m = std::max(least_reach_m(view, ground.half_extent_m()), ground.spacing_m());
+    const double away_m = std::max(min_reach_m(view, ground.half_extent_m()), ground.spacing_m());
     const double lowered_m = earth_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
     const auto elevation_rad = [&](float height_m) {
         return std::clamp(

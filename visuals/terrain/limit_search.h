@@ -21,8 +21,8 @@ struct LimitSearch {
 /// if even that has more. The last frame's limit only makes the search short; the answer does not
 /// depend on it.
 ///
-/// `walk(low, high, most_triangles)` must start `steps` with (low, high) and add all steps of N
-/// below high; it may stop once there are more than `most_triangles`. It returns whether there are
+/// `walk(low, high, max_triangles)` must start `steps` with (low, high) and add all steps of N
+/// below high; it may stop once there are more than `max_triangles`. It returns whether there are
 /// steps above.
 template <typename Walk>
 float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk) {
@@ -31,8 +31,8 @@ float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk
     constexpr float look_below = 0.7F;
     constexpr float look_above = 1.08F;   // Above the last limit: the walk ends here.
     constexpr float step_back = 0.1F;     // After far too many triangles.
-    constexpr float least_growth = 1.25F; // After too few triangles.
-    constexpr float most_growth = 8.0F;
+    constexpr float min_growth = 1.25F; // After too few triangles.
+    constexpr float max_growth = 8.0F;
 
     const float least = search.least;
     const float most = std::max(search.most, least);
@@ -40,16 +40,16 @@ float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk
     float low = std::clamp(search.last * look_below, least, most);
     float high = std::clamp(first ? search.first : search.last * look_above, least, most);
     float too_high = std::numeric_limits<float>::infinity();
-    int most_triangles = 2 * search.triangles + 1000;
+    int max_triangles = 2 * search.triangles + 1000;
     while (true) {
-        const int stop = high > least ? most_triangles : std::numeric_limits<int>::max();
+        const int stop = high > least ? max_triangles : std::numeric_limits<int>::max();
         const bool more_above = walk(low, high, stop);
         if (steps.at_high() > stop) {
             too_high = high;
             high = std::max(high * step_back, least);
             low = least;
-            most_triangles += most_triangles / 4;
-        } else if (low > least && steps.most_below_low() > search.triangles) {
+            max_triangles += max_triangles / 4;
+        } else if (low > least && steps.max_below_low() > search.triangles) {
             low = least;
         } else if (steps.at_low() > search.triangles) {
             return least;
@@ -60,7 +60,7 @@ float limit_within(const LimitSearch& search, StepCount& steps, const Walk& walk
         } else {
             const float missing = static_cast<float>(search.triangles) /
                                   static_cast<float>(std::max(steps.at_high(), 1));
-            const float grown = high * std::clamp(1.1F * missing, least_growth, most_growth);
+            const float grown = high * std::clamp(1.1F * missing, min_growth, max_growth);
             high = std::min({grown, std::sqrt(high) * std::sqrt(too_high), most});
         }
     }

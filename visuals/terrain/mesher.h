@@ -61,7 +61,7 @@ public:
     std::span<const GroundFan> fans() const { return fans_; }
 
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
-    using BoxTest = std::function<bool(const glm::dvec3& least_m, const glm::dvec3& most_m)>;
+    using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
     /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for
     /// which `wanted` accepts the box around all of their samples, and also accepts those of all

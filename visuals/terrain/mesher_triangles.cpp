@@ -29,9 +29,9 @@ constexpr std::array<std::array<std::uint8_t, 9>, 4> coinciding_places = {
 /// begins to count them.
 void Mesher::make_room() {
     const std::size_t fans = fans_.size();
-    const std::size_t most_vertices = 5 * fans + 4;
-    if (vertices_.size() < most_vertices) {
-        vertices_.resize(most_vertices + most_vertices / 4);
+    const std::size_t max_vertices = 5 * fans + 4;
+    if (vertices_.size() < max_vertices) {
+        vertices_.resize(max_vertices + max_vertices / 4);
     }
     if (indices_.size() < 24 * fans) {
         indices_.resize(30 * fans);
@@ -188,7 +188,7 @@ void Mesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& tri
 void Mesher::add_triangles_in(
     std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
     const NodeBox box = rule_.box_of(fans_[own]);
-    if (!wanted(box.least_m, box.most_m)) {
+    if (!wanted(box.min_m, box.max_m)) {
         return;
     }
     const unsigned drawn = fans_[own].split & ~unsigned{fans_[own].hidden};

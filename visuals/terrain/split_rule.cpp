@@ -99,8 +99,8 @@ NodeBox SplitRule::box_of(const GroundFan& node) const {
         field.sample_m(west, south),
         field.sample_m(
             std::min(west + edge, field.columns() - 1), std::min(south + edge, field.rows() - 1))};
-    box.least_m.z = tree_->lowest_m(bounds) - height_margin_m;
-    box.most_m.z = tree_->highest_m(bounds) + height_margin_m;
+    box.min_m.z = tree_->lowest_m(bounds) - height_margin_m;
+    box.max_m.z = tree_->highest_m(bounds) + height_margin_m;
     return box;
 }
 

@@ -16,8 +16,8 @@ namespace octant::visuals::terrain {
 
 /// An axis-aligned box in world axes.
 struct NodeBox {
-    glm::dvec3 least_m;
-    glm::dvec3 most_m;
+    glm::dvec3 min_m;
+    glm::dvec3 max_m;
 };
 
 /// Which nodes of a quadtree a view switches on, and which it cannot see.

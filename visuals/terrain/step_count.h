@@ -33,7 +33,7 @@ public:
     int at_low() const { return below_; }
 
     /// An upper bound of N(x) for all x <= low.
-    int most_below_low() const { return below_ + fallen_below_; }
+    int max_below_low() const { return below_ + fallen_below_; }
 
     /// The largest x from low to high such that N(y) <= limit for all y from low to x; nothing if
     /// that holds up to high. N(low) must be within the limit (asserted).

@@ -40,7 +40,7 @@ constexpr float near_move = 1.2F;
 constexpr float far_move = 4.7F;
 /// The least relief of rugged ground, and how many times larger S is on flat ground at most.
 constexpr float rugged_m = 1200.0F;
-constexpr float most_ease = 1.8F;
+constexpr float max_ease = 1.8F;
 /// The largest error that moves beside the eye, as a share of the ground's relief.
 constexpr float near_error = 0.6F / 512.0F;
 
@@ -51,7 +51,7 @@ std::size_t index_of(int column, int row, int columns) {
 
 /// How many times larger S is than on rugged ground.
 float ease_of(float relief_m) {
-    return std::clamp(rugged_m / relief_m, 1.0F, most_ease);
+    return std::clamp(rugged_m / relief_m, 1.0F, max_ease);
 }
 
 /// Raises a row of codes to others.

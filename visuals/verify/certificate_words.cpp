@@ -8,7 +8,7 @@ namespace octant::visuals::verify {
 
 namespace {
 
-constexpr double least_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
+constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
 constexpr double longest_normal = 1.5;
 
 } // namespace
@@ -27,7 +27,7 @@ Vector CertificateWords::vector(const char* what) {
 Vector CertificateWords::unit_vector(const char* what) {
     const Vector v = vector(what);
     const double longest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (longest < least_normal || longest > longest_normal) {
+    if (longest < min_normal || longest > longest_normal) {
         refuse_last(fmt::format("{} of length 1", what));
     }
     return v;
@@ -39,7 +39,7 @@ WrittenPlane CertificateWords::plane() {
 }
 
 void CertificateWords::refuse_count() const {
-    refuse(fmt::format("at most {} such lines", most_entries));
+    refuse(fmt::format("at most {} such lines", max_entries));
 }
 
 } // namespace octant::visuals::verify

@@ -10,7 +10,7 @@
 namespace octant::visuals::verify {
 
 /// The most entries of any kind that a certificate may have.
-constexpr std::size_t most_entries = 50'000'000;
+constexpr std::size_t max_entries = 50'000'000;
 /// The largest number that may stand in a certificate.
 constexpr double largest_number = 1e12;
 
@@ -28,7 +28,7 @@ public:
     /// Appends an entry and refuses the line if there are too many.
     template <typename Entry>
     void add(std::vector<Entry>& entries, Entry entry) const {
-        if (entries.size() >= most_entries) {
+        if (entries.size() >= max_entries) {
             refuse_count();
         }
         entries.push_back(std::move(entry));

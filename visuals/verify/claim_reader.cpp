@@ -117,7 +117,7 @@ Run ClaimReader::run() {
     const auto count = whole_number(word.substr(0, word.size() - 1));
     const char letter = word.back();
     const bool known = letter == 'e' || letter == 'l' || letter == '-';
-    if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > most_entries) {
+    if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
         words_.refuse_last("a count with e, l or -");
     }
     return {

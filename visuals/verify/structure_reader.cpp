@@ -50,7 +50,7 @@ bool StructureReader::take_polygon(bool turning) {
     if (turning) {
         polygon.axis = words_.index("an axis", made_.axes.size());
     }
-    polygon.source = words_.index("a polygon of the model's file", most_entries);
+    polygon.source = words_.index("a polygon of the model's file", max_entries);
     polygon.plane = words_.plane();
     while (!words_.done() || polygon.corners.size() < 3) {
         polygon.corners.push_back(words_.index("a vertex", made_.vertices.size()));
@@ -114,13 +114,13 @@ int StructureReader::child(bool may_be_nothing, bool may_be_node) {
         return Node::nothing;
     }
     if (words_.skip("list")) {
-        return ~static_cast<int>(words_.index("a list", most_entries));
+        return ~static_cast<int>(words_.index("a list", max_entries));
     }
     if (!may_be_node || !words_.skip("node")) {
         words_.refuse(fmt::format(
             "{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
     }
-    const std::uint32_t number = words_.index("a node", most_entries);
+    const std::uint32_t number = words_.index("a node", max_entries);
     if (number <= made_.nodes.size()) {
         words_.refuse_last("a later node");
     }

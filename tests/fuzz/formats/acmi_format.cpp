@@ -13,7 +13,7 @@ namespace {
 void use(const std::filesystem::path& file) {
     const flightpaths::AcmiTape tape = flightpaths::acmi_tape(read_text_file(file), file);
     expect(!tape.aircraft.empty(), "an aircraft");
-    expect(tape.aircraft.size() <= flightpaths::most_taped_aircraft, "no more than so many");
+    expect(tape.aircraft.size() <= flightpaths::max_taped_aircraft, "no more than so many");
     expect(std::isfinite(tape.origin.latitude_deg), "an origin");
     for (const flightpaths::TapedAircraft& aircraft : tape.aircraft) {
         const auto samples = aircraft.trajectory.samples();

@@ -8,13 +8,13 @@ namespace octant::tests::formats::path_script_format {
 
 namespace {
 
-constexpr int most_steps = 20000;
+constexpr int max_steps = 20000;
 
 /// Flies it where that does not take long, within limits and with legs clipped.
 void use(const std::filesystem::path& file) {
     const flightpaths::PathScript script = flightpaths::read_path_script(file);
     const sim::AircraftKind* const kind = sim::find_aircraft_kind(script.aircraft);
-    if (kind == nullptr || script.samples > most_steps / 120 * script.rate_hz) {
+    if (kind == nullptr || script.samples > max_steps / 120 * script.rate_hz) {
         return;
     }
     const flightpaths::FlownPath flown = flightpaths::fly(script, *kind, true);

@@ -10,7 +10,7 @@ namespace {
 /// Every flight has a name of its own that can be a file's.
 void use(const std::filesystem::path& file) {
     const ui::sweep::Sweep sweep = ui::sweep::read_sweep(file);
-    expect(!sweep.runs.empty() && sweep.runs.size() <= ui::sweep::most_runs, "as many as may be");
+    expect(!sweep.runs.empty() && sweep.runs.size() <= ui::sweep::max_runs, "as many as may be");
     std::set<std::string> names;
     for (const ui::sweep::Run& run : sweep.runs) {
         expect(

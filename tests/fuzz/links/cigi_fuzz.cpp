@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             octant::tests::expect(fault_of(fix) == Fault::None, "a fix that can be believed");
         }
         octant::tests::expect(
-            generator.parts().turned(frame).size() <= CigiParts::most_parts, "bounded parts");
+            generator.parts().turned(frame).size() <= CigiParts::max_parts, "bounded parts");
         for (const auto& [number, view] : generator.definitions()) {
             for (const double side_rad :
                  {view.left_rad, view.right_rad, view.top_rad, view.bottom_rad}) {
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         const auto answer = generator.message_for(frame, 1.0);
         octant::tests::expect(
-            answer.size() <= CigiImageGenerator::most_message_bytes, "a message that fits");
+            answer.size() <= CigiImageGenerator::max_message_bytes, "a message that fits");
     }
     return 0;
 }

@@ -72,12 +72,12 @@ TEST_CASE(
 }
 
 TEST_CASE("detailed aircraft have their types' published sizes") {
-    const auto [f15_least, f15_most] = extent_of(aircraft::detailed_f15());
-    CHECK(f15_most.x - f15_least.x == Approx(19.43).margin(0.1));  // length
-    CHECK(f15_most.y - f15_least.y == Approx(13.05).margin(0.01)); // span
-    CHECK(f15_least.y == -f15_most.y);
-    CHECK(f15_most.z - f15_least.z == Approx(4.34).margin(0.03)); // height, gear up
-    const auto [md_least, md_most] = extent_of(aircraft::detailed_500md());
-    CHECK(md_most.y - md_least.y == Approx(8.04).epsilon(0.06)); // rotor, one blade ahead
-    CHECK(1.20 + md_most.z == Approx(2.4).margin(0.05));         // skids 1.20 below the origin
+    const auto [f15_min, f15_max] = extent_of(aircraft::detailed_f15());
+    CHECK(f15_max.x - f15_min.x == Approx(19.43).margin(0.1));  // length
+    CHECK(f15_max.y - f15_min.y == Approx(13.05).margin(0.01)); // span
+    CHECK(f15_min.y == -f15_max.y);
+    CHECK(f15_max.z - f15_min.z == Approx(4.34).margin(0.03)); // height, gear up
+    const auto [md_min, md_max] = extent_of(aircraft::detailed_500md());
+    CHECK(md_max.y - md_min.y == Approx(8.04).epsilon(0.06)); // rotor, one blade ahead
+    CHECK(1.20 + md_max.z == Approx(2.4).margin(0.05));         // skids 1.20 below the origin
 }

@@ -10,7 +10,7 @@ using namespace octant::models::heights::test;
 
 namespace {
 
-constexpr int most_px = 1000;
+constexpr int max_px = 1000;
 
 /// 400 x 400 m of level ground about 500000, 5400000 of UTM 10 N.
 HeightField utm_ground() {
@@ -54,7 +54,7 @@ TEST_CASE("ground read from a map knows the middle of it in the map's own coordi
 TEST_CASE("a placed image lies on the ground where its coordinates say, and nowhere else") {
     const HeightField field = utm_ground();
     const Image laid = laid_on_ground(
-        grey_image("EPSG:32610", {500000, 100, 0, 5400100, 0, -100}), area_of(field), most_px);
+        grey_image("EPSG:32610", {500000, 100, 0, 5400100, 0, -100}), area_of(field), max_px);
     REQUIRE(laid.width == 4);
     REQUIRE(laid.height == 4);
     CHECK(int{laid.pixel(2, 1)[0]} == 10);
@@ -87,7 +87,7 @@ TEST_CASE("an image in degrees is brought into the ground's system") {
              0,
              -degree}),
         area_of(field),
-        most_px);
+        max_px);
     const auto at = [&](double east, double north) {
         return int{laid.pixel(
             static_cast<int>((0.5 + 0.5 * east) * laid.width),
@@ -125,12 +125,12 @@ TEST_CASE("an image without a place is stretched over the ground, a large one ma
 TEST_CASE("an image that lies elsewhere, or that the ground has no coordinates for, is refused") {
     const Image image = grey_image("EPSG:32610", {600000, 100, 0, 5400100, 0, -100});
     CHECK_THROWS_WITH(
-        laid_on_ground(image, area_of(utm_ground()), most_px),
+        laid_on_ground(image, area_of(utm_ground()), max_px),
         "drape.tif: expected an image of the ground of ground.tif, got one that lies elsewhere");
     HeightField made(3, 3, 10.0, std::vector<float>(9, 0.0F));
     made.name = "hills";
     CHECK_THROWS_WITH(
-        laid_on_ground(image, area_of(made), most_px),
+        laid_on_ground(image, area_of(made), max_px),
         "drape.tif: expected an image without a coordinate system over ground without one "
         "(hills), got one with");
 }

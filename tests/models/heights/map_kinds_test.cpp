@@ -98,7 +98,7 @@ TEST_CASE("maps of twenty kinds are the same ground") {
         }
         const HeightField field = read_height_field(file);
         CHECK(field.spacing_m() == Approx(30.0));
-        CHECK(most_apart_m(field, expected) <= kind.off_m + 1e-3);
+        CHECK(max_apart_m(field, expected) <= kind.off_m + 1e-3);
         ++read;
     }
     CHECK(read >= 16);
@@ -120,10 +120,10 @@ TEST_CASE("tiles that share their borders are the ground of the whole, also from
     const HeightField expected = read_height_field(tests::scratch_folder() / "whole.tif");
     const HeightField from_folder = read_height_field(map_inputs({folder.string()}));
     CHECK(from_folder.filled_voids == 0);
-    CHECK(most_apart_m(from_folder, expected) == 0.0);
+    CHECK(max_apart_m(from_folder, expected) == 0.0);
     const HeightField from_pattern =
         read_height_field(map_inputs({folder.string() + "/tile?.tif"}));
-    CHECK(most_apart_m(from_pattern, expected) == 0.0);
+    CHECK(max_apart_m(from_pattern, expected) == 0.0);
     CHECK_THROWS_WITH(
         map_inputs({folder.string() + "/none*.tif"}), Catch::Matchers::Contains("found none"));
 }
@@ -134,7 +134,7 @@ TEST_CASE(
     write_raster(scratch_file("turned.tif"), "GTiff", degree_hills(81, 81, 238.0, 47.0));
     const HeightField west = read_height_field(tests::scratch_folder() / "west.tif");
     const HeightField turned = read_height_field(tests::scratch_folder() / "turned.tif");
-    CHECK(most_apart_m(west, turned) < 1e-3);
+    CHECK(max_apart_m(west, turned) < 1e-3);
     CHECK(turned.place->longitude_deg == Approx(-121.9));
 
     const RasterFile here = degree_hills(81, 41, 9.9, 47.0);
@@ -149,7 +149,7 @@ TEST_CASE(
     const HeightField expected = read_height_field(folder / "here.tif");
     const HeightField over =
         read_height_field(std::vector<path>{folder / "east_side.tif", folder / "west_side.tif"});
-    CHECK(most_apart_m(over, expected) < 1e-3);
+    CHECK(max_apart_m(over, expected) < 1e-3);
     CHECK(std::abs(over.place->longitude_deg) == Approx(180.0).margin(0.01));
 }
 
@@ -193,16 +193,16 @@ TEST_CASE("a map that is placed by control points lies where they say") {
     CHECK(field.place->latitude_deg == Approx(expected.place->latitude_deg).margin(1e-4));
     CHECK(field.place->longitude_deg == Approx(expected.place->longitude_deg).margin(1e-4));
     CHECK(field.filled_voids == 0);
-    double most_m = 0.0;
+    double max_m = 0.0;
     for (double x_m = -2500.0; x_m <= 2500.0; x_m += 100.0) {
         for (double y_m = -4500.0; y_m <= 4500.0; y_m += 100.0) {
             const auto own_m = field.height_at(x_m, y_m);
             const auto wanted_m = expected.height_at(x_m, y_m);
             REQUIRE((own_m && wanted_m));
-            most_m = std::max(most_m, std::abs(*own_m - *wanted_m));
+            max_m = std::max(max_m, std::abs(*own_m - *wanted_m));
         }
     }
-    CHECK(most_m < 5.0);
+    CHECK(max_m < 5.0);
 }
 
 TEST_CASE("a map in an archive is read, and one of several in a file is asked for by name") {
@@ -211,9 +211,9 @@ TEST_CASE("a map in an archive is read, and one of several in a file is asked fo
     const path archive = scratch_file("packed.zip");
     zip_file(archive, "inside/packed.tif", file);
     const HeightField expected = read_height_field(file);
-    CHECK(most_apart_m(read_height_field(map_inputs({archive.string()})), expected) == 0.0);
+    CHECK(max_apart_m(read_height_field(map_inputs({archive.string()})), expected) == 0.0);
     const std::string inside = "/vsizip/" + archive.string() + "/inside/packed.tif";
-    CHECK(most_apart_m(read_height_field(map_inputs({inside})), expected) == 0.0);
+    CHECK(max_apart_m(read_height_field(map_inputs({inside})), expected) == 0.0);
 
     GDALAllRegister();
     if (GDALGetDriverByName("netCDF") == nullptr) {
@@ -229,5 +229,5 @@ TEST_CASE("a map in an archive is read, and one of several in a file is asked fo
         Catch::Matchers::Contains("expected one raster, got 2") &&
             Catch::Matchers::Contains("Band2"));
     const std::string second = "NETCDF:\"" + several.string() + "\":Band2";
-    CHECK(most_apart_m(read_height_field(map_inputs({second})), expected) == 0.0);
+    CHECK(max_apart_m(read_height_field(map_inputs({second})), expected) == 0.0);
 }

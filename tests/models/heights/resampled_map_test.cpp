@@ -40,11 +40,11 @@ TEST_CASE("a map that names no coordinate system takes the one it is given") {
     ImportOptions options;
     options.system = "EPSG:4326";
     const HeightField given = read_height_field(tests::scratch_folder() / "nameless.asc", options);
-    CHECK(most_apart_m(named, given) < 1e-3);
+    CHECK(max_apart_m(named, given) < 1e-3);
     CHECK(given.place->latitude_deg == Approx(named.place->latitude_deg));
     options.system = "EPSG:2056"; // a file's own system counts for more
     const HeightField own = read_height_field(tests::scratch_folder() / "named.tif", options);
-    CHECK(most_apart_m(named, own) == 0.0);
+    CHECK(max_apart_m(named, own) == 0.0);
 }
 
 TEST_CASE("a rotated map lies where its six numbers say") {

@@ -60,7 +60,7 @@ TEST_CASE("ground is levelled on a runway and 60 m beside it, and kept far from 
     CHECK(site->earthwork_m > 5.0);
     const HeightField level = levelled(field, site->strip);
     const RunwayStrip& strip = site->strip;
-    CHECK(std::abs(strip.rise) <= most_rise);
+    CHECK(std::abs(strip.rise) <= max_rise);
     for (double along_m = -60.0; along_m <= strip.length_m + 60.0; along_m += 7.0) {
         for (double left_m = -82.5; left_m <= 82.5; left_m += 5.0) {
             if (strip.distance_m(strip.place({along_m, left_m})) <= levelled_beside_m) {
@@ -69,19 +69,19 @@ TEST_CASE("ground is levelled on a runway and 60 m beside it, and kept far from 
         }
     }
     int moved = 0;
-    double most_m = 0.0;
+    double max_m = 0.0;
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
             const double by_m = std::abs(
                 static_cast<double>(level.height_m(column, row)) - field.height_m(column, row));
             const glm::dvec2 at_m(field.sample_m(column, row));
             REQUIRE((by_m == 0.0 || strip.distance_m(at_m) < reach_m(field)));
-            most_m = std::max(most_m, by_m);
+            max_m = std::max(max_m, by_m);
             moved += by_m > 0.0 ? 1 : 0;
         }
     }
     CHECK(moved > 300);
-    CHECK(most_m == Approx(site->earthwork_m).margin(1e-3));
+    CHECK(max_m == Approx(site->earthwork_m).margin(1e-3));
 }
 
 TEST_CASE("cuttings and embankments rise by one in seven, and end where they meet the ground") {
@@ -133,7 +133,7 @@ TEST_CASE("a runway follows a gentle slope and cuts through a steep one") {
     const auto steep =
         runway_site(field_of([](double, double y_m) { return 800.0 + 0.02 * y_m; }), north);
     REQUIRE(steep);
-    CHECK(steep->strip.rise == Approx(most_rise));
+    CHECK(steep->strip.rise == Approx(max_rise));
     CHECK(steep->earthwork_m == Approx(10.0).margin(2.0));
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("where the ground is too rough another place near it is found") {
     const RunwayWish wish{{{0.0, 0.0}}, rad_from_deg(70.0), 0.0};
     const auto site = runway_site(field, wish);
     REQUIRE(site);
-    CHECK(site->earthwork_m <= most_earthwork_m);
+    CHECK(site->earthwork_m <= max_earthwork_m);
     CHECK_FALSE(site->is_as_wished);
     CHECK(site->strip.distance_m({0.0, 0.0}) > 2500.0);
     CHECK(site->strip.distance_m({0.0, 0.0}) < looked_for_within_m);
@@ -159,7 +159,7 @@ TEST_CASE("where the ground is too rough another place near it is found") {
 
     const auto none = runway_site(field, {{{-9000.0, 0.0}}, 0.0, 0.0});
     REQUIRE(none);
-    CHECK(none->earthwork_m > most_earthwork_m);
+    CHECK(none->earthwork_m > max_earthwork_m);
 }
 
 TEST_CASE("no runway lies in water or beyond the edge of the map") {
@@ -172,5 +172,5 @@ TEST_CASE("no runway lies in water or beyond the edge of the map") {
     const auto at_the_edge = runway_site(field_of(rolling_m), {{{0.0, 11500.0}}, 0.0, 0.0});
     REQUIRE(at_the_edge);
     CHECK(at_the_edge->strip.place({1860.0, 0.0}).y <= 12000.0);
-    CHECK(at_the_edge->earthwork_m <= most_earthwork_m);
+    CHECK(at_the_edge->earthwork_m <= max_earthwork_m);
 }

@@ -57,7 +57,7 @@ RasterFile cut(const RasterFile& whole, int first_x, int first_y, int columns, i
     return part;
 }
 
-double most_apart_m(const HeightField& a, const HeightField& b) {
+double max_apart_m(const HeightField& a, const HeightField& b) {
     REQUIRE(a.columns() == b.columns());
     REQUIRE(a.rows() == b.rows());
     double most = 0.0;

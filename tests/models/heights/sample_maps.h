@@ -21,6 +21,6 @@ RasterFile degree_hills(int columns, int rows, double west, double north);
 RasterFile cut(const RasterFile& whole, int first_x, int first_y, int columns, int rows);
 
 /// The largest difference of two fields of the same size, metres.
-double most_apart_m(const HeightField& a, const HeightField& b);
+double max_apart_m(const HeightField& a, const HeightField& b);
 
 } // namespace octant::models::heights::test

@@ -90,10 +90,10 @@ TriangleMesh scattered(std::uint64_t seed, int triangles, double size_m) {
     return mesh;
 }
 
-TriangleMesh shaken(TriangleMesh mesh, std::uint64_t seed, double most_m) {
+TriangleMesh shaken(TriangleMesh mesh, std::uint64_t seed, double max_m) {
     Dice dice(seed);
     for (glm::dvec3& vertex_m : mesh.vertices_m) {
-        vertex_m += dice.point(-most_m, most_m);
+        vertex_m += dice.point(-max_m, max_m);
     }
     return mesh;
 }

@@ -33,7 +33,7 @@ models::TriangleMesh ball(int rings, double radius_m = 1.0);
 /// Triangles anywhere in a cube of edge 2, of edges up to `size_m`; every tenth one is degenerate.
 models::TriangleMesh scattered(std::uint64_t seed, int triangles, double size_m = 0.4);
 
-/// Every vertex moved by up to `most_m` along each axis.
-models::TriangleMesh shaken(models::TriangleMesh mesh, std::uint64_t seed, double most_m);
+/// Every vertex moved by up to `max_m` along each axis.
+models::TriangleMesh shaken(models::TriangleMesh mesh, std::uint64_t seed, double max_m);
 
 } // namespace octant::tests

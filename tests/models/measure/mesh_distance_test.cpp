@@ -48,12 +48,12 @@ double by_points(const TriangleMesh& mesh, const TriangleMesh& target) {
 
 void check_bounds(const TriangleMesh& mesh, const TriangleMesh& target, const OneWayDistance& way) {
     const double tried_m = by_points(mesh, target);
-    CHECK(way.least_hausdorff_m <= way.most_hausdorff_m);
-    CHECK(way.most_hausdorff_m <= 1.01 * way.least_hausdorff_m + 1e-8);
-    CHECK(tried_m <= way.most_hausdorff_m);
-    CHECK(way.least_hausdorff_m <= tried_m + 0.2); // the points are not farther apart
+    CHECK(way.min_hausdorff_m <= way.max_hausdorff_m);
+    CHECK(way.max_hausdorff_m <= 1.01 * way.min_hausdorff_m + 1e-8);
+    CHECK(tried_m <= way.max_hausdorff_m);
+    CHECK(way.min_hausdorff_m <= tried_m + 0.2); // the points are not farther apart
     CHECK(way.mean_m <= way.rms_m);
-    CHECK(way.rms_m <= way.most_hausdorff_m);
+    CHECK(way.rms_m <= way.max_hausdorff_m);
 }
 
 /// A roof over the unit square: its ridge lies at the height 1 over y = 1/2.
@@ -69,8 +69,8 @@ bool same_bits(double one, double other) {
 }
 
 bool same_bits(const OneWayDistance& one, const OneWayDistance& other) {
-    return same_bits(one.least_hausdorff_m, other.least_hausdorff_m) &&
-           same_bits(one.most_hausdorff_m, other.most_hausdorff_m) &&
+    return same_bits(one.min_hausdorff_m, other.min_hausdorff_m) &&
+           same_bits(one.max_hausdorff_m, other.max_hausdorff_m) &&
            same_bits(one.rms_m, other.rms_m) && same_bits(one.mean_m, other.mean_m) &&
            same_bits(one.colour_rms, other.colour_rms);
 }
@@ -80,9 +80,9 @@ bool same_bits(const OneWayDistance& one, const OneWayDistance& other) {
 TEST_CASE("two plates lie as far apart as they were put") {
     const MeshDistance found = distance(tests::plate(3), tests::plate(7, 1.0, 0.25), few_samples());
     for (const OneWayDistance& way : {found.there, found.back}) {
-        CHECK(way.least_hausdorff_m == Approx(0.25).epsilon(1e-12));
-        CHECK(way.most_hausdorff_m >= 0.25);
-        CHECK(way.most_hausdorff_m <= 0.25 * 1.01);
+        CHECK(way.min_hausdorff_m == Approx(0.25).epsilon(1e-12));
+        CHECK(way.max_hausdorff_m >= 0.25);
+        CHECK(way.max_hausdorff_m <= 0.25 * 1.01);
         CHECK(way.rms_m == Approx(0.25).epsilon(1e-12));
         CHECK(way.mean_m == Approx(0.25).epsilon(1e-12));
     }
@@ -90,9 +90,9 @@ TEST_CASE("two plates lie as far apart as they were put") {
 
 TEST_CASE("plates a hair apart, cut differently, are still bounded tightly") {
     const MeshDistance found = distance(tests::plate(3), tests::plate(7, 1.0, 1e-6), few_samples());
-    CHECK(found.least_hausdorff_m() <= 1e-6);
-    CHECK(found.most_hausdorff_m() >= 1e-6);
-    CHECK(found.most_hausdorff_m() <= 1.01 * found.least_hausdorff_m());
+    CHECK(found.min_hausdorff_m() <= 1e-6);
+    CHECK(found.max_hausdorff_m() >= 1e-6);
+    CHECK(found.max_hausdorff_m() <= 1.01 * found.min_hausdorff_m());
 }
 
 TEST_CASE("a square cut along the other diagonal is still the same square") {
@@ -101,8 +101,8 @@ TEST_CASE("a square cut along the other diagonal is still the same square") {
     other.triangles = {{0, 1, 2}, {1, 3, 2}};
     const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
         square, models::measure::TargetSurface(other), {.negligible_m = 1e-12});
-    CHECK(bounds.least_m == 0.0);
-    CHECK(bounds.most_m < 1e-12);
+    CHECK(bounds.min_m == 0.0);
+    CHECK(bounds.max_m < 1e-12);
     CHECK(bounds.cuts <= 2); // each half at the one edge that it crosses
 }
 
@@ -126,9 +126,9 @@ TEST_CASE("flats cut unlike each other take cuts by their triangles, not by thei
             const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
                 *from, models::measure::TargetSurface(*to), {.negligible_m = 1e-9});
             INFO(apart_m << " apart, " << bounds.cuts << " cuts");
-            CHECK(bounds.least_m <= apart_m);
-            CHECK(bounds.most_m >= apart_m);
-            CHECK(bounds.most_m <= std::max(1.011 * apart_m, 1.001e-9));
+            CHECK(bounds.min_m <= apart_m);
+            CHECK(bounds.max_m >= apart_m);
+            CHECK(bounds.max_m <= std::max(1.011 * apart_m, 1.001e-9));
             CHECK(bounds.cuts < 20U * 800U);
         }
     }
@@ -139,8 +139,8 @@ TEST_CASE("a large piece over many small triangles takes few cuts") {
     const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
         tests::plate(1), models::measure::TargetSurface(fine), {.negligible_m = 0.02});
     // A third of a piece of edge 0.1 is about 0.03 long: some 100 of them cover the plate.
-    CHECK(bounds.most_m <= 0.02);
-    CHECK(bounds.most_m >= bounds.least_m);
+    CHECK(bounds.max_m <= 0.02);
+    CHECK(bounds.max_m >= bounds.min_m);
     CHECK(bounds.cuts < 1'500);
 }
 
@@ -151,9 +151,9 @@ TEST_CASE("where the larger way alone counts, the two-sided distance is as tight
     const MeshDistance both = distance(fine, coarse, options);
     options.larger_alone = true;
     const MeshDistance larger = distance(fine, coarse, options);
-    CHECK(larger.least_hausdorff_m() <= both.most_hausdorff_m());
-    CHECK(larger.most_hausdorff_m() >= both.least_hausdorff_m());
-    CHECK(larger.most_hausdorff_m() <= 1.0101 * larger.least_hausdorff_m());
+    CHECK(larger.min_hausdorff_m() <= both.max_hausdorff_m());
+    CHECK(larger.max_hausdorff_m() >= both.min_hausdorff_m());
+    CHECK(larger.max_hausdorff_m() <= 1.0101 * larger.min_hausdorff_m());
 }
 
 TEST_CASE("a thin piece is cut on, however its edges lie") {
@@ -162,28 +162,28 @@ TEST_CASE("a thin piece is cut on, however its edges lie") {
     needle.triangles = {{0, 1, 2}};
     const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
         needle, models::measure::TargetSurface(tests::shaken(tests::plate(9), 5, 0.01)), {});
-    CHECK(bounds.most_m <= 1.0101 * bounds.least_m);
+    CHECK(bounds.max_m <= 1.0101 * bounds.min_m);
     CHECK(bounds.cuts < 2'000);
 }
 
 TEST_CASE("a part is no distance from the whole, the whole is from its part") {
     const MeshDistance found = distance(tests::plate(2, 1.0), tests::plate(6, 3.0), few_samples());
-    CHECK(found.there.least_hausdorff_m == 0.0);
-    CHECK(found.there.most_hausdorff_m < 1e-8);
+    CHECK(found.there.min_hausdorff_m == 0.0);
+    CHECK(found.there.max_hausdorff_m < 1e-8);
     CHECK(found.there.rms_m < 1e-15);
-    CHECK(found.back.least_hausdorff_m <= std::sqrt(8.0));
-    CHECK(found.back.most_hausdorff_m >= std::sqrt(8.0));
-    CHECK(found.least_hausdorff_m() == found.back.least_hausdorff_m);
+    CHECK(found.back.min_hausdorff_m <= std::sqrt(8.0));
+    CHECK(found.back.max_hausdorff_m >= std::sqrt(8.0));
+    CHECK(found.min_hausdorff_m() == found.back.min_hausdorff_m);
 }
 
 TEST_CASE("the farthest point is found in the middle of a face, where no vertex lies") {
     // Under the ridge the floor is 1/sqrt(5) from both slopes, its vertices touch them.
     const MeshDistance found = distance(tests::plate(1), roof(), few_samples());
     const double exact_m = 1.0 / std::sqrt(5.0);
-    CHECK(found.there.least_hausdorff_m <= exact_m);
-    CHECK(found.there.most_hausdorff_m >= exact_m);
-    CHECK(found.there.most_hausdorff_m <= 1.01 * found.there.least_hausdorff_m);
-    CHECK(found.back.least_hausdorff_m == Approx(1.0));
+    CHECK(found.there.min_hausdorff_m <= exact_m);
+    CHECK(found.there.max_hausdorff_m >= exact_m);
+    CHECK(found.there.max_hausdorff_m <= 1.01 * found.there.min_hausdorff_m);
+    CHECK(found.back.min_hausdorff_m == Approx(1.0));
     // The distance grows evenly from both eaves.
     CHECK(found.there.mean_m == Approx(exact_m / 2.0).epsilon(1e-3));
     CHECK(found.there.rms_m == Approx(exact_m / std::sqrt(3.0)).epsilon(1e-3));
@@ -193,8 +193,8 @@ TEST_CASE("equal meshes are at no distance") {
     for (const TriangleMesh& mesh :
          {tests::ball(16), tests::shaken(tests::plate(9), 1, 0.03), tests::scattered(2, 80)}) {
         const MeshDistance found = distance(mesh, mesh, few_samples());
-        CHECK(found.least_hausdorff_m() == 0.0);
-        CHECK(found.most_hausdorff_m() < 1e-8);
+        CHECK(found.min_hausdorff_m() == 0.0);
+        CHECK(found.max_hausdorff_m() < 1e-8);
         CHECK(found.rms_m() < 1e-15);
     }
 }
@@ -222,9 +222,9 @@ TEST_CASE("a tighter bound lies within the looser one") {
     const MeshDistance loose = distance(a, b, options);
     options.tightness = 1.0001;
     const MeshDistance tight = distance(a, b, options);
-    CHECK(tight.most_hausdorff_m() <= 1.0001 * tight.least_hausdorff_m() + 1e-12);
-    CHECK(tight.least_hausdorff_m() <= loose.most_hausdorff_m());
-    CHECK(tight.most_hausdorff_m() >= loose.least_hausdorff_m());
+    CHECK(tight.max_hausdorff_m() <= 1.0001 * tight.min_hausdorff_m() + 1e-12);
+    CHECK(tight.min_hausdorff_m() <= loose.max_hausdorff_m());
+    CHECK(tight.max_hausdorff_m() >= loose.min_hausdorff_m());
 }
 
 TEST_CASE("a distance grows with the meshes and moves with them") {
@@ -240,8 +240,8 @@ TEST_CASE("a distance grows with the meshes and moves with them") {
     }
     const MeshDistance there = distance(far_a, far_b, few_samples());
     CHECK(there.rms_m() == Approx(1000.0 * here.rms_m()).epsilon(1e-6));
-    CHECK(there.least_hausdorff_m() <= 1000.0 * here.most_hausdorff_m());
-    CHECK(there.most_hausdorff_m() >= 1000.0 * here.least_hausdorff_m());
+    CHECK(there.min_hausdorff_m() <= 1000.0 * here.max_hausdorff_m());
+    CHECK(there.max_hausdorff_m() >= 1000.0 * here.min_hausdorff_m());
 }
 
 TEST_CASE("any number of threads gives the same bits") {
@@ -278,7 +278,7 @@ TEST_CASE("colours are compared where the nearest points lie") {
 TEST_CASE("vertices that no triangle uses are no part of a surface") {
     TriangleMesh a = tests::plate(2);
     a.vertices_m.emplace_back(0.5, 0.5, 100.0);
-    CHECK(distance(a, tests::plate(3), few_samples()).most_hausdorff_m() < 1e-8);
+    CHECK(distance(a, tests::plate(3), few_samples()).max_hausdorff_m() < 1e-8);
 }
 
 TEST_CASE("triangles without area are measured too") {
@@ -286,8 +286,8 @@ TEST_CASE("triangles without area are measured too") {
     line.vertices_m = {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}};
     line.triangles = {{0, 1, 2}, {0, 0, 0}};
     const MeshDistance found = distance(line, tests::plate(2), few_samples());
-    CHECK(found.there.least_hausdorff_m == Approx(2.0));
-    CHECK(found.back.least_hausdorff_m <= std::sqrt(2.0));
-    CHECK(found.back.most_hausdorff_m >= std::sqrt(2.0));
+    CHECK(found.there.min_hausdorff_m == Approx(2.0));
+    CHECK(found.back.min_hausdorff_m <= std::sqrt(2.0));
+    CHECK(found.back.max_hausdorff_m >= std::sqrt(2.0));
     CHECK(found.there.rms_m > 0.0);
 }

@@ -18,12 +18,12 @@ namespace {
 
 constexpr double inner_radius_m = 13'880.0; ///< inside the sides of the 24-gon
 
-glm::dvec3 point_inside(octant::Dice& dice, double least_height_m, double most_height_m) {
+glm::dvec3 point_inside(octant::Dice& dice, double min_height_m, double max_height_m) {
     while (true) {
         const double x = dice.between(-inner_radius_m, inner_radius_m);
         const double y = dice.between(-inner_radius_m, inner_radius_m);
         if (std::hypot(x, y) < inner_radius_m) {
-            return {x, y, -dice.between(least_height_m, most_height_m)};
+            return {x, y, -dice.between(min_height_m, max_height_m)};
         }
     }
 }

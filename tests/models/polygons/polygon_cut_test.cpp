@@ -68,9 +68,9 @@ TEST_CASE("a comb is cut without overlaps, also when it is seen from behind") {
     CHECK(sum == Approx(8.0 + 12.0));
     CHECK(least > 0.0);
     std::vector<glm::dvec3> behind(comb.rbegin(), comb.rend());
-    const auto [sum_behind, least_behind] = areas(behind, cut_polygon(behind));
+    const auto [sum_behind, min_behind] = areas(behind, cut_polygon(behind));
     CHECK(sum_behind == Approx(-20.0));
-    CHECK(least_behind < 0.0);
+    CHECK(min_behind < 0.0);
 }
 
 TEST_CASE("what crosses itself or has no area still gives two triangles fewer than corners") {

@@ -111,7 +111,7 @@ TEST_CASE("a polygon with too many corners is refused") {
 
 TEST_CASE("too many vertices are refused") {
     std::string text;
-    for (std::size_t i = 0; i <= most_obj_vertices; ++i) {
+    for (std::size_t i = 0; i <= max_obj_vertices; ++i) {
         text += "v 0 0 0\n";
     }
     CHECK(message(text) == "m.obj:1000001: expected at most 1000000 vertices, got more");

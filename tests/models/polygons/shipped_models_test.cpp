@@ -27,8 +27,8 @@ const Pivot& pivot_named(const PolygonModel& model, const std::string& part) {
 
 /// What a part sweeps when it turns once: from least to most along the axis, and how far from it.
 struct Sweep {
-    double least_m = 1e9;
-    double most_m = -1e9;
+    double min_m = 1e9;
+    double max_m = -1e9;
     double radius_m = 0.0;
 };
 
@@ -39,8 +39,8 @@ Sweep sweep_of(const PolygonModel& model, const Pivot& pivot) {
             for (const std::uint32_t vertex : model.corners(i)) {
                 const glm::dvec3 offset_m = model.vertices_m[vertex] - pivot.point_m;
                 const double along_m = glm::dot(offset_m, pivot.axis);
-                sweep.least_m = std::min(sweep.least_m, along_m);
-                sweep.most_m = std::max(sweep.most_m, along_m);
+                sweep.min_m = std::min(sweep.min_m, along_m);
+                sweep.max_m = std::max(sweep.max_m, along_m);
                 sweep.radius_m =
                     std::max(sweep.radius_m, glm::length(offset_m - pivot.axis * along_m));
             }
@@ -65,7 +65,7 @@ int points_near(
             const glm::dvec3 offset_m =
                 origin_m + to_first_m * first + to_second_m * second - pivot.point_m;
             const double along_m = glm::dot(offset_m, pivot.axis);
-            const bool near = along_m > sweep.least_m && along_m < sweep.most_m &&
+            const bool near = along_m > sweep.min_m && along_m < sweep.max_m &&
                               glm::length(offset_m - pivot.axis * along_m) < sweep.radius_m;
             inside += near ? 1 : 0;
         }
@@ -127,7 +127,7 @@ TEST_CASE("the main rotor turns in one plane above all the rest") {
     const PolygonModel model = shipped("500md");
     const Pivot& hub = pivot_named(model, "rotor");
     const Sweep sweep = sweep_of(model, hub);
-    CHECK(sweep.most_m - sweep.least_m < 1e-9);
+    CHECK(sweep.max_m - sweep.min_m < 1e-9);
     CHECK(sweep.radius_m == Approx(4.025).epsilon(1e-3));
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         for (const std::uint32_t vertex : model.corners(i)) {
@@ -141,8 +141,8 @@ TEST_CASE("what the tail rotor sweeps keeps clear of everything else") {
     const Pivot& hub = pivot_named(model, "tail_rotor");
     const Sweep sweep = sweep_of(model, hub);
     CHECK(sweep.radius_m == Approx(0.7).epsilon(5e-3));
-    CHECK(sweep.most_m == Approx(-sweep.least_m));
-    CHECK(sweep.most_m < 0.03);
+    CHECK(sweep.max_m == Approx(-sweep.min_m));
+    CHECK(sweep.max_m < 0.03);
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         if (!pivot_of(model, i)) {
             CHECK(points_near(model, i, hub, {-0.13, 0.13, 0.8}) == 0);

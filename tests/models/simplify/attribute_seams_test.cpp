@@ -196,8 +196,8 @@ TEST_CASE("texture coordinates of a seam that meets itself stay right on both of
     bool has_begin = false;
     bool has_end = false;
     for (std::size_t t = 0; t < made.triangles.size(); ++t) {
-        float least_u = 2.0F;
-        float most_u = -1.0F;
+        float min_u = 2.0F;
+        float max_u = -1.0F;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3& at_m = made.vertices_m[made.triangles[t][k]];
             const glm::vec2& place =
@@ -206,12 +206,12 @@ TEST_CASE("texture coordinates of a seam that meets itself stay right on both of
             const double off = static_cast<double>(place.x) - turn;
             CHECK(std::abs(off - std::round(off)) < 0.02);
             CHECK(std::abs(static_cast<double>(place.y) - at_m.z) < 0.02);
-            least_u = std::min(least_u, place.x);
-            most_u = std::max(most_u, place.x);
+            min_u = std::min(min_u, place.x);
+            max_u = std::max(max_u, place.x);
         }
-        CHECK(most_u - least_u < 0.5F); // No triangle shows the whole picture back to front.
-        has_begin = has_begin || least_u < 0.01F;
-        has_end = has_end || most_u > 0.99F;
+        CHECK(max_u - min_u < 0.5F); // No triangle shows the whole picture back to front.
+        has_begin = has_begin || min_u < 0.01F;
+        has_end = has_end || max_u > 0.99F;
     }
     CHECK(has_begin);
     CHECK(has_end);

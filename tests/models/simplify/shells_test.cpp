@@ -100,7 +100,7 @@ TEST_CASE("a goal that all shells cannot reach drops the smallest ones, unless t
     const auto off = [](const TriangleMesh& mesh) {
         return measure::distance(balls(4), mesh, {.tightness = 1.1, .samples = 20'000});
     };
-    CHECK(off(fewer.mesh).most_hausdorff_m() < off(two).least_hausdorff_m());
+    CHECK(off(fewer.mesh).max_hausdorff_m() < off(two).min_hausdorff_m());
     CHECK(off(fewer.mesh).rms_m() < 0.5 * off(two).rms_m());
     options.keep_shells = true;
     const Simplified all = simplified(balls(4), options);
@@ -133,7 +133,7 @@ TEST_CASE("parts above a dense mesh do not vanish where another step costs less"
         const Simplified fewer = simplified(fine, options);
         CHECK(fewer.mesh.triangles.size() <= 140);
         CHECK(fewer.shells_gone == 0);
-        CHECK(measure::distance(fine, fewer.mesh, {.samples = 0}).most_hausdorff_m() < 0.1);
+        CHECK(measure::distance(fine, fewer.mesh, {.samples = 0}).max_hausdorff_m() < 0.1);
     }
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("an error keeps its bound where holes close, and closed holes stay in 
     const Simplified result = simplified(fine, options);
     CHECK(result.holes_closed > 0);
     CHECK(result.holes_closed + measure::defects(result.mesh).boundary_loops == 20);
-    CHECK(measure::distance(fine, result.mesh, {}).most_hausdorff_m() <= 0.15);
+    CHECK(measure::distance(fine, result.mesh, {}).max_hausdorff_m() <= 0.15);
 }
 
 TEST_CASE("meshes with random holes, handles and parts stay manifolds, and closed ones closed") {

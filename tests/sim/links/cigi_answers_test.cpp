@@ -92,7 +92,7 @@ TEST_CASE("answers that do not fit into a message wait for the next one") {
     std::size_t answers = 0;
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
         const auto answer = generator.message_for(frame, 0.0);
-        CHECK(answer.size() <= CigiImageGenerator::most_message_bytes);
+        CHECK(answer.size() <= CigiImageGenerator::max_message_bytes);
         answers += parts_of(answer).size() - 1;
     }
     CHECK(answers == 100);

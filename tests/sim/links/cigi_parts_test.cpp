@@ -137,7 +137,7 @@ TEST_CASE("parts are bounded") {
         part.enabled = true;
         parts.take(part, 0.0);
     }
-    CHECK(parts.turned(0.0).size() == CigiParts::most_parts);
+    CHECK(parts.turned(0.0).size() == CigiParts::max_parts);
 }
 
 TEST_CASE("a view control of a group is one of each view that is in it") {

@@ -130,7 +130,7 @@ TEST_CASE("caps hold whatever a host asks for") {
         message.set(24, 20.0F).set(28, -20.0F);
         generator.take(message.bytes(), moved);
     }
-    CHECK(generator.views().size() == CigiImageGenerator::most_views);
-    CHECK(generator.definitions().size() == CigiImageGenerator::most_views);
-    CHECK(generator.message_for(1, 0.0).size() <= CigiImageGenerator::most_message_bytes);
+    CHECK(generator.views().size() == CigiImageGenerator::max_views);
+    CHECK(generator.definitions().size() == CigiImageGenerator::max_views);
+    CHECK(generator.message_for(1, 0.0).size() <= CigiImageGenerator::max_message_bytes);
 }

@@ -87,7 +87,7 @@ TEST_CASE("a thousand connections that say nothing keep out nobody who speaks") 
 TEST_CASE("clients of other machines than the one that counts hold no place") {
     LineServer server(this_machine, 0, this_machine);
     std::vector<std::unique_ptr<TcpClient>> others;
-    for (std::size_t i = 0; i < 2 * LineServer::most_clients; ++i) {
+    for (std::size_t i = 0; i < 2 * LineServer::max_clients; ++i) {
         others.push_back(std::make_unique<TcpClient>(server.port(), another));
         others.back()->say("from elsewhere\n");
     }

@@ -205,7 +205,7 @@ TEST_CASE(
     CHECK(reports[9999].marking == "UNIT9999");
     CHECK(reports[9999].packets == 2);
     CHECK(reports[9999].latitude_deg == Approx(47.0));
-    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
+    CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
     const std::vector<std::string> lines = traffic.lines();
     CHECK(std::ranges::any_of(lines, [](const std::string& told) {
         return told.find("1:20:0 UNIT0") != std::string::npos;
@@ -279,9 +279,9 @@ TEST_CASE("no more vehicles are kept than the cap, and silent ones make room") {
     for (std::uint16_t i = 0; i < 400; ++i) {
         traffic.take({Protocol::Fdm, {1, i}, 0.0, {bytes.begin(), bytes.end()}});
     }
-    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
-    CHECK(traffic.counts().unused == 400 - static_cast<long>(LiveTraffic::most_vehicles));
+    CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
+    CHECK(traffic.counts().unused == 400 - static_cast<long>(LiveTraffic::max_vehicles));
     const Datagram later{Protocol::Fdm, {2, 9}, 20.0, {bytes.begin(), bytes.end()}};
     CHECK(traffic.take(later) == Taken::Moved);
-    CHECK(traffic.vehicles().size() == LiveTraffic::most_vehicles);
+    CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
 }

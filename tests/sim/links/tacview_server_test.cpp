@@ -133,16 +133,16 @@ TEST_CASE("stuck readers and a thousand half-open connections delay a live reade
 TEST_CASE("Tacview's server has a place for so many readers and no more") {
     TacviewServer server(loopback, 0, "us");
     std::vector<std::unique_ptr<TcpClient>> readers;
-    for (std::size_t i = 0; i < TacviewServer::most_readers + 3; ++i) {
+    for (std::size_t i = 0; i < TacviewServer::max_readers + 3; ++i) {
         readers.push_back(std::make_unique<TcpClient>(server.port()));
         answer(*readers.back());
     }
-    settle(server, TacviewServer::most_readers);
+    settle(server, TacviewServer::max_readers);
     for (int i = 0; i < 50; ++i) {
         server.send("");
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    CHECK(server.readers() == TacviewServer::most_readers);
+    CHECK(server.readers() == TacviewServer::max_readers);
 }
 
 TEST_CASE("connections that never shake hands keep no reader out") {

@@ -274,10 +274,10 @@ TEST_CASE("Start of Frame comes at the pictures' rate, and while a host is silen
     // most.
     constexpr std::size_t some = 120;
     REQUIRE(heard.size() > some);
-    double least_wrong = 1.0;
+    double min_wrong = 1.0;
     for (std::size_t i = some; i < heard.size(); ++i) {
         const double passed_s = (heard[i].timestamp - heard[i - some].timestamp) * 1e-5;
-        least_wrong = std::min(least_wrong, std::abs(passed_s * rate_hz / some - 1.0));
+        min_wrong = std::min(min_wrong, std::abs(passed_s * rate_hz / some - 1.0));
     }
-    CHECK(least_wrong < 0.03);
+    CHECK(min_wrong < 0.03);
 }

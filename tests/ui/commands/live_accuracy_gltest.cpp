@@ -90,15 +90,15 @@ struct Accuracy {
 
 /// The sender's time zero on the program's clock, by the quickest of all packets.
 double begun_s(const ui::flight::PacketFile& packets) {
-    double least_s = std::numeric_limits<double>::infinity();
+    double min_s = std::numeric_limits<double>::infinity();
     for (const auto& frame : packets.frames) {
         for (const links::Datagram& packet : frame.packets) {
             links::Fix fix;
             REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::Fault::None);
-            least_s = std::min(least_s, packet.arrival_s - fix.ticks.value_or(0) * 1e-6);
+            min_s = std::min(min_s, packet.arrival_s - fix.ticks.value_or(0) * 1e-6);
         }
     }
-    return least_s;
+    return min_s;
 }
 
 Accuracy accuracy_of(const fs::path& record, double delay_s, double settled_s) {

@@ -24,11 +24,11 @@ namespace {
 
 // The rasterizer is the same everywhere but its code is made for the processor it runs on: a
 // rounding of a colour part or a pixel of an outline may differ, nothing else.
-constexpr int most_part_difference = 3;
-constexpr double most_outline_share = 0.002;
+constexpr int max_part_difference = 3;
+constexpr double max_outline_share = 0.002;
 // The other renderer rounds corners by itself: where triangles are seen nearly edge-on, as on
 // slopes beside the horizon, a pixel may show the next one.
-constexpr double most_other_outline_share = 0.006;
+constexpr double max_other_outline_share = 0.006;
 
 ui::report::Picture last_picture(ui::flight::Session& session) {
     for (int frame = 0; frame < session.frames(); ++frame) {
@@ -44,7 +44,7 @@ void check_same_pictures(
     const ui::report::Picture& actual,
     const ui::report::Picture& expected,
     const std::string& name,
-    double most_share) {
+    double max_share) {
     INFO(name);
     REQUIRE(expected.bytes.size() == actual.bytes.size());
     ui::report::Picture difference = actual;
@@ -58,12 +58,12 @@ void check_same_pictures(
             difference.bytes[part] = static_cast<std::byte>(std::min(255, 16 * off));
             worst = std::max(worst, off);
         }
-        wrong_pixels += worst > most_part_difference ? 1 : 0;
+        wrong_pixels += worst > max_part_difference ? 1 : 0;
     }
     const double share =
         static_cast<double>(wrong_pixels) / (static_cast<double>(actual.bytes.size()) / 3.0);
-    CHECK(share <= most_share);
-    if (share > most_share) {
+    CHECK(share <= max_share);
+    if (share > max_share) {
         const std::filesystem::path folder = OCTANT_BUILD_DIR;
         ui::report::write_png(folder / (name + "-actual.png"), actual.view());
         ui::report::write_png(folder / (name + "-diff.png"), difference.view());
@@ -91,8 +91,8 @@ void check_against_golden(
             std::filesystem::path(OCTANT_SOURCE_DIR) / "tests/golden" / (approved_as + ".png");
         if (std::getenv("OCTANT_APPROVE") == nullptr) {
             const bool own = approved_as == drawn_as;
-            const double most_share = own ? most_outline_share : most_other_outline_share;
-            check_same_pictures(actual, ui::report::read_png(file), drawn_as, most_share);
+            const double max_share = own ? max_outline_share : max_other_outline_share;
+            check_same_pictures(actual, ui::report::read_png(file), drawn_as, max_share);
         } else if (approved_as == drawn_as) {
             ui::report::write_png(file, actual.view());
         }

@@ -73,7 +73,7 @@ std::vector<std::string> rows_in(const fs::path& recording) {
     return rows;
 }
 
-constexpr std::size_t slow_pictures = ui::report::SlowPictures::most_shown;
+constexpr std::size_t slow_pictures = ui::report::SlowPictures::max_shown;
 
 void check_same(const fs::path& whole, const fs::path& merged, std::size_t frames) {
     const auto one = ui::report::load_recording(whole);

@@ -283,7 +283,7 @@ TEST_CASE("a curve keeps every peak in the memory of a plot") {
         curve.add(i, i == 777'777 ? 9.0 : i == 3 ? -9.0 : i % 2);
     }
     const PlotSeries whole = curve.series();
-    CHECK(whole.x.size() <= 2 * Curve::most_pieces);
+    CHECK(whole.x.size() <= 2 * Curve::max_pieces);
     CHECK(std::ranges::is_sorted(whole.x));
     CHECK(*std::ranges::max_element(whole.y) == 9.0);
     CHECK(*std::ranges::min_element(whole.y) == -9.0);

@@ -66,7 +66,7 @@ TEST_CASE("what the kernel counted stands beside the slowest frames") {
     recording.finish({1, 2, {}});
     const LoadedRecording loaded = load_recording(scratch / "rec");
     REQUIRE(loaded.has_counters);
-    REQUIRE(loaded.slowest.size() == SlowFrames::most_kept);
+    REQUIRE(loaded.slowest.size() == SlowFrames::max_kept);
     CHECK(loaded.slowest[0].record.frame == 30);
     CHECK(loaded.slowest[0].record.counters.page_faults == 130);
     CHECK(loaded.slowest[0].record.counters.switches == 30);

@@ -46,7 +46,7 @@ void check_same(const ProgressiveMesh& a, const ProgressiveMesh& b) {
     CHECK(std::ranges::equal(a.coarsest_first(), b.coarsest_first()));
 }
 
-constexpr std::size_t most_bytes = std::size_t{1} << 24U;
+constexpr std::size_t max_bytes = std::size_t{1} << 24U;
 
 } // namespace
 
@@ -82,13 +82,13 @@ TEST_CASE("what was repaired in a mesh is told each time, whoever reads it under
     CHECK(notes_as("other")[1] == "other: " + made[1].substr(std::string("ball: ").size()));
 
     const auto repairs = prepared_file(folder, mesh).replace_extension(".repairs");
-    const std::string whole = read_file(repairs, most_bytes);
+    const std::string whole = read_file(repairs, max_bytes);
     std::string flipped = whole;
     flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
     for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 9), whole + "x"}) {
         write_file(repairs, bad);
         CHECK_THAT(notes_as("ball").back(), Catch::Contains("made anew"));
-        CHECK(read_file(repairs, most_bytes) == whole);
+        CHECK(read_file(repairs, max_bytes) == whole);
     }
     std::filesystem::remove(repairs);
     CHECK_THAT(notes_as("ball").back(), Catch::Contains("made anew"));
@@ -101,7 +101,7 @@ TEST_CASE("a prepared mesh that is damaged or cut off is made anew and replaced,
     const models::TriangleMesh mesh = ball({1.0F, 0.0F, 0.0F});
     const auto file = prepared_file(folder, mesh);
     const RefineMesh made = prepared_refine_mesh(folder, input, mesh);
-    const std::string whole = read_file(file, most_bytes);
+    const std::string whole = read_file(file, max_bytes);
     std::string flipped = whole;
     flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
     for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 9), std::string("x")}) {
@@ -110,6 +110,6 @@ TEST_CASE("a prepared mesh that is damaged or cut off is made anew and replaced,
         REQUIRE_FALSE(anew.notes.empty());
         CHECK_THAT(anew.notes.back(), Catch::Contains("made anew"));
         check_same(*made.mesh, *anew.mesh);
-        CHECK(read_file(file, most_bytes) == whole);
+        CHECK(read_file(file, max_bytes) == whole);
     }
 }

@@ -79,9 +79,9 @@ TEST_CASE("no point of a detailed aircraft is farther from the plain one than it
         options.samples = 0;
         const models::measure::MeshDistance distance =
             models::measure::distance(shape_of(kind.name), shape_of(kind.plain_name), options);
-        INFO(kind.name << ": " << distance.most_hausdorff_m() << " m");
-        CHECK(distance.most_hausdorff_m() <= kind.plain_error_m);
-        CHECK(distance.least_hausdorff_m() > 0.95 * kind.plain_error_m); // no larger than need be
+        INFO(kind.name << ": " << distance.max_hausdorff_m() << " m");
+        CHECK(distance.max_hausdorff_m() <= kind.plain_error_m);
+        CHECK(distance.min_hausdorff_m() > 0.95 * kind.plain_error_m); // no larger than need be
     }
     CHECK(detailed >= 2);
 }

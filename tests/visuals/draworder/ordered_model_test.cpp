@@ -29,13 +29,13 @@ using octant::visuals::orderfile::EyeSamples;
 
 namespace {
 
-void check_tree(const PolygonModel& model, int eyes, int most_cells) {
+void check_tree(const PolygonModel& model, int eyes, int max_cells) {
     INFO(model.name);
     const OrderedModel found = by(Method::Tree, model);
     const auto count = count_wrong_rays(found.model, found.order, all_eyes(eyes));
     CHECK(count.hits > eyes);
     CHECK(count.wrong == 0);
-    CHECK(found.order.cell_count() <= most_cells);
+    CHECK(found.order.cell_count() <= max_cells);
     CHECK(found.cyclic_cells == 0);
     CHECK(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
 }
@@ -112,7 +112,7 @@ TEST_CASE("lists by cells and by the tree keep the precedences that the paper's 
             }
         }
         const double beyond = method == Method::Cells ? 2.0 : 0.05;
-        const EyeSamples eyes{.eyes = 1000, .rays_per_eye = 30, .least_distance_radii = beyond};
+        const EyeSamples eyes{.eyes = 1000, .rays_per_eye = 30, .min_distance_radii = beyond};
         CHECK(count_wrong_rays(found.model, found.order, eyes).wrong == 0);
     }
 }
@@ -147,17 +147,17 @@ TEST_CASE("octant paths give right lists from twice the radius outwards") {
         {shipped("500md"), 24},
         {octant::tests::plate_between_boxes(), 40},
         {octant::tests::three_bars(), 80}};
-    for (const auto& [model, most_cells] : models) {
+    for (const auto& [model, max_cells] : models) {
         INFO(model.name);
         const OrderedModel found = by(Method::Cells, model);
-        CHECK(found.order.cell_count() <= most_cells);
+        CHECK(found.order.cell_count() <= max_cells);
         REQUIRE(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
-        const double most_radii = (found.min_distance_m + glm::length(found.centre_m)) /
+        const double max_radii = (found.min_distance_m + glm::length(found.centre_m)) /
                                   octant::models::polygons::radius_m(model);
         const auto count = count_wrong_rays(
             found.model,
             found.order,
-            {.eyes = 1500, .rays_per_eye = 30, .least_distance_radii = most_radii});
+            {.eyes = 1500, .rays_per_eye = 30, .min_distance_radii = max_radii});
         CHECK(count.hits > 1500);
         CHECK(count.wrong == 0);
     }
@@ -194,7 +194,7 @@ TEST_CASE("the orders hold while the rotors turn") {
     for (int step = 0; step < 24; ++step) {
         const PolygonModel turned = turned_by(still, octant::rad_from_deg(15.0 * step + 4.0));
         CHECK(count_wrong_rays(turned, tree.order, all_eyes(100)).wrong == 0);
-        const EyeSamples far{.eyes = 100, .rays_per_eye = 30, .least_distance_radii = 4.0};
+        const EyeSamples far{.eyes = 100, .rays_per_eye = 30, .min_distance_radii = 4.0};
         CHECK(count_wrong_rays(turned, cells.order, far).wrong == 0);
     }
 }

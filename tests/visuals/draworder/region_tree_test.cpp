@@ -193,7 +193,7 @@ TEST_CASE("models that need too many splits, planes or entries are given up") {
     WorkingModel pile(octant::tests::pile(7, 6), glm::dvec3(0.0));
     RegionGraphs graphs(pile.faces);
     const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
-    CHECK_THROWS_AS(region_tree(pile, root, {.most_depth = 2}), SearchGivenUp);
+    CHECK_THROWS_AS(region_tree(pile, root, {.max_depth = 2}), SearchGivenUp);
     CHECK(region_tree(pile, root, {}).lists.size() > 4);
     CHECK_NOTHROW(check_entries(8'000'000));
     CHECK_THROWS_AS(check_entries(8'000'001), SearchGivenUp);

@@ -16,7 +16,7 @@ by(visuals::draworder::Method method, models::polygons::PolygonModel model) {
 }
 
 visuals::orderfile::EyeSamples all_eyes(int eyes) {
-    return {.eyes = eyes, .rays_per_eye = 30, .least_distance_radii = 0.05};
+    return {.eyes = eyes, .rays_per_eye = 30, .min_distance_radii = 0.05};
 }
 
 } // namespace octant::tests

@@ -190,7 +190,7 @@ TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex fa
     const auto before = heights_from(low_eye_m);
     const auto after = heights_from(low_eye_m + glm::dvec3(0.3, 0.2, 0.0));
     int both = 0;
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (const auto& [at, height_m] : before) {
         const auto found = after.find(at);
         if (found != after.end()) {
@@ -201,11 +201,11 @@ TEST_CASE("detail grows from nothing: a small move of the eye moves no vertex fa
                     static_cast<double>(at.second) / 64.0,
                     height_m) -
                 low_eye_m);
-            most_rad = std::max(most_rad, std::abs(found->second - height_m) / distance_m);
+            max_rad = std::max(max_rad, std::abs(found->second - height_m) / distance_m);
         }
     }
     CHECK(both > 200);
-    CHECK(most_rad < 0.25 / 869.0 * 4.0);
+    CHECK(max_rad < 0.25 / 869.0 * 4.0);
 }
 
 TEST_CASE("a number of halvings is held by longer edges, and none is cut off") {
@@ -219,12 +219,12 @@ TEST_CASE("a number of halvings is held by longer edges, and none is cut off") {
     const std::size_t asked = triangles_of(view) - given;
     REQUIRE(asked > 2000);
     for (const double share : {0.9, 0.5, 0.25, 0.1}) {
-        view.most_splits = static_cast<std::size_t>(share * static_cast<double>(asked));
+        view.max_splits = static_cast<std::size_t>(share * static_cast<double>(asked));
         const double made = static_cast<double>(triangles_of(view) - given);
-        CHECK(made < 0.98 * static_cast<double>(view.most_splits));
-        CHECK(made > 0.7 * static_cast<double>(view.most_splits));
+        CHECK(made < 0.98 * static_cast<double>(view.max_splits));
+        CHECK(made > 0.7 * static_cast<double>(view.max_splits));
         FineView free = view;
-        free.most_splits = asked;
+        free.max_splits = asked;
         FineSurvey survey;
         free.long_rad = survey.long_rad_within(field.mesh(), view);
         CHECK(static_cast<double>(triangles_of(free) - given) == made);
@@ -237,7 +237,7 @@ TEST_CASE("what must look long to be halved changes steadily as the eye moves") 
     for (int step = 0; step < 200; ++step) {
         const glm::dvec3 eye_m = low_eye_m + glm::dvec3(0.2, 0.1, 0.05) * static_cast<double>(step);
         FineView view = view_from(eye_m);
-        view.most_splits = 600;
+        view.max_splits = 600;
         const Field field(eye_m, 1, 20.0);
         const auto long_rad = static_cast<double>(survey.long_rad_within(field.mesh(), view));
         CHECK(long_rad > static_cast<double>(view.long_rad));
@@ -258,8 +258,8 @@ TEST_CASE("without a limit of triangles the width of the picture counts for noth
     const FineView wide = view_of(2.0, 869.0);
     CHECK(narrow.long_rad == wide.long_rad);
     CHECK(narrow.reach_share == wide.reach_share);
-    CHECK(narrow.most_splits == wide.most_splits);
-    CHECK(narrow.most_things == wide.most_things);
+    CHECK(narrow.max_splits == wide.max_splits);
+    CHECK(narrow.max_things == wide.max_things);
     CHECK(view_of(1.4, 2.0 * 869.0).long_rad == Approx(0.5F * narrow.long_rad));
 }
 

@@ -26,16 +26,16 @@ std::vector<RunwayPatch> markings(double heading_deg) {
 std::vector<RunwayPatch>
 of_size(std::vector<RunwayPatch> patches, const glm::vec2& size_m, float from_m, float to_m) {
     std::erase_if(patches, [&](const RunwayPatch& patch) {
-        const glm::vec2 off_m = glm::abs(patch.most_m - patch.least_m - size_m);
-        return off_m.x > 1e-3F || off_m.y > 1e-3F || patch.least_m.x < from_m ||
-               patch.least_m.x > to_m;
+        const glm::vec2 off_m = glm::abs(patch.max_m - patch.min_m - size_m);
+        return off_m.x > 1e-3F || off_m.y > 1e-3F || patch.min_m.x < from_m ||
+               patch.min_m.x > to_m;
     });
-    std::ranges::sort(patches, {}, [](const RunwayPatch& patch) { return -patch.least_m.y; });
+    std::ranges::sort(patches, {}, [](const RunwayPatch& patch) { return -patch.min_m.y; });
     return patches;
 }
 
 double area_m2(const RunwayPatch& patch) {
-    const glm::vec2 size_m = patch.most_m - patch.least_m;
+    const glm::vec2 size_m = patch.max_m - patch.min_m;
     return static_cast<double>(size_m.x) * static_cast<double>(size_m.y);
 }
 
@@ -56,10 +56,10 @@ TEST_CASE("a runway's surface is all of it once, and markings lie on it apart fr
     double surface_m2 = 0.0;
     const std::vector<RunwayPatch> all = runway_patches(1800.0, 45.0, rad_from_deg(83.0));
     for (const RunwayPatch& patch : all) {
-        CHECK(patch.least_m.x >= 0.0F);
-        CHECK(patch.most_m.x <= length_m);
-        CHECK(std::max(-patch.least_m.y, patch.most_m.y) <= 22.5F);
-        CHECK(patch.most_m.x - patch.least_m.x <= 150.001F);
+        CHECK(patch.min_m.x >= 0.0F);
+        CHECK(patch.max_m.x <= length_m);
+        CHECK(std::max(-patch.min_m.y, patch.max_m.y) <= 22.5F);
+        CHECK(patch.max_m.x - patch.min_m.x <= 150.001F);
         CHECK(area_m2(patch) > 0.5);
         surface_m2 += patch.is_painted ? 0.0 : area_m2(patch);
     }
@@ -67,8 +67,8 @@ TEST_CASE("a runway's surface is all of it once, and markings lie on it apart fr
     for (std::size_t a = 0; a < all.size(); ++a) {
         for (std::size_t b = a + 1; b < all.size(); ++b) {
             if (all[a].is_painted == all[b].is_painted) {
-                const glm::vec2 overlap_m = glm::min(all[a].most_m, all[b].most_m) -
-                                            glm::max(all[a].least_m, all[b].least_m);
+                const glm::vec2 overlap_m = glm::min(all[a].max_m, all[b].max_m) -
+                                            glm::max(all[a].min_m, all[b].min_m);
                 REQUIRE(std::min(overlap_m.x, overlap_m.y) <= 1e-3F);
             }
         }
@@ -80,14 +80,14 @@ TEST_CASE("markings are as long, wide and far apart as Annex 14 has them") {
     const auto stripes = of_size(all, {30.0F, 1.75F}, 0.0F, 900.0F);
     REQUIRE(stripes.size() == 12);
     for (std::size_t i = 0; i + 1 < stripes.size(); ++i) {
-        CHECK(stripes[i].least_m.x == 6.0F);
-        const float apart_m = stripes[i].least_m.y - stripes[i + 1].most_m.y;
+        CHECK(stripes[i].min_m.x == 6.0F);
+        const float apart_m = stripes[i].min_m.y - stripes[i + 1].max_m.y;
         CHECK(apart_m == Approx(i == 5 ? 3.5 : 1.75).margin(1e-4));
     }
     const auto aim = of_size(all, {45.0F, 9.0F}, 0.0F, 900.0F);
     REQUIRE(aim.size() == 2);
-    CHECK(aim[0].least_m.x == 300.0F);
-    CHECK(aim[0].least_m.y - aim[1].most_m.y == Approx(22.0));
+    CHECK(aim[0].min_m.x == 300.0F);
+    CHECK(aim[0].min_m.y - aim[1].max_m.y == Approx(22.0));
     CHECK(of_size(all, {22.5F, 1.8F}, 150.0F, 150.0F).size() == 6);
     CHECK(of_size(all, {22.5F, 1.8F}, 450.0F, 450.0F).size() == 4);
     CHECK(of_size(all, {22.5F, 1.8F}, 600.0F, 600.0F).size() == 4);
@@ -97,15 +97,15 @@ TEST_CASE("markings are as long, wide and far apart as Annex 14 has them") {
 
 TEST_CASE("the centre line is even from one number to the other") {
     std::vector<RunwayPatch> dashes = of_size(markings(83.0), {30.0F, 0.9F}, 0.0F, length_m);
-    std::ranges::sort(dashes, {}, [](const RunwayPatch& patch) { return patch.least_m.x; });
+    std::ranges::sort(dashes, {}, [](const RunwayPatch& patch) { return patch.min_m.x; });
     REQUIRE(dashes.size() > 30);
-    const float step_m = dashes[1].least_m.x - dashes[0].least_m.x;
+    const float step_m = dashes[1].min_m.x - dashes[0].min_m.x;
     CHECK(step_m >= 50.0F);
     CHECK(step_m <= 75.0F);
     for (std::size_t i = 0; i + 1 < dashes.size(); ++i) {
-        CHECK(dashes[i + 1].least_m.x - dashes[i].least_m.x == Approx(step_m).margin(1e-2));
+        CHECK(dashes[i + 1].min_m.x - dashes[i].min_m.x == Approx(step_m).margin(1e-2));
     }
-    CHECK(dashes.front().least_m.x + dashes.back().most_m.x == Approx(length_m).margin(1e-2));
+    CHECK(dashes.front().min_m.x + dashes.back().max_m.x == Approx(length_m).margin(1e-2));
 }
 
 TEST_CASE("who turns around finds the same runway but for its number") {
@@ -116,8 +116,8 @@ TEST_CASE("who turns around finds the same runway but for its number") {
     for (const RunwayPatch& patch : there) {
         const glm::vec2 end(length_m, 0.0F);
         CHECK(std::ranges::any_of(back, [&](const RunwayPatch& other) {
-            const glm::vec2 off_m = glm::abs(other.least_m - (end - patch.most_m)) +
-                                    glm::abs(other.most_m - (end - patch.least_m));
+            const glm::vec2 off_m = glm::abs(other.min_m - (end - patch.max_m)) +
+                                    glm::abs(other.max_m - (end - patch.min_m));
             return off_m.x + off_m.y < 1e-2F;
         }));
     }

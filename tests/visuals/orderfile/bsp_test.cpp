@@ -32,8 +32,8 @@ RayCount rays_of(const BspTree& tree) {
     const EyeSamples samples{
         .eyes = 150,
         .rays_per_eye = 100,
-        .least_distance_radii = 0.1,
-        .most_distance_radii = 4.0,
+        .min_distance_radii = 0.1,
+        .max_distance_radii = 4.0,
         .seed = 11};
     return count_wrong_rays(tree.model, painted_from, samples);
 }

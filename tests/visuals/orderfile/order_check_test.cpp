@@ -133,7 +133,7 @@ TEST_CASE("the paper's table is certified beyond the model's radius, and no othe
         for (std::size_t place = 0; place + 1 < orders.cells[cell].list.size(); ++place) {
             const CellOrders swapped = with_pair_swapped(orders, cell, place);
             const auto rays = count_wrong_rays(
-                model, swapped, {.eyes = 4000, .rays_per_eye = 5, .least_distance_radii = 1.8});
+                model, swapped, {.eyes = 4000, .rays_per_eye = 5, .min_distance_radii = 1.8});
             INFO(cell << " " << place);
             CHECK(check_order(model, swapped).good() == (rays.wrong == 0));
         }
@@ -172,8 +172,8 @@ TEST_CASE("a turning part is certified for every angle") {
     fixed.pivots.clear();
     CHECK(check_order(fixed, orders).good());
     CHECK_FALSE(check_order(rotor, orders).good());
-    CHECK(count_wrong_rays(rotor, orders, {.most_distance_radii = 9}).wrong == 0);
-    CHECK(count_wrong_rays(rotor, orders, {.most_distance_radii = 9, .turn_rad = 3.1}).wrong > 0);
+    CHECK(count_wrong_rays(rotor, orders, {.max_distance_radii = 9}).wrong == 0);
+    CHECK(count_wrong_rays(rotor, orders, {.max_distance_radii = 9, .turn_rad = 3.1}).wrong > 0);
 }
 
 TEST_CASE("planes that others make needless are dropped") {
@@ -202,7 +202,7 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
             const CellOrders read = read_order_file(path, found.model.polygons.size());
             CHECK(check_order(found.model, read).good());
             const RayCount rays =
-                count_wrong_rays(found.model, read, {.eyes = 300, .least_distance_radii = 0.1});
+                count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
             CHECK(rays.hits > 100);
             CHECK(rays.wrong == 0);
             CHECK(rays.eyes_in_gap == 0);

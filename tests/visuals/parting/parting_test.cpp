@@ -145,14 +145,14 @@ TEST_CASE("rows of bits become columns") {
 }
 
 TEST_CASE("clusters in painting order never hide one painted later, pair by pair") {
-    std::size_t most_clusters = 0;
+    std::size_t max_clusters = 0;
     for (const int count : {8, 12, 20, 70, 150}) {
         Pieces pieces(scattered(count));
         const std::vector<glm::dvec3> around{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0.4}, {-1, 1, 0.4}};
         pieces.make_swept(5, 0, around, true); // a body
         pieces.make_swept(6, 1, around, false);
         const auto found = clusters(pieces, all_of(pieces));
-        most_clusters = std::max(most_clusters, found.size());
+        max_clusters = std::max(max_clusters, found.size());
         std::vector<std::size_t> cluster_of(pieces.count(), found.size());
         for (std::size_t i = 0; i < found.size(); ++i) {
             for (const std::uint32_t piece : found[i]) {
@@ -168,7 +168,7 @@ TEST_CASE("clusters in painting order never hide one painted later, pair by pair
             }
         }
     }
-    CHECK(most_clusters > 1);
+    CHECK(max_clusters > 1);
 }
 
 TEST_CASE("a cut shares its corners with the other piece and with neighbours along the edge") {

@@ -84,7 +84,7 @@ TEST_CASE("a plume is painted after the aircraft for eyes behind it, else before
     const Painted from_ahead = painted(effects, {60.0, 3.0, -5.0}, strength);
     CHECK(from_ahead.before > 20);
     CHECK(from_ahead.after == 0);
-    CHECK(effects.extent().least_m.x < -11.0);
+    CHECK(effects.extent().min_m.x < -11.0);
 }
 
 TEST_CASE("vapour lies beyond each wingtip and only under load") {

@@ -83,9 +83,9 @@ TEST_CASE("the hull holds the whole circle that a turning part runs") {
     model.pivots.push_back({1, {1.0, 0.0, -2.0}, {0.0, 0.0, 1.0}, 5.0});
     const HullExtent extent = hull_extent(model);
     const double arm_m = std::hypot(5.0, 0.2);
-    CHECK(extent.most_m.x == Approx(1.0 + arm_m));
-    CHECK(extent.least_m.x == Approx(1.0 - arm_m));
-    CHECK(extent.most_m.y == Approx(arm_m));
-    CHECK(extent.least_m.z == Approx(-2.0));
-    CHECK(extent.most_m.z == Approx(1.0));
+    CHECK(extent.max_m.x == Approx(1.0 + arm_m));
+    CHECK(extent.min_m.x == Approx(1.0 - arm_m));
+    CHECK(extent.max_m.y == Approx(arm_m));
+    CHECK(extent.min_m.z == Approx(-2.0));
+    CHECK(extent.max_m.z == Approx(1.0));
 }

@@ -49,8 +49,8 @@ TEST_CASE("a level never changes to and fro while the distance trembles") {
     int level = -1;
     int changes = 0;
     for (int frame = 0; frame < 1000; ++frame) {
-        const double most_m = 0.4 + 0.02 * (frame % 2 == 0 ? 1.0 : -1.0);
-        const int next = planning::chosen_level(errors_m, most_m, level);
+        const double max_m = 0.4 + 0.02 * (frame % 2 == 0 ? 1.0 : -1.0);
+        const int next = planning::chosen_level(errors_m, max_m, level);
         changes += static_cast<int>(next != level);
         level = next;
     }
@@ -107,8 +107,8 @@ TEST_CASE("a model's meshes lie behind its polygons, and both count for its size
     planning::add_levels(model, sources, 0.5);
     CHECK(model.levels[0].range.first_index == polygon_indices);
     CHECK(model.errors_m == std::vector<double>{0.0, 0.5});
-    CHECK(model.hull.most_m.x == 5.0);
-    CHECK(model.hull.least_m.x == -1.0);
+    CHECK(model.hull.max_m.x == 5.0);
+    CHECK(model.hull.min_m.x == -1.0);
     CHECK(model.subject.radius_m == Approx(5.0 * std::sqrt(2.0)));
     CHECK(model.shaded_as(0).size() == 2);
     CHECK(model.shaded_as(1).size() == 6);

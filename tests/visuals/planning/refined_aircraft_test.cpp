@@ -292,8 +292,8 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
     blade.triangles = {{0, 1, 2}, {0, 2, 1}};
     const std::array<planning::TurningMesh, 1> parts{{{&blade, 0}}};
     planning::add_turning(model, parts);
-    CHECK(model.hull.most_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
-    CHECK(model.hull.least_m.z == Approx(-std::sqrt(37.0)));
+    CHECK(model.hull.max_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
+    CHECK(model.hull.min_m.z == Approx(-std::sqrt(37.0)));
 
     planning::Scene scene;
     scene.ground = triangle_ground({});

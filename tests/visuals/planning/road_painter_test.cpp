@@ -202,14 +202,14 @@ TEST_CASE("roads take no more triangles than they may, and leave out the farthes
     };
     CHECK(farthest_m(few) < 0.7 * farthest_m(all));
     CHECK(PaintedRoads(camera, false, 0).cutter.paints().paints.empty());
-    CHECK(all.painter.most_triangles(all.view, 20000) > 0);
+    CHECK(all.painter.max_triangles(all.view, 20000) > 0);
     FrameView elsewhere = all.view;
     elsewhere.camera.eye_m = {1e6, 1e6, 500.0};
-    CHECK(all.painter.most_triangles(elsewhere, 20000) == 0);
+    CHECK(all.painter.max_triangles(elsewhere, 20000) == 0);
     elsewhere.camera.eye_m = all.view.camera.eye_m + glm::dvec3(0.0, 0.0, 15000.0);
-    CHECK(all.painter.most_triangles(elsewhere, 20000) == 0);
+    CHECK(all.painter.max_triangles(elsewhere, 20000) == 0);
     elsewhere.pixel_rad *= 0.2; // through a long lens
-    CHECK(all.painter.most_triangles(elsewhere, 20000) > 0);
+    CHECK(all.painter.max_triangles(elsewhere, 20000) > 0);
 }
 
 TEST_CASE("a road fades into the ground before it is too narrow to be painted") {

@@ -79,23 +79,23 @@ double side_m(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
 /// How far a place lies within a polygon that is counter-clockwise seen from above; less than 0
 /// outside.
 double inside_m(std::span<const glm::dvec3> corners, const glm::dvec3& p) {
-    double least_m = 1e9;
+    double min_m = 1e9;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        least_m = std::min(least_m, side_m(corners[i], corners[(i + 1) % corners.size()], p));
+        min_m = std::min(min_m, side_m(corners[i], corners[(i + 1) % corners.size()], p));
     }
-    return least_m;
+    return min_m;
 }
 
 /// The same of a polygon that faces the eye as the eye sees it: the least angle to the planes
 /// through the eye and its sides.
 double inside_rad(std::span<const glm::dvec3> corners, const glm::dvec3& p) {
-    double least_rad = 1e9;
+    double min_rad = 1e9;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3 inward = -glm::cross(corners[i], corners[(i + 1) % corners.size()]);
-        least_rad =
-            std::min(least_rad, std::asin(glm::dot(glm::normalize(inward), glm::normalize(p))));
+        min_rad =
+            std::min(min_rad, std::asin(glm::dot(glm::normalize(inward), glm::normalize(p))));
     }
-    return least_rad;
+    return min_rad;
 }
 
 double area_m2(std::span<const glm::dvec3> corners) {
@@ -133,8 +133,8 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
     const auto patches = nature::runway_patches(1800.0, 45.0, world.strip->heading_rad);
     const auto is_within = [&](const glm::dvec3& at_m, const nature::RunwayPatch& patch) {
         const glm::dvec2 on_m = world.strip->on_strip(glm::dvec2(at_m + world.camera.eye_m));
-        return glm::all(glm::greaterThan(on_m, glm::dvec2(patch.least_m) + 0.5)) &&
-               glm::all(glm::lessThan(on_m, glm::dvec2(patch.most_m) - 0.5));
+        return glm::all(glm::greaterThan(on_m, glm::dvec2(patch.min_m) + 0.5)) &&
+               glm::all(glm::lessThan(on_m, glm::dvec2(patch.max_m) - 0.5));
     };
     const auto covers = [&](std::uint32_t triangle, bool marking, const glm::dvec3& sight) {
         return std::ranges::any_of(world.cutter.paints().paints, [&](const GroundPaint& paint) {
@@ -183,7 +183,7 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     double expected_m2 = 0.0;
     for (const nature::RunwayPatch& patch :
          nature::runway_patches(1800.0, 45.0, world.strip->heading_rad)) {
-        const glm::vec2 size_m = patch.most_m - patch.least_m;
+        const glm::vec2 size_m = patch.max_m - patch.min_m;
         expected_m2 += patch.is_painted ? static_cast<double>(size_m.x * size_m.y) : 0.0;
     }
     CHECK(marked_m2 > expected_m2);
@@ -226,8 +226,8 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     CHECK(surface_m2(few) == surface_m2(all));
     CHECK(surface_m2(few) > 0.8 * 1800.0 * 45.0); // slopes that face away are not painted
     CHECK(few.cutter.triangles() < all.cutter.triangles());
-    CHECK(few.painter.most_triangles(eye_m, 20000) >= most);
-    CHECK(few.painter.most_triangles({0.0, 0.0, 20000.0}, 20000) < most);
+    CHECK(few.painter.max_triangles(eye_m, 20000) >= most);
+    CHECK(few.painter.max_triangles({0.0, 0.0, 20000.0}, 20000) < most);
 }
 
 TEST_CASE("a runway is painted on triangles that may be in view and on no others") {

@@ -173,11 +173,11 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
 
     struct Case {
         glm::ivec2 cell_px;
-        double most_texels_wrong;
+        double max_texels_wrong;
     };
 
     // Small triangles take their places from planes, large ones from the ends of sixteen pixels.
-    for (const auto& [cell_px, most_texels_wrong] :
+    for (const auto& [cell_px, max_texels_wrong] :
          {Case{glm::ivec2(8, 6), 1.0 / 16.0}, Case{glm::ivec2(64, 96), 1.0 / 5.0}}) {
         FlatPlan plan(small_px);
         paint_slope(plan, cell_px);
@@ -198,7 +198,7 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
             }
         }
         CAPTURE(cell_px.x, cell_px.y);
-        CHECK(worst < levels_a_texel * most_texels_wrong + 1.0);
+        CHECK(worst < levels_a_texel * max_texels_wrong + 1.0);
     }
 }
 

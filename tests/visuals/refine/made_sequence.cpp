@@ -230,8 +230,8 @@ CollapseSequence collapsed(TriangleMesh mesh) {
     return collapsed(std::move(mesh), std::numeric_limits<std::size_t>::max());
 }
 
-CollapseSequence collapsed(TriangleMesh mesh, std::size_t most_collapses) {
-    return Collapsing(std::move(mesh)).run(most_collapses);
+CollapseSequence collapsed(TriangleMesh mesh, std::size_t max_collapses) {
+    return Collapsing(std::move(mesh)).run(max_collapses);
 }
 
 } // namespace octant::visuals::refine::test

@@ -22,7 +22,7 @@ models::TriangleMesh made_ground(std::uint32_t size, std::uint64_t seed);
 /// Errors add half the edge's length to the larger one of both ends'.
 models::CollapseSequence collapsed(models::TriangleMesh mesh);
 
-/// The same for most_collapses at most.
-models::CollapseSequence collapsed(models::TriangleMesh mesh, std::size_t most_collapses);
+/// The same for max_collapses at most.
+models::CollapseSequence collapsed(models::TriangleMesh mesh, std::size_t max_collapses);
 
 } // namespace octant::visuals::refine::test

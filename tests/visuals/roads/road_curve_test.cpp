@@ -25,7 +25,7 @@ std::vector<glm::dvec2> winding(int places) {
 
 /// The least distance of a place from a line: that from each stretch falls, then rises along it.
 double off_line_m(const glm::dvec2& at_m, const std::vector<glm::dvec2>& line_m) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < line_m.size(); ++i) {
         double low = 0.0;
         double high = 1.0;
@@ -40,9 +40,9 @@ double off_line_m(const glm::dvec2& at_m, const std::vector<glm::dvec2>& line_m)
                 low += third;
             }
         }
-        least_m = std::min(least_m, off_m(low));
+        min_m = std::min(min_m, off_m(low));
     }
-    return least_m;
+    return min_m;
 }
 
 double sharpest_turn_deg(const std::vector<glm::dvec2>& line_m) {

@@ -42,9 +42,9 @@ double length_m(const RoadNetwork& roads) {
 }
 
 /// Whether an edge of one of its levels has a place in a box, by places along them.
-bool touches(const RoadPiece& piece, const glm::dvec2& least_m, const glm::dvec2& most_m) {
-    if (glm::any(glm::greaterThan(piece.least_m, most_m)) ||
-        glm::any(glm::lessThan(piece.most_m, least_m))) {
+bool touches(const RoadPiece& piece, const glm::dvec2& min_m, const glm::dvec2& max_m) {
+    if (glm::any(glm::greaterThan(piece.min_m, max_m)) ||
+        glm::any(glm::lessThan(piece.max_m, min_m))) {
         return false;
     }
     for (const std::vector<RoadPoint>& level : piece.levels) {
@@ -55,8 +55,8 @@ bool touches(const RoadPiece& piece, const glm::dvec2& least_m, const glm::dvec2
                     glm::mix(level[i - 1].left_m, level[i].left_m, step / 8.0);
                 for (const double aside : {-1.0, 0.0, 1.0}) {
                     const glm::dvec2 at_m = on_m + aside * left_m;
-                    if (glm::all(glm::greaterThanEqual(at_m, least_m)) &&
-                        glm::all(glm::lessThanEqual(at_m, most_m))) {
+                    if (glm::all(glm::greaterThanEqual(at_m, min_m)) &&
+                        glm::all(glm::lessThanEqual(at_m, max_m))) {
                         return true;
                     }
                 }
@@ -68,7 +68,7 @@ bool touches(const RoadPiece& piece, const glm::dvec2& least_m, const glm::dvec2
 
 /// By places a metre apart along all middle lines.
 double nearest_m(const RoadNetwork& roads, const glm::dvec2& place_m) {
-    double least_m = 1e9;
+    double min_m = 1e9;
     for (const RoadPiece& piece : roads.pieces()) {
         for (std::size_t i = 1; i < piece.levels[0].size(); ++i) {
             const glm::dvec2& from_m = piece.levels[0][i - 1].at_m;
@@ -76,11 +76,11 @@ double nearest_m(const RoadNetwork& roads, const glm::dvec2& place_m) {
             const int steps = static_cast<int>(std::ceil(glm::distance(from_m, to_m)));
             for (int step = 0; step <= steps; ++step) {
                 const glm::dvec2 on_m = glm::mix(from_m, to_m, static_cast<double>(step) / steps);
-                least_m = std::min(least_m, glm::distance(on_m, place_m));
+                min_m = std::min(min_m, glm::distance(on_m, place_m));
             }
         }
     }
-    return least_m;
+    return min_m;
 }
 
 } // namespace
@@ -105,19 +105,19 @@ TEST_CASE("the index of roads misses no piece") {
         const double y_m = dice.between(-15000.0, 15000.0);
         const double width_m = dice.between(1.0, 3000.0);
         const double depth_m = dice.between(1.0, 3000.0);
-        const glm::dvec2 least_m(x_m, y_m);
-        const glm::dvec2 most_m = least_m + glm::dvec2(width_m, depth_m);
+        const glm::dvec2 min_m(x_m, y_m);
+        const glm::dvec2 max_m = min_m + glm::dvec2(width_m, depth_m);
         found.clear();
-        roads.pieces_by(least_m, most_m, found);
+        roads.pieces_by(min_m, max_m, found);
         const std::set<std::uint32_t> all(found.begin(), found.end());
         bool any = false;
         for (std::uint32_t number = 0; number < roads.pieces().size(); ++number) {
-            const bool meets = touches(roads.pieces()[number], least_m, most_m);
+            const bool meets = touches(roads.pieces()[number], min_m, max_m);
             any = any || meets;
             REQUIRE((!meets || all.contains(number)));
         }
         found_in_vain += any ? 0 : static_cast<int>(all.size());
-        REQUIRE((!any || roads.may_meet(least_m, most_m)));
+        REQUIRE((!any || roads.may_meet(min_m, max_m)));
         met += any ? 1 : 0;
     }
     CHECK(met > 20);
@@ -151,8 +151,8 @@ TEST_CASE("made grounds have roads, low in their valleys, and the same ones each
         const RoadNetwork again(ground, wish);
         REQUIRE(roads.pieces().size() == again.pieces().size());
         for (std::size_t i = 0; i < roads.pieces().size(); ++i) {
-            REQUIRE(roads.pieces()[i].least_m == again.pieces()[i].least_m);
-            REQUIRE(roads.pieces()[i].most_m == again.pieces()[i].most_m);
+            REQUIRE(roads.pieces()[i].min_m == again.pieces()[i].min_m);
+            REQUIRE(roads.pieces()[i].max_m == again.pieces()[i].max_m);
         }
         CHECK(length_m(roads) > 20000.0);
     }

@@ -103,14 +103,14 @@ TEST_CASE("ground behind the aircraft that shows single samples scores less") {
     CHECK(score_of(90.0) < score_of(1.0) - 0.1);
     const Tower coarse = tower_at({0.0, 0.0, 25.0}, {flight, radius_m, 90.0, {0.0, 0.0}}, slope);
     const Tower fine = tower_at({0.0, 0.0, 25.0}, {flight, radius_m, 1.0, {0.0, 0.0}}, slope);
-    CHECK(coarse.least_fov_rad > 2.0 * fine.least_fov_rad);
+    CHECK(coarse.min_fov_rad > 2.0 * fine.min_fov_rad);
 }
 
 TEST_CASE("the tower widens no further than the aircraft can still be known") {
     Tower chosen{{0.0, 0.0, 20.0}, {}, 1.0};
     const glm::dvec3 far_m(0.0, 4000.0, 60.0);
     CHECK(share_of(tower_camera(chosen, far_m, radius_m), far_m) == Approx(0.18).epsilon(1e-3));
-    chosen.least_fov_rad = 0.01;
+    chosen.min_fov_rad = 0.01;
     CHECK(share_of(tower_camera(chosen, far_m, radius_m), far_m) > 0.2);
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("the same flight has the same tower") {
     const Tower other = tower_for(wish, rolling_m);
     CHECK(one.eye_m == other.eye_m);
     CHECK(one.skyline_rad == other.skyline_rad);
-    CHECK(one.least_fov_rad == other.least_fov_rad);
+    CHECK(one.min_fov_rad == other.min_fov_rad);
 }
 
 TEST_CASE("coarse ground does not hold the lens wide where the picture shows sky alone") {

@@ -58,9 +58,9 @@ bool reaches_into(const Corners& corners, const MeshView& view) {
     return false;
 }
 
-bool SearchBox::meets(const glm::dvec3& least_m, const glm::dvec3& most_m) const {
-    const glm::dvec3 above = most_m - (middle_m - half_m);
-    const glm::dvec3 below = middle_m + half_m - least_m;
+bool SearchBox::meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const {
+    const glm::dvec3 above = max_m - (middle_m - half_m);
+    const glm::dvec3 below = middle_m + half_m - min_m;
     return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0.0;
 }
 
@@ -75,9 +75,9 @@ long checked_count_in(
     long count = 0;
     for (std::uint32_t triangle = 0; 3 * triangle < mesh.indices.size(); ++triangle) {
         const auto [a, b, c] = corners_of(mesh, triangle);
-        const glm::dvec3 least_m = glm::min(a, glm::min(b, c)) + eye_m + rounding_m;
-        const glm::dvec3 most_m = glm::max(a, glm::max(b, c)) + eye_m - rounding_m;
-        if (box.meets(least_m, most_m)) {
+        const glm::dvec3 min_m = glm::min(a, glm::min(b, c)) + eye_m + rounding_m;
+        const glm::dvec3 max_m = glm::max(a, glm::max(b, c)) + eye_m - rounding_m;
+        if (box.meets(min_m, max_m)) {
             ++count;
             REQUIRE(std::binary_search(found.begin(), found.end(), triangle));
         }

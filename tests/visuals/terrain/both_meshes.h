@@ -39,7 +39,7 @@ struct SearchBox {
     glm::dvec3 half_m;
 
     /// Whether it meets another.
-    bool meets(const glm::dvec3& least_m, const glm::dvec3& most_m) const;
+    bool meets(const glm::dvec3& min_m, const glm::dvec3& max_m) const;
 };
 
 /// How many triangles of a mesh meet the box. Fails the test unless `found` are numbers of the

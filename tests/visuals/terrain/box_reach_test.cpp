@@ -43,7 +43,7 @@ double reach_m2(const ReachBox& box, const glm::dvec3& ahead) {
 }
 
 /// The least value at places of a lattice in the box that the picture may show.
-double least_shown_m2(const ReachBox& box, const glm::dvec3& ahead) {
+double min_shown_m2(const ReachBox& box, const glm::dvec3& ahead) {
     constexpr int steps = 24;
     const glm::dvec2 level = glm::normalize(glm::dvec2(ahead));
     double least = std::numeric_limits<double>::infinity();
@@ -78,10 +78,10 @@ TEST_CASE("no place of a box that a picture shows lies nearer than the bound say
                 for (const double y : places) {
                     for (const double top : {-150.0, -20.0, 15.0}) {
                         const ReachBox box{{x, y, top - 30.0}, {x + 100.0, y + 80.0, top}};
-                        const double least_m2 = least_shown_m2(box, ahead);
+                        const double min_m2 = min_shown_m2(box, ahead);
                         INFO(down << ' ' << heading << ' ' << x << ' ' << y << ' ' << top);
-                        CHECK(reach_m2(box, ahead) <= 1.00001 * least_m2);
-                        shown += std::isfinite(least_m2) ? 1 : 0;
+                        CHECK(reach_m2(box, ahead) <= 1.00001 * min_m2);
+                        shown += std::isfinite(min_m2) ? 1 : 0;
                     }
                 }
             }

@@ -171,7 +171,7 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
         DetailState state = starting_at(16.0, settings);
         double changes = 0.0;
         double last = 0.0;
-        int most_meshes = 0;
+        int max_meshes = 0;
         for (int frame = 0; frame < 300; ++frame) {
             // The view alone changes N by one per cent to and fro.
             const double wave = 1.0 + 0.01 * std::sin(1.3 * frame) + 0.005 * std::sin(0.1 * frame);
@@ -185,10 +185,10 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
                 controlled_mesh(state, settings, false, make).counters.triangles;
             changes += frame >= 20 ? std::abs(triangles - last) : 0.0;
             last = triangles;
-            most_meshes = std::max(most_meshes, meshes);
+            max_meshes = std::max(max_meshes, meshes);
         }
         CHECK(changes / 280.0 < 0.001 * settings.target_triangles);
-        CHECK(most_meshes <= tuned_meshes);
+        CHECK(max_meshes <= tuned_meshes);
         CHECK(state.exponent == Approx(exponent).epsilon(0.25));
     }
 }

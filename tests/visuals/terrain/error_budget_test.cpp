@@ -23,14 +23,14 @@ TEST_CASE("the steps counted by error are those of the meshes, for all grounds a
                 numbers.coin()};
             const MeshCopy got(ground.mesher.mesh(view, target));
             INFO("seed " << seed << ", case " << k << ", error " << got.error_px);
-            REQUIRE(got.triangles <= target.most_triangles);
+            REQUIRE(got.triangles <= target.max_triangles);
             REQUIRE(MeshCopy(plain.mesh(view, {got.error_px, ample, target.geomorphs})) == got);
             ++within;
             if (got.error_px > 1.001 * target.error_px) {
                 const double less_px = got.error_px * (1.0 - 2e-7); // beyond the next step
                 REQUIRE(
                     plain.mesh(view, {less_px, ample, target.geomorphs}).counters.triangles >
-                    target.most_triangles);
+                    target.max_triangles);
                 ++spent;
             }
         }

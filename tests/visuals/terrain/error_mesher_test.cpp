@@ -202,8 +202,8 @@ TEST_CASE("the triangles of a mesh by screen-space error in a box are found in d
              numbers.between(-reach.y, reach.y),
              numbers.between(-10.0, 10.0)},
             {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 20.0)}};
-        const auto meets = [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            return box.meets(least_m, most_m);
+        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+            return box.meets(min_m, max_m);
         };
         std::vector<std::uint32_t> found;
         ground.mesher.triangles_in(meets, found);

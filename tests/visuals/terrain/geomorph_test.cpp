@@ -67,17 +67,17 @@ TEST_CASE(
             INFO(size << " samples, " << height << " times as high");
             ErrorGround ground(stretched(rough_field(size, size, 4), of.height));
             const double error_px = 4.0 * height;
-            const auto most_m = [&](double px) {
+            const auto max_m = [&](double px) {
                 return of.fastest * 0.01 * px / 869.1 + 2e-5 * height;
             };
             const Moves smooth = moves_of(ground, {error_px, 1'000'000, true});
             CHECK(smooth.vertices > 30);
-            CHECK(smooth.largest_m < most_m(error_px));
+            CHECK(smooth.largest_m < max_m(error_px));
             const Moves jumping = moves_of(ground, {error_px, any_triangles, false});
             CHECK(jumping.largest_m > 50.0 * smooth.largest_m);
             // Without a budget an error below full_room_px moves as many pixels as that one.
             const Moves steady = moves_of(ground, {error_px, any_triangles, true});
-            CHECK(steady.largest_m < most_m(std::max(error_px, full_room_px)));
+            CHECK(steady.largest_m < max_m(std::max(error_px, full_room_px)));
         }
     }
 }
@@ -136,7 +136,7 @@ TEST_CASE("the ground at the border of fields of any size moves as slowly as wit
     // The wanted error grows by a share a frame. A vertex that bends the ground when it comes or
     // goes moves it 18 to 38 times as far in metres per pixel of that error.
     constexpr double growth = 1.002;
-    constexpr double most_m_for_a_pixel = 0.002;
+    constexpr double max_m_for_a_pixel = 0.002;
     for (const auto& [columns, rows] :
          {std::pair{52, 37}, {65, 50}, {40, 65}, {100, 70}, {65, 65}}) {
         INFO(columns << " x " << rows);
@@ -162,6 +162,6 @@ TEST_CASE("the ground at the border of fields of any size moves as slowly as wit
             before_m = after_m;
         }
         CHECK(came_or_went > 50);
-        CHECK(largest_m_for_a_pixel < most_m_for_a_pixel);
+        CHECK(largest_m_for_a_pixel < max_m_for_a_pixel);
     }
 }

@@ -84,9 +84,9 @@ directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
         angles_rad.push_back(angles_rad.front() + 2.0 * std::numbers::pi);
     }
     std::vector<glm::dvec2> directions;
-    constexpr double least_gap_rad = 1e-7;
+    constexpr double min_gap_rad = 1e-7;
     for (std::size_t k = 1; k < angles_rad.size(); ++k) {
-        if (angles_rad[k] - angles_rad[k - 1] > least_gap_rad) {
+        if (angles_rad[k] - angles_rad[k - 1] > min_gap_rad) {
             const double middle_rad = 0.5 * (angles_rad[k] + angles_rad[k - 1]);
             directions.emplace_back(std::cos(middle_rad), std::sin(middle_rad));
         }

@@ -130,8 +130,8 @@ private:
         const double below_m = static_cast<double>(meaning_.metres(below));
         const double relief_m = static_cast<double>(field_.highest_m() - field_.lowest_m());
         const double ease = std::clamp(1200.0 / relief_m, 1.0, 1.8);
-        const double least_m = below_m + move_m / (4.7 * ease);
-        const double fastest = ease * std::clamp(2.0 * 512.0 * least_m / relief_m, 1.2, 4.7);
+        const double min_m = below_m + move_m / (4.7 * ease);
+        const double fastest = ease * std::clamp(2.0 * 512.0 * min_m / relief_m, 1.2, 4.7);
         return below == 0 || move_m == 0.0 ? below
                                            : std::max(below, coded(below_m + move_m / fastest));
     }
@@ -144,13 +144,13 @@ private:
             return 0.0;
         }
         const int node = 2 * half;
-        const int least_x = (at.x - half / 2) / node * node;
-        const int least_y = (at.y - half / 2) / node * node;
+        const int min_x = (at.x - half / 2) / node * node;
+        const int min_y = (at.y - half / 2) / node * node;
         const int end_x = (at.x + half / 2 + node - 1) / node * node;
         const int end_y = (at.y + half / 2 + node - 1) / node * node;
         std::uint8_t largest = 0;
-        for (int y = least_y; y < end_y; y += stride) {
-            for (int x = least_x; x < end_x; x += stride) {
+        for (int y = min_y; y < end_y; y += stride) {
+            for (int x = min_x; x < end_x; x += stride) {
                 const Point centre{x + stride / 2, y + stride / 2};
                 if (padded(centre.x, centre.y) && has_area(centre.x, centre.y, stride / 2)) {
                     largest = std::max(largest, code(centre.x, centre.y, Room::None));

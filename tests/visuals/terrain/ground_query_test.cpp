@@ -22,7 +22,7 @@ double sampled_clearance_m(
     const glm::dvec3& from_m,
     const glm::dvec3& to_m,
     double radius_m) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     constexpr int steps = 20000;
     const double length_m = glm::distance(glm::dvec2(from_m), glm::dvec2(to_m));
     for (int k = 0; k <= steps; ++k) {
@@ -34,10 +34,10 @@ double sampled_clearance_m(
             const double way_m = share * length_m;
             const double rise_m = earth_drop_m(way_m * way_m, radius_m) -
                                   share * earth_drop_m(length_m * length_m, radius_m);
-            least_m = std::min(least_m, at_m.z + rise_m - *height_m);
+            min_m = std::min(min_m, at_m.z + rise_m - *height_m);
         }
     }
-    return least_m;
+    return min_m;
 }
 
 } // namespace

@@ -85,10 +85,10 @@ models::heights::HeightField field_with_mountain(int size) {
 
 /// What happens to the mesh while a picture is turned up from a steep dive.
 struct PullOut {
-    double most_change_px = 0.0; ///< of the error from picture to picture
+    double max_change_px = 0.0; ///< of the error from picture to picture
     double first_px = 0.0;
     double last_px = 0.0;
-    int most_triangles = 0;
+    int max_triangles = 0;
     int first_triangles = 0;
     int last_triangles = 0;
 };
@@ -99,15 +99,15 @@ PullOut pull_out(ErrorMesher& mesher, bool geomorphs) {
     double before_px = 0.0;
     for (double pitch_deg = -50.0; pitch_deg < -12.0; pitch_deg += step_deg) {
         const GroundMesh mesh = mesher.mesh(pitched(pitch_deg), {0.01, 3000, geomorphs});
-        found.most_triangles = std::max(found.most_triangles, mesh.counters.triangles);
+        found.max_triangles = std::max(found.max_triangles, mesh.counters.triangles);
         found.last_triangles = mesh.counters.triangles;
         found.last_px = mesh.error_px;
         if (before_px == 0.0) {
             found.first_px = mesh.error_px;
             found.first_triangles = mesh.counters.triangles;
         } else {
-            found.most_change_px =
-                std::max(found.most_change_px, std::abs(mesh.error_px - before_px));
+            found.max_change_px =
+                std::max(found.max_change_px, std::abs(mesh.error_px - before_px));
         }
         before_px = mesh.error_px;
     }
@@ -182,12 +182,12 @@ TEST_CASE("while a view is pulled out of a dive, the error within a budget chang
     const PullOut eased = pull_out(ground.mesher, true);
     INFO(
         "exact: " << exact.first_px << " to " << exact.last_px << ", by at most "
-                  << exact.most_change_px << "; eased: " << eased.first_px << " to "
-                  << eased.last_px << ", by at most " << eased.most_change_px << ", "
+                  << exact.max_change_px << "; eased: " << eased.first_px << " to "
+                  << eased.last_px << ", by at most " << eased.max_change_px << ", "
                   << eased.first_triangles << " to " << eased.last_triangles << " triangles");
-    CHECK(eased.most_change_px < 0.5 * exact.most_change_px);
+    CHECK(eased.max_change_px < 0.5 * exact.max_change_px);
     CHECK(eased.first_px > exact.first_px);
-    CHECK(eased.most_triangles <= 3000);
+    CHECK(eased.max_triangles <= 3000);
     CHECK(eased.last_triangles >= 2970);
 }
 
@@ -208,8 +208,8 @@ TEST_CASE("no vertex jumps by 0.25 pixels when the horizon leaves the picture be
     const ErrorGround ground(field_with_mountain(257));
     ErrorMesher mesher(ground.tiles);
     JumpMeter meter;
-    double most_px = 0.0;
-    double most_change = 0.0;
+    double max_px = 0.0;
+    double max_change = 0.0;
     double before_px = 0.0;
     for (double pitch_deg = -26.0; pitch_deg < -17.0; pitch_deg += 0.2) {
         PictureView picture;
@@ -220,11 +220,11 @@ TEST_CASE("no vertex jumps by 0.25 pixels when the horizon leaves the picture be
         view.eye_m = picture.eye_m;
         const GroundMesh mesh = mesher.mesh(view, {0.1, 5000, true});
         if (const auto jump = meter.next(mesh, picture)) {
-            most_px = std::max(most_px, jump->jump_px);
-            most_change = std::max(most_change, std::abs(mesh.error_px - before_px));
+            max_px = std::max(max_px, jump->jump_px);
+            max_change = std::max(max_change, std::abs(mesh.error_px - before_px));
         }
         before_px = mesh.error_px;
     }
-    INFO("the error changes by " << most_change << " px a picture");
-    CHECK(most_px < 0.1);
+    INFO("the error changes by " << max_change << " px a picture");
+    CHECK(max_px < 0.1);
 }

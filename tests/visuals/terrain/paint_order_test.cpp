@@ -160,8 +160,8 @@ TEST_CASE("the triangles in a box are found in drawing order, few others with th
         const SearchBox box{
             random_eye(numbers, ground.field),
             {numbers.between(0.5, 8.0), numbers.between(0.5, 8.0), numbers.between(1.0, 30.0)}};
-        const auto meets = [&](const glm::dvec3& least_m, const glm::dvec3& most_m) {
-            return box.meets(least_m, most_m);
+        const auto meets = [&](const glm::dvec3& min_m, const glm::dvec3& max_m) {
+            return box.meets(min_m, max_m);
         };
         std::vector<std::uint32_t> found = {7};
         ground.mesher.triangles_in(meets, found);

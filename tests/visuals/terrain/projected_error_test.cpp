@@ -119,13 +119,13 @@ TEST_CASE("on a curved earth samples sink as far as the mesh does") {
     }
     const ProjectedError error =
         ErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
-    double most_px = 0.0;
+    double max_px = 0.0;
     for (int column = -4; column <= 4; ++column) {
         for (int row = -4; row <= 4; ++row) {
             const double off_m = std::hypot(column, row);
             const double depth_m = 100.0 + off_m * off_m / (2.0 * radius_m);
-            most_px = std::max(most_px, 1000.0 * off_m * std::abs(1.0 / depth_m - 1.0 / 100.32));
+            max_px = std::max(max_px, 1000.0 * off_m * std::abs(1.0 / depth_m - 1.0 / 100.32));
         }
     }
-    CHECK(error.maximum_px == Approx(most_px).margin(1e-3));
+    CHECK(error.maximum_px == Approx(max_px).margin(1e-3));
 }

@@ -32,10 +32,10 @@ standing(const ControlSettings& settings, double first, int frames, const Count&
     return all;
 }
 
-/// From any C_0, at any gain, dn = 0 after at most 15 of 100 frames, `most_missing` from the
+/// From any C_0, at any gain, dn = 0 after at most 15 of 100 frames, `max_missing` from the
 /// target. `gained`: N'(C) at the target; 0: by the automatic a.
 template <typename Count>
-void check_rest(int target, double gained, double most_missing, const Count& count) {
+void check_rest(int target, double gained, double max_missing, const Count& count) {
     for (const double gain : gains) {
         for (const double first : first_resolutions) {
             ControlSettings settings;
@@ -45,7 +45,7 @@ void check_rest(int target, double gained, double most_missing, const Count& cou
             const std::vector<int> all = standing(settings, first, 100, count);
             INFO("gain " << gain << ", C_0 " << first);
             CHECK(frames_until_still(all, 10).value_or(100) <= 15);
-            CHECK(std::abs(all.back() - target) <= most_missing);
+            CHECK(std::abs(all.back() - target) <= max_missing);
         }
     }
 }

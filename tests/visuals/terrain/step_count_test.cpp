@@ -18,7 +18,7 @@ TEST_CASE("steps are counted up to the place where the limit would be passed") {
     steps.add(50.0F, 4);
     CHECK(steps.at_low() == 6);
     CHECK(steps.at_high() == 18);
-    CHECK(steps.most_below_low() == 8);
+    CHECK(steps.max_below_low() == 8);
     CHECK(steps.first_above(6) == 4.0F);
     CHECK(steps.first_above(10) == 4.0F);
     CHECK(steps.first_above(11) == 50.0F);

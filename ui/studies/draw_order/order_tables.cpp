@@ -79,8 +79,8 @@ const char* yes_or_no(bool yes) {
 
 struct Distances {
     const char* name;
-    double least_radii;
-    double most_radii;
+    double min_radii;
+    double max_radii;
 };
 
 constexpr std::array distances = {
@@ -101,8 +101,8 @@ orderfile::RayCount rays_of(
             order,
             {.eyes = 2000,
              .rays_per_eye = 25,
-             .least_distance_radii = range.least_radii,
-             .most_distance_radii = range.most_radii,
+             .min_distance_radii = range.min_radii,
+             .max_distance_radii = range.max_radii,
              .turn_rad = angle_rad});
     }
     return count;

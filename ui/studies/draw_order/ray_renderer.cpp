@@ -200,7 +200,7 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
         const auto i = static_cast<std::size_t>(k);
         target.inwards[i] = rows[k] / std::max(glm::length(glm::dvec2(rows[k])), 1e-300);
         target.by_w += rows[k];
-        target.most_by_w = std::max(target.most_by_w, 1.0 / std::max(corners[k].z, near_m_));
+        target.max_by_w = std::max(target.max_by_w, 1.0 / std::max(corners[k].z, near_m_));
         target.corners_px[i] = glm::dvec2(corners[k]) / corners[k].z;
     }
     target.is_placed =
@@ -270,7 +270,7 @@ RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reac
         } else if (target.distance_px(middle) <= reach_px) {
             const double by_w =
                 glm::dot(target.by_w, at) + reach_px * glm::length(glm::dvec2(target.by_w));
-            shown_by_w = std::max(shown_by_w, std::min(by_w, target.most_by_w));
+            shown_by_w = std::max(shown_by_w, std::min(by_w, target.max_by_w));
         }
     }
     if (shown_by_w < 0.0) {

@@ -25,7 +25,7 @@ namespace terrain = visuals::terrain;
 
 constexpr double height_m = 300.0; ///< over the ground
 constexpr double looking_down = 0.1;
-constexpr double most_resolution = 1000.0;
+constexpr double max_resolution = 1000.0;
 
 terrain::MeshView
 view_at(const models::heights::HeightField& field, double x_m, double y_m, double yaw_rad) {
@@ -55,7 +55,7 @@ FrameMaker controlled(
     control.triangles_per_resolution = settings.triangles_per_resolution;
     control.remembered_frames = settings.remembered_frames;
     control.dead_band = dead_band;
-    control.max_resolution = most_resolution;
+    control.max_resolution = max_resolution;
     const terrain::Detail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
     return [&ground,
             control,
@@ -106,7 +106,7 @@ FrameMaker literal(FlickerGround& ground, const FlickerSettings& settings) {
 
 FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::Detail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
-    const terrain::TriangleBudget budget{settings.target_triangles, most_resolution};
+    const terrain::TriangleBudget budget{settings.target_triangles, max_resolution};
     return [&ground, detail, budget](const terrain::MeshView& view) {
         const terrain::CountedMesh mesh = ground.mesher.count_within(view, detail, budget);
         return CountedFrame{mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
@@ -116,7 +116,7 @@ FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
 /// As flights are drawn by default, but for the error below which they leave triangles unused.
 FrameMaker by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::ErrorTarget target{
-        .error_px = 0.0, .most_triangles = settings.target_triangles, .geomorphs = true};
+        .error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
     return [&ground, target](const terrain::MeshView& view) {
         const terrain::GroundMesh mesh = ground.error_mesher.mesh(view, target);
         return CountedFrame{mesh.counters.triangles, mesh.counters.fans, 0.0};

@@ -70,7 +70,7 @@ HeightField high_mountains(const HeightField& hills) {
 /// What a way does over one ground.
 struct WayFigures {
     double mean_gain = 0.0; ///< 0 for a way that has none
-    double most_gain = 0.0;
+    double max_gain = 0.0;
     double fixed_change = 0.0; ///< mean |dn|
     double path_change = 0.0;
 };
@@ -95,7 +95,7 @@ void measure_gain(
     if (!gains.empty()) {
         figures.mean_gain =
             std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(gains.size());
-        figures.most_gain = *std::ranges::max_element(gains);
+        figures.max_gain = *std::ranges::max_element(gains);
     }
 }
 
@@ -158,7 +158,7 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
                  fmt::format("{:.0f}", relief_m[k]),
                  flicker_ways()[shown_ways[way]].name,
                  gain_text(figures.mean_gain),
-                 gain_text(figures.most_gain),
+                 gain_text(figures.max_gain),
                  fmt::format("{:.1f}", figures.fixed_change),
                  fmt::format("{:.1f}", figures.path_change),
                  fmt::format("{:.3f}", 100.0 * figures.path_change / as_asked.target_triangles)});

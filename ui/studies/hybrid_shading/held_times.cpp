@@ -28,7 +28,7 @@ constexpr double clock_rate_hz = 500.0;
 
 /// Budgets: so many of the way from what all flat takes (0) to what all Gouraud takes (1).
 constexpr std::array budgets{-3.0, 0.5, 4.0};
-constexpr double least_way = 0.1; ///< of all flat's time
+constexpr double min_way = 0.1; ///< of all flat's time
 
 constexpr std::array held_ways{
     scene::AircraftShading::Flat, scene::AircraftShading::Gouraud, scene::AircraftShading::Hybrid};
@@ -134,7 +134,7 @@ report::HtmlTable held_times_table(std::span<const std::string> aircraft, bool q
         const HeldFlights clock = flown(each, held_flight, clock_rate_hz, clock_frames, 10);
         const double flat_ms = clock.median_ms(flat_flight);
         const double way_ms =
-            std::max(clock.median_ms(smooth_flight) - flat_ms, least_way * flat_ms);
+            std::max(clock.median_ms(smooth_flight) - flat_ms, min_way * flat_ms);
         for (const double budget : budgets) {
             const double budget_ms = flat_ms + budget * way_ms;
             const HeldFlights flights =

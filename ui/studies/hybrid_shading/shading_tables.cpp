@@ -27,7 +27,7 @@ std::string gain_text(double ours_db, double gain_db) {
 }
 
 /// Smallest gain of any view; infinite where each is exact.
-double least_gain_db(const ShareQuality& ours, const ShareQuality& theirs) {
+double min_gain_db(const ShareQuality& ours, const ShareQuality& theirs) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t view = 0; view < ours.mean_square.size(); ++view) {
         if (ours.mean_square[view] > 0.0) {
@@ -104,7 +104,7 @@ report::HtmlTable gain_table(std::span<const ShadingRun> runs) {
                  decibels(facing.psnr_db()),
                  decibels(ours.psnr_db()),
                  gain_text(ours.psnr_db(), gain_db),
-                 gain_text(ours.psnr_db(), least_gain_db(ours, theirs)),
+                 gain_text(ours.psnr_db(), min_gain_db(ours, theirs)),
                  gain_text(ours.psnr_db(), ours.psnr_db() - facing.psnr_db()),
                  gain_db >= 2.0 ? "yes" : "no"});
         }

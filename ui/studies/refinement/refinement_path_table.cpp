@@ -91,7 +91,7 @@ private:
 
 struct PathRun {
     double operations_mean = 0.0;
-    std::size_t operations_most = 0;
+    std::size_t operations_max = 0;
     double active_mean = 0.0;
     double largest_step_px = 0.0;
     double ms_mean = 0.0; ///< processor time of an update
@@ -126,7 +126,7 @@ PathRun run_path(const RefinedModel& model, int frames) {
         watch.look(refiner, frame);
         const std::size_t operations = done.splits + done.collapses;
         run.operations_mean += static_cast<double>(operations) / frames;
-        run.operations_most = std::max(run.operations_most, operations);
+        run.operations_max = std::max(run.operations_max, operations);
         run.active_mean += static_cast<double>(refiner.front().active_count()) / frames;
         drawn_places(refiner.front(), after_m);
         for (std::size_t leaf = 0; leaf < after_m.size(); ++leaf) {
@@ -192,7 +192,7 @@ report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, in
         table.rows.push_back(
             {model->parts().name,
              fmt::format("{:.1f}", run.operations_mean),
-             fmt::format("{}", run.operations_most),
+             fmt::format("{}", run.operations_max),
              fmt::format("{:.0f}", run.active_mean),
              fmt::format("{:.3f}", run.largest_step_px),
              fmt::format("{:.3f}", run.ms_mean),

@@ -80,7 +80,7 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
 refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
     const models::Bounds bounds = models::bounds_of(original);
     const glm::dvec3 share = y_up ? glm::dvec3(0.72, 0.42, 0.8) : glm::dvec3(0.72, 0.2, 0.42);
-    const glm::dvec3 wanted_m = glm::mix(bounds.least_m, bounds.most_m, share);
+    const glm::dvec3 wanted_m = glm::mix(bounds.min_m, bounds.max_m, share);
     const auto nearest = std::ranges::min_element(
         original.vertices_m, {}, [&](const auto& at_m) { return glm::distance(at_m, wanted_m); });
     return {*nearest, 0.12 * models::diagonal_m(original)};

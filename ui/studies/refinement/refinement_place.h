@@ -17,13 +17,13 @@ struct Around {
 };
 
 inline Around around(const visuals::refine::ProgressiveMesh& mesh) {
-    glm::dvec3 least_m(mesh.position_m(0));
-    glm::dvec3 most_m = least_m;
+    glm::dvec3 min_m(mesh.position_m(0));
+    glm::dvec3 max_m = min_m;
     for (std::uint32_t leaf = 1; leaf < mesh.leaf_count(); ++leaf) {
-        least_m = glm::min(least_m, glm::dvec3(mesh.position_m(leaf)));
-        most_m = glm::max(most_m, glm::dvec3(mesh.position_m(leaf)));
+        min_m = glm::min(min_m, glm::dvec3(mesh.position_m(leaf)));
+        max_m = glm::max(max_m, glm::dvec3(mesh.position_m(leaf)));
     }
-    return {0.5 * (least_m + most_m) + mesh.parts().origin_m, 0.5 * glm::distance(least_m, most_m)};
+    return {0.5 * (min_m + max_m) + mesh.parts().origin_m, 0.5 * glm::distance(min_m, max_m)};
 }
 
 /// Processor time of this program so far.

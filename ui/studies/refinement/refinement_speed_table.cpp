@@ -28,7 +28,7 @@ double seconds_of(const Work& work) {
 }
 
 Rates rates_of(const RefinedModel& model) {
-    constexpr double least_s = 1.0;
+    constexpr double min_s = 1.0;
     refine::SelectiveRefiner front(model, {.repair = false});
     const std::vector<std::uint32_t> nodes = model->coarsest_first();
     std::vector<std::uint32_t> any_order = nodes;
@@ -44,7 +44,7 @@ Rates rates_of(const RefinedModel& model) {
     double any_s = 0.0;
     double collapse_s = 0.0;
     std::size_t rounds = 0;
-    for (; split_s < least_s; ++rounds) {
+    for (; split_s < min_s; ++rounds) {
         front.restart();
         split_s += seconds_of([&] { front.split_all(nodes); });
         front.restart();

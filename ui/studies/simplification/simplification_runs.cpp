@@ -44,7 +44,7 @@ public:
             run.hausdorff = run.rms = 1.0;
         } else {
             const measure::MeshDistance found = distance_to(mesh_.clean, result);
-            run.hausdorff = found.most_hausdorff_m() / mesh_.diagonal_m;
+            run.hausdorff = found.max_hausdorff_m() / mesh_.diagonal_m;
             run.rms = found.rms_m() / mesh_.diagonal_m;
             if (!mesh_.clean.colours.empty() && !result.colours.empty()) {
                 run.colour_rms = found.colour_rms();

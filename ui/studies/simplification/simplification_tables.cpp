@@ -94,7 +94,7 @@ std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous
         fmt::format("{}", run.result.mesh.vertices_m.size()),
         fmt::format("{}", run.defects.duplicate_faces),
         fmt::format("{}", run.defects.non_manifold_edges),
-        fmt::format("{:.3f}", 1e3 * run.distance.most_hausdorff_m() / run.diagonal_m),
+        fmt::format("{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m),
         fmt::format("{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m),
         fmt::format("{:.0f}", run.time_ms)};
 }
