@@ -29,7 +29,7 @@ struct Source {
 
     [[noreturn]] void refuse(std::string_view wanted, std::string_view got) const {
         constexpr std::size_t shown = 60;
-        error_at(
+        throw_error_at(
             file,
             line,
             fmt::format(
@@ -97,13 +97,13 @@ public:
         }
     }
 
-    std::vector<TapedObject> objects() && { return std::move(objects_); }
+    std::vector<AcmiObject> objects() && { return std::move(objects_); }
 
 private:
     /// What is known of an object that is there.
     struct Present {
         std::size_t object = 0;
-        TapedPlace place;
+        AcmiSample place;
         bool has_place = false;
     };
 
@@ -147,7 +147,7 @@ private:
     }
 
     void take_property(std::string_view field, Present& present, const Source& at) {
-        TapedObject& object = objects_[present.object];
+        AcmiObject& object = objects_[present.object];
         const std::size_t equals = field.find('=');
         if (equals == std::string_view::npos) {
             return;
@@ -174,7 +174,7 @@ private:
         if (count != bare && count != flat && count != turned && count != whole) {
             at.refuse("3, 5, 6 or 9 components after T=", text);
         }
-        TapedPlace& place = present.place;
+        AcmiSample& place = present.place;
         const std::array<double*, turned> targets{
             &place.longitude_deg,
             &place.latitude_deg,
@@ -190,7 +190,7 @@ private:
                 present.has_place = present.has_place || i < 2;
             }
         }
-        TapedObject& object = objects_[present.object];
+        AcmiObject& object = objects_[present.object];
         object.has_attitude = object.has_attitude || count >= turned;
         place.time_s = time_s_;
         if (present.has_place) {
@@ -207,7 +207,7 @@ private:
     double longitude_deg_ = 0.0;
     double latitude_deg_ = 0.0;
     std::map<std::uint64_t, Present> now_;
-    std::vector<TapedObject> objects_;
+    std::vector<AcmiObject> objects_;
     std::size_t places_ = 0;
 };
 
@@ -226,7 +226,7 @@ void check_head(const std::vector<std::string_view>& lines, const std::filesyste
 
 } // namespace
 
-std::vector<TapedObject> acmi_objects(std::string_view text, const std::filesystem::path& file) {
+std::vector<AcmiObject> parse_acmi_objects(std::string_view text, const std::filesystem::path& file) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
     if (text.starts_with(mark)) {
         text.remove_prefix(mark.size());

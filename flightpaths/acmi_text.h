@@ -11,7 +11,7 @@
 namespace octant::flightpaths {
 
 /// Where an object is, as far as a tape has said: degrees and metres.
-struct TapedPlace {
+struct AcmiSample {
     double time_s = 0.0;
     double longitude_deg = 0.0;
     double latitude_deg = 0.0;
@@ -22,15 +22,15 @@ struct TapedPlace {
 };
 
 /// One object from its first line to the one that takes it away. Its number may then be another's.
-struct TapedObject {
+struct AcmiObject {
     std::string name;
     std::string type;
     bool has_attitude = false;
     /// In the order of the text; times may not be.
-    std::vector<TapedPlace> places;
+    std::vector<AcmiSample> places;
 };
 
 /// The objects of an ACMI text in the order in which they appear. Throws Error with file and line.
-std::vector<TapedObject> acmi_objects(std::string_view text, const std::filesystem::path& file);
+std::vector<AcmiObject> parse_acmi_objects(std::string_view text, const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

@@ -102,7 +102,7 @@ private:
         const bool up = leg.kind == LegKind::Climb;
         const double here_m = mass_.position_m.z;
         if (up ? *leg.to_height_m < here_m : *leg.to_height_m > here_m) {
-            error_at(
+            throw_error_at(
                 script_.file,
                 leg.line,
                 fmt::format(
@@ -124,7 +124,7 @@ private:
                 ended_step_ = step;
                 const double rest_s = sim::time_of_step(last_step - step);
                 if (rest_s > held_on_s) {
-                    error_at(
+                    throw_error_at(
                         script_.file,
                         legs_[leg_].line,
                         fmt::format(
@@ -139,7 +139,7 @@ private:
         const Leg& leg = legs_[leg_];
         const bool pulls = leg.kind == LegKind::Pull || leg.kind == LegKind::Push;
         if (pulls && since_s(step) > longest_pull_s) {
-            error_at(
+            throw_error_at(
                 script_.file,
                 leg.line,
                 fmt::format(
@@ -152,7 +152,7 @@ private:
     }
 
     void take_step(long step) {
-        Controls controls = pilot_->controls(mass_, since_s(step));
+        PointMassControls controls = pilot_->controls(mass_, since_s(step));
         controls.acceleration_mps2 = within_energy(controls.acceleration_mps2);
         controls.acceleration_mps2 = within_speeds(controls.acceleration_mps2);
         mass_ = stepped(mass_, controls, sim::step_s);
@@ -210,7 +210,7 @@ private:
     bool clipped_climb_ = false;
     bool clipped_speed_ = false;
     std::vector<sim::AircraftState> samples_;
-    std::vector<LegBegin> begins_;
+    std::vector<LegStart> begins_;
 };
 
 } // namespace

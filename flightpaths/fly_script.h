@@ -11,7 +11,7 @@
 namespace octant::flightpaths {
 
 /// The time at which a leg began, for bookmarks in a recording.
-struct LegBegin {
+struct LegStart {
     double time_s = 0.0;
     /// The leg's label, or its kind.
     std::string label;
@@ -21,7 +21,7 @@ struct FlownPath {
     /// Exactly script.samples samples, the first at 0 s.
     sim::Trajectory trajectory;
     std::vector<std::string> notes;
-    std::vector<LegBegin> legs;
+    std::vector<LegStart> legs;
 };
 
 /// Flies a path in steps of sim::step_s and samples it at its rate. World: the path's origin is

@@ -1,6 +1,6 @@
 #include "flightpaths/geocentric_latitude.h"
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/base/units.h"
 
 #include <cmath>

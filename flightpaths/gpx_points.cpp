@@ -72,7 +72,7 @@ LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
     const auto end_of = [&](std::size_t at, std::string_view end) {
         const std::size_t found = text.find(end, at);
         if (found == text.npos) {
-            error_at(file, line_at(at), fmt::format("expected {} further on, found none", end));
+            throw_error_at(file, line_at(at), fmt::format("expected {} further on, found none", end));
         }
         return found;
     };
@@ -97,7 +97,7 @@ LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
         }
     }
     if (table.rows.size() == 1) {
-        error_in(
+        throw_error_in(
             file, "expected track points (trkpt), got none: waypoints and routes have no times");
     }
     return table;

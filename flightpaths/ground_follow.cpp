@@ -210,7 +210,7 @@ std::vector<double> slope_limited(
     return needed_m;
 }
 
-LiftedPath lifted_over(
+RaisedPath raised_over_ground(
     const sim::Trajectory& path,
     const std::vector<double>& needed_m,
     const sim::AircraftLimits& limits) {

@@ -7,7 +7,7 @@
 
 namespace octant::flightpaths {
 
-struct LiftedPath {
+struct RaisedPath {
     sim::Trajectory trajectory;
     /// False where nothing but one lift for all heights fits the limits.
     bool follows = true;
@@ -24,7 +24,7 @@ struct LiftedPath {
 /// height and `follows` is false.
 ///
 /// Speed along the ground stays; velocity, pitch and load factor follow the new path; bank stays.
-LiftedPath lifted_over(
+RaisedPath raised_over_ground(
     const sim::Trajectory& path,
     const std::vector<double>& needed_m,
     const sim::AircraftLimits& limits);

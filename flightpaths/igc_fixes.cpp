@@ -16,7 +16,7 @@ namespace octant::flightpaths {
 namespace {
 
 /// A whole number that fills its columns; pressure altitudes below the datum begin with a minus.
-std::optional<int> number_at(std::string_view record, std::size_t at, std::size_t count) {
+std::optional<int> number_radius(std::string_view record, std::size_t at, std::size_t count) {
     const std::string_view text = record.substr(at, count);
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
     if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(sign), text.end(), is_digit)) {
@@ -31,8 +31,8 @@ std::optional<int> number_at(std::string_view record, std::size_t at, std::size_
 /// Degrees of an angle that is written as whole degrees and thousandths of minutes.
 std::optional<double>
 angle_deg(std::string_view record, std::size_t at, std::size_t degrees, std::string_view signs) {
-    const auto whole = number_at(record, at, degrees);
-    const auto thousandths = number_at(record, at + degrees, 5);
+    const auto whole = number_radius(record, at, degrees);
+    const auto thousandths = number_radius(record, at + degrees, 5);
     const char side = record[at + degrees + 5];
     if (!whole || !thousandths || *whole < 0 || *thousandths < 0 || *thousandths >= 60'000 ||
         signs.find(side) == signs.npos) {
@@ -62,14 +62,14 @@ Fix fix_of(std::string_view record, int line) {
     }
     const auto latitude_deg = angle_deg(record, 7, 2, "NS");
     const auto longitude_deg = angle_deg(record, 15, 3, "EW");
-    if (!latitude_deg || !longitude_deg || !number_at(record, 1, 6)) {
+    if (!latitude_deg || !longitude_deg || !number_radius(record, 1, 6)) {
         return fix;
     }
     fix.clock = record.substr(1, 6);
     fix.latitude_deg = *latitude_deg;
     fix.longitude_deg = *longitude_deg;
-    fix.pressure_m = number_at(record, 25, 5);
-    const auto receiver_m = number_at(record, 30, 5);
+    fix.pressure_m = number_radius(record, 25, 5);
+    const auto receiver_m = number_radius(record, 30, 5);
     if (record[24] == 'A' && receiver_m && *receiver_m != 0) {
         fix.receiver_m = receiver_m;
     }

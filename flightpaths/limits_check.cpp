@@ -38,7 +38,7 @@ Peaks peaks_of(const Leg& weave) {
     Peaks peaks;
     const long steps = sim::step_at(weave.duration_s.value_or(0.0));
     for (long step = 0; step <= steps; ++step) {
-        const Aim aim = weave_aim(weave, sim::time_of_step(step), 0.0);
+        const ManoeuvreTarget aim = weave_target(weave, sim::time_of_step(step), 0.0);
         peaks.bank_rad = std::max(peaks.bank_rad, std::abs(aim.bank_rad));
         peaks.roll_rate_radps = std::max(peaks.roll_rate_radps, std::abs(aim.bank_rate_radps));
         peaks.max_load_factor = std::max(peaks.max_load_factor, aim.load_factor);
@@ -75,7 +75,7 @@ double LimitsCheck::at_least(double value, double limit, const Subject& subject)
 double
 LimitsCheck::clipped(double value, double limit, const char* which, const Subject& subject) const {
     if (!lenient_) {
-        error_at(
+        throw_error_at(
             script_.file,
             subject.line,
             fmt::format(
@@ -158,7 +158,7 @@ void LimitsCheck::check_turn(Leg& leg) const {
     }
 }
 
-std::string LimitsCheck::weave_fault(const Leg& leg) const {
+std::string LimitsCheck::weave_error(const Leg& leg) const {
     const Peaks peaks = peaks_of(leg);
     const auto fault = [&](const char* what, const char* side, double limit, double got) {
         return fmt::format(
@@ -200,12 +200,12 @@ std::string LimitsCheck::weave_fault(const Leg& leg) const {
 }
 
 void LimitsCheck::check_weave(Leg& leg) const {
-    const std::string fault = weave_fault(leg);
+    const std::string fault = weave_error(leg);
     if (fault.empty()) {
         return;
     }
     if (!lenient_) {
-        error_at(script_.file, leg.line, fault);
+        throw_error_at(script_.file, leg.line, fault);
     }
     // Both amplitudes shrink alike, to the largest whole percentage that fits.
     const auto shrunk = [&](int percent) {
@@ -218,7 +218,7 @@ void LimitsCheck::check_weave(Leg& leg) const {
     int too_much = 100;
     while (too_much - fits > 1) {
         const int percent = (fits + too_much) / 2;
-        (weave_fault(shrunk(percent)).empty() ? fits : too_much) = percent;
+        (weave_error(shrunk(percent)).empty() ? fits : too_much) = percent;
     }
     notes_.push_back(fmt::format(
         "{}:{}: weave clipped to {} %: {}", script_.file.string(), leg.line, fits, fault));
@@ -230,7 +230,7 @@ double min_flown_speed_mps(const sim::AircraftLimits& limits) {
 }
 
 std::string
-beyond_limits(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth) {
+limits_violation(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth) {
     constexpr double margin = 0.05; // of the limit, or of 1 where that is less
     std::vector<std::string> beyond;
     const auto check = [&](const char* what, double limit, auto value_of, double shown, bool most) {

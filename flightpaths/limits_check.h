@@ -40,7 +40,7 @@ private:
     double clipped(double value, double limit, const char* which, const Subject& subject) const;
     void check_turn(Leg& leg) const;
     void check_weave(Leg& leg) const;
-    std::string weave_fault(const Leg& leg) const;
+    std::string weave_error(const Leg& leg) const;
 
     const PathScript& script_;
     const sim::AircraftKind& kind_;
@@ -58,6 +58,6 @@ double min_flown_speed_mps(const sim::AircraftLimits& limits);
 /// within. `is_smooth`: load factors, bank and the lowest speed count, too. In a recorded track the
 /// first two are mostly noise, and the last one is its taxiing.
 std::string
-beyond_limits(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth);
+limits_violation(const sim::AircraftLimits& limits, const sim::Trajectory& path, bool is_smooth);
 
 } // namespace octant::flightpaths

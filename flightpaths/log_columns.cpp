@@ -11,59 +11,59 @@ namespace octant::flightpaths {
 namespace {
 
 struct KnownLog {
-    Logged what;
+    LogQuantity what;
     std::string_view name;
 };
 
 /// Names in small letters without blanks and underscores. Of several that a log has, the first one
 /// here is taken. Headings by a compass (G1000's HDG) are left out: they are not true ones.
 constexpr std::array known_names{
-    KnownLog{Logged::Time, "timestamp"},
-    KnownLog{Logged::Time, "time"},
-    KnownLog{Logged::Time, "t"},
-    KnownLog{Logged::Time, "unixtime"},
-    KnownLog{Logged::Time, "epochtime"},
-    KnownLog{Logged::Time, "datetime"},
-    KnownLog{Logged::Time, "utc"},
-    KnownLog{Logged::Time, "timeutc"},
-    KnownLog{Logged::Time, "utctime"},
-    KnownLog{Logged::Time, "networktime"},
-    KnownLog{Logged::Time, "lcltime"},
-    KnownLog{Logged::Time, "elapsedtime"},
-    KnownLog{Logged::Time, "seconds"},
-    KnownLog{Logged::Latitude, "latitude"},
-    KnownLog{Logged::Latitude, "lat"},
-    KnownLog{Logged::Latitude, "gpslatitude"},
-    KnownLog{Logged::Longitude, "longitude"},
-    KnownLog{Logged::Longitude, "lon"},
-    KnownLog{Logged::Longitude, "lng"},
-    KnownLog{Logged::Longitude, "long"},
-    KnownLog{Logged::Longitude, "gpslongitude"},
-    KnownLog{Logged::Position, "position"},
-    KnownLog{Logged::Altitude, "altitudeabovesealevel"},
-    KnownLog{Logged::Altitude, "altitudemsl"},
-    KnownLog{Logged::Altitude, "altmsl"},
-    KnownLog{Logged::Altitude, "msl"},
-    KnownLog{Logged::Altitude, "hmsl"},
-    KnownLog{Logged::Altitude, "altitudeasl"},
-    KnownLog{Logged::Altitude, "geoaltitude"},
-    KnownLog{Logged::Altitude, "gpsaltitude"},
-    KnownLog{Logged::Altitude, "altitude"},
-    KnownLog{Logged::Altitude, "alt"},
-    KnownLog{Logged::Altitude, "baroaltitude"},
-    KnownLog{Logged::Altitude, "elevation"},
-    KnownLog{Logged::Altitude, "ele"},
-    KnownLog{Logged::Altitude, "height"},
-    KnownLog{Logged::Roll, "roll"},
-    KnownLog{Logged::Roll, "bank"},
-    KnownLog{Logged::Pitch, "pitch"},
-    KnownLog{Logged::Heading, "trueheading"},
-    KnownLog{Logged::Heading, "headingtrue"},
-    KnownLog{Logged::Heading, "heading"},
-    KnownLog{Logged::Heading, "yaw"},
-    KnownLog{Logged::NorthSpeed, "veln"},
-    KnownLog{Logged::EastSpeed, "vele"},
-    KnownLog{Logged::DownSpeed, "veld"},
+    KnownLog{LogQuantity::Time, "timestamp"},
+    KnownLog{LogQuantity::Time, "time"},
+    KnownLog{LogQuantity::Time, "t"},
+    KnownLog{LogQuantity::Time, "unixtime"},
+    KnownLog{LogQuantity::Time, "epochtime"},
+    KnownLog{LogQuantity::Time, "datetime"},
+    KnownLog{LogQuantity::Time, "utc"},
+    KnownLog{LogQuantity::Time, "timeutc"},
+    KnownLog{LogQuantity::Time, "utctime"},
+    KnownLog{LogQuantity::Time, "networktime"},
+    KnownLog{LogQuantity::Time, "lcltime"},
+    KnownLog{LogQuantity::Time, "elapsedtime"},
+    KnownLog{LogQuantity::Time, "seconds"},
+    KnownLog{LogQuantity::Latitude, "latitude"},
+    KnownLog{LogQuantity::Latitude, "lat"},
+    KnownLog{LogQuantity::Latitude, "gpslatitude"},
+    KnownLog{LogQuantity::Longitude, "longitude"},
+    KnownLog{LogQuantity::Longitude, "lon"},
+    KnownLog{LogQuantity::Longitude, "lng"},
+    KnownLog{LogQuantity::Longitude, "long"},
+    KnownLog{LogQuantity::Longitude, "gpslongitude"},
+    KnownLog{LogQuantity::Position, "position"},
+    KnownLog{LogQuantity::Altitude, "altitudeabovesealevel"},
+    KnownLog{LogQuantity::Altitude, "altitudemsl"},
+    KnownLog{LogQuantity::Altitude, "altmsl"},
+    KnownLog{LogQuantity::Altitude, "msl"},
+    KnownLog{LogQuantity::Altitude, "hmsl"},
+    KnownLog{LogQuantity::Altitude, "altitudeasl"},
+    KnownLog{LogQuantity::Altitude, "geoaltitude"},
+    KnownLog{LogQuantity::Altitude, "gpsaltitude"},
+    KnownLog{LogQuantity::Altitude, "altitude"},
+    KnownLog{LogQuantity::Altitude, "alt"},
+    KnownLog{LogQuantity::Altitude, "baroaltitude"},
+    KnownLog{LogQuantity::Altitude, "elevation"},
+    KnownLog{LogQuantity::Altitude, "ele"},
+    KnownLog{LogQuantity::Altitude, "height"},
+    KnownLog{LogQuantity::Roll, "roll"},
+    KnownLog{LogQuantity::Roll, "bank"},
+    KnownLog{LogQuantity::Pitch, "pitch"},
+    KnownLog{LogQuantity::Heading, "trueheading"},
+    KnownLog{LogQuantity::Heading, "headingtrue"},
+    KnownLog{LogQuantity::Heading, "heading"},
+    KnownLog{LogQuantity::Heading, "yaw"},
+    KnownLog{LogQuantity::NorthSpeed, "veln"},
+    KnownLog{LogQuantity::EastSpeed, "vele"},
+    KnownLog{LogQuantity::DownSpeed, "veld"},
 };
 
 struct LogUnit {
@@ -158,9 +158,9 @@ std::optional<LogColumns> log_columns(
         column = {field, std::string(names[field]), factor.value_or(1.0), factor.has_value()};
     }
     const bool has_place =
-        columns[Logged::Position] || (columns[Logged::Latitude] && columns[Logged::Longitude]);
-    auto& altitude = columns.of[static_cast<std::size_t>(Logged::Altitude)];
-    if (!columns[Logged::Time] || !has_place || !altitude) {
+        columns[LogQuantity::Position] || (columns[LogQuantity::Latitude] && columns[LogQuantity::Longitude]);
+    auto& altitude = columns.of[static_cast<std::size_t>(LogQuantity::Altitude)];
+    if (!columns[LogQuantity::Time] || !has_place || !altitude) {
         return std::nullopt;
     }
     if (!altitude->has_unit && is_of_flightradar(plain)) {

@@ -10,7 +10,7 @@
 namespace octant::flightpaths {
 
 /// What a column of another program's log means.
-enum class Logged {
+enum class LogQuantity {
     Time,
     Latitude,
     Longitude,
@@ -38,9 +38,9 @@ struct LogColumn {
 
 /// Where a log has what; columns that are not there are empty.
 struct LogColumns {
-    std::array<std::optional<LogColumn>, static_cast<std::size_t>(Logged::Count)> of;
+    std::array<std::optional<LogColumn>, static_cast<std::size_t>(LogQuantity::Count)> of;
 
-    const std::optional<LogColumn>& operator[](Logged what) const {
+    const std::optional<LogColumn>& operator[](LogQuantity what) const {
         return of[static_cast<std::size_t>(what)];
     }
 };

@@ -1,6 +1,6 @@
 #include "flightpaths/logged_track.h"
 
-#include "flightpaths/motion_fill.h"
+#include "flightpaths/derived_motion.h"
 #include "flightpaths/track_fields.h"
 #include "flightpaths/track_limits.h"
 #include "flightpaths/track_time.h"
@@ -53,7 +53,7 @@ std::string said_of(const LeftOut& left_out, std::string_view before = "") {
 /// Reads the lines one by one and keeps those that fit.
 class LogReader {
 public:
-    LogReader(const LogLines& log, const LogColumns& columns)
+    LogReader(const LogText& log, const LogColumns& columns)
         : log_(log)
         , columns_(columns) {}
 
@@ -62,7 +62,7 @@ public:
         fields_ = unquoted_fields(log_.lines[index], log_.separator);
         const auto time_s = time();
         const auto place = this->place();
-        const auto altitude_m = value(Logged::Altitude);
+        const auto altitude_m = value(LogQuantity::Altitude);
         if (!time_s || !place || !altitude_m) {
             ++left_out_.without_place;
             return;
@@ -70,28 +70,28 @@ public:
         if (!frame_) {
             frame_.emplace(*place);
         }
-        const FramePlace local = frame_->place_of(*place);
+        const FramePosition local = frame_->place_of(*place);
         sim::AircraftState state;
         state.time_s = *time_s;
         state.position_m = {local.east_north_m, *altitude_m};
-        if (!(glm::length(state.position_m) <= furthest_track_m)) {
-            error_at(
+        if (!(glm::length(state.position_m) <= max_track_distance_m)) {
+            throw_error_at(
                 log_.file,
                 line_,
                 fmt::format(
-                    "expected a place within {:.0f} km of the first", furthest_track_m / 1000.0));
+                    "expected a place within {:.0f} km of the first", max_track_distance_m / 1000.0));
         }
         if (!is_next(state)) {
             return;
         }
-        take_velocity(state, local.north_turn_rad);
-        take_angles(deg_from_rad(local.north_turn_rad));
+        take_velocity(state, local.north_bearing_rad);
+        take_angles(deg_from_rad(local.north_bearing_rad));
         samples_.push_back(state);
     }
 
     LoggedTrack track() && {
         if (samples_.size() < 2) {
-            error_in(
+            throw_error_in(
                 log_.file,
                 fmt::format(
                     "expected at least 2 samples with a place, got {}{}",
@@ -111,7 +111,7 @@ public:
 
 private:
     /// What a field holds; empty for none, and for what programs write where nothing is known.
-    std::string_view field(Logged what) const {
+    std::string_view field(LogQuantity what) const {
         const auto& column = columns_[what];
         if (!column || column->field >= fields_.size()) {
             return {};
@@ -122,13 +122,13 @@ private:
         return nothing ? std::string_view() : text;
     }
 
-    std::optional<double> number(std::string_view text, Logged what) const {
+    std::optional<double> number(std::string_view text, LogQuantity what) const {
         if (text.empty()) {
             return std::nullopt;
         }
         const auto value = finite_number(text);
         if (!value) {
-            error_at(
+            throw_error_at(
                 log_.file,
                 line_,
                 fmt::format(
@@ -139,29 +139,29 @@ private:
         return value;
     }
 
-    std::optional<double> value(Logged what) const {
+    std::optional<double> value(LogQuantity what) const {
         const auto found = number(field(what), what);
         return found ? std::optional(*found * columns_[what]->factor) : std::nullopt;
     }
 
-    std::optional<GeoPlace> place() const {
+    std::optional<GeoPosition> place() const {
         std::optional<double> latitude_deg;
         std::optional<double> longitude_deg;
-        if (columns_[Logged::Position]) {
-            const auto parts = split_fields(field(Logged::Position), ',');
-            latitude_deg = number(parts.front(), Logged::Position);
+        if (columns_[LogQuantity::Position]) {
+            const auto parts = split_fields(field(LogQuantity::Position), ',');
+            latitude_deg = number(parts.front(), LogQuantity::Position);
             longitude_deg =
-                parts.size() == 2 ? number(parts.back(), Logged::Position) : std::nullopt;
+                parts.size() == 2 ? number(parts.back(), LogQuantity::Position) : std::nullopt;
         } else {
-            latitude_deg = value(Logged::Latitude);
-            longitude_deg = value(Logged::Longitude);
+            latitude_deg = value(LogQuantity::Latitude);
+            longitude_deg = value(LogQuantity::Longitude);
         }
         // Receivers without a fix write zeros.
         if (!latitude_deg || !longitude_deg || (*latitude_deg == 0.0 && *longitude_deg == 0.0)) {
             return std::nullopt;
         }
         if (std::abs(*latitude_deg) > 90.0 || std::abs(*longitude_deg) > 360.0) {
-            error_at(
+            throw_error_at(
                 log_.file,
                 line_,
                 fmt::format(
@@ -170,24 +170,24 @@ private:
                     *latitude_deg,
                     *longitude_deg));
         }
-        return GeoPlace{*latitude_deg, *longitude_deg};
+        return GeoPosition{*latitude_deg, *longitude_deg};
     }
 
     /// Seconds since the first line that has a time.
     std::optional<double> time() {
-        const std::string_view text = field(Logged::Time);
+        const std::string_view text = field(LogQuantity::Time);
         if (text.empty()) {
             return std::nullopt;
         }
         const auto read = log_time(text);
         if (!read) {
-            error_at(
+            throw_error_at(
                 log_.file,
                 line_,
                 fmt::format(
                     "expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column {}, "
                     "got \"{}\"",
-                    printable(columns_[Logged::Time]->name),
+                    printable(columns_[LogQuantity::Time]->name),
                     printable(std::string(text))));
         }
         if (!first_time_s_) {
@@ -195,7 +195,7 @@ private:
             time_factor_ = factor_of_times(read->seconds);
         }
         double since_s = (read->seconds - *first_time_s_) * time_factor_;
-        if (read->of_day) {
+        if (read->is_time_of_day) {
             since_s += since_s < 0.0 ? day_s : 0.0;
         }
         return since_s;
@@ -203,7 +203,7 @@ private:
 
     /// Times since 1970 in thousandths or millionths of a second are known by their size.
     double factor_of_times(double first) const {
-        const LogColumn& column = *columns_[Logged::Time];
+        const LogColumn& column = *columns_[LogQuantity::Time];
         if (column.has_unit) {
             return column.factor;
         }
@@ -215,13 +215,13 @@ private:
             return true;
         }
         const sim::AircraftState& last = samples_.back();
-        if (!(state.time_s - samples_.front().time_s <= longest_track_s)) {
-            error_at(
+        if (!(state.time_s - samples_.front().time_s <= max_track_duration_s)) {
+            throw_error_at(
                 log_.file,
                 line_,
                 fmt::format(
                     "expected a time within {:.0f} s of the first, got {:.3f} s",
-                    longest_track_s,
+                    max_track_duration_s,
                     state.time_s));
         }
         if (!(state.time_s > last.time_s)) {
@@ -229,28 +229,28 @@ private:
             return false;
         }
         const double way_m = glm::length(state.position_m - last.position_m);
-        if (!(way_m / (state.time_s - last.time_s) <= fastest_track_mps)) {
+        if (!(way_m / (state.time_s - last.time_s) <= max_track_speed_mps)) {
             ++left_out_.jumps;
             return false;
         }
         return true;
     }
 
-    void take_velocity(sim::AircraftState& state, double north_turn_rad) {
-        const auto north = value(Logged::NorthSpeed);
-        const auto east = value(Logged::EastSpeed);
-        const auto down = value(Logged::DownSpeed);
+    void take_velocity(sim::AircraftState& state, double north_bearing_rad) {
+        const auto north = value(LogQuantity::NorthSpeed);
+        const auto east = value(LogQuantity::EastSpeed);
+        const auto down = value(LogQuantity::DownSpeed);
         has_velocities_ = has_velocities_ && north && east && down;
         if (has_velocities_) {
-            state.velocity_mps = {turned_clockwise({*east, *north}, north_turn_rad), -*down};
-            has_velocities_ = glm::length(state.velocity_mps) <= fastest_track_mps;
+            state.velocity_mps = {rotated_clockwise({*east, *north}, north_bearing_rad), -*down};
+            has_velocities_ = glm::length(state.velocity_mps) <= max_track_speed_mps;
         }
     }
 
     void take_angles(double north_turn_deg) {
-        const auto roll = value(Logged::Roll);
-        const auto pitch = value(Logged::Pitch);
-        auto heading = value(Logged::Heading);
+        const auto roll = value(LogQuantity::Roll);
+        const auto pitch = value(LogQuantity::Pitch);
+        auto heading = value(LogQuantity::Heading);
         if (roll && pitch) {
             heading = heading ? std::optional(*heading + north_turn_deg) : std::nullopt;
             angles_.push_back({*roll, *pitch, heading});
@@ -270,7 +270,7 @@ private:
     }
 
     std::vector<std::string> notes() const {
-        const LogColumn& altitude = *columns_[Logged::Altitude];
+        const LogColumn& altitude = *columns_[LogQuantity::Altitude];
         std::vector<std::string> notes;
         if (!altitude.has_unit) {
             notes.push_back(fmt::format(
@@ -286,7 +286,7 @@ private:
 
     static constexpr double day_s = 86400.0;
 
-    const LogLines& log_;
+    const LogText& log_;
     const LogColumns& columns_;
     int line_ = 0;
     std::vector<std::string_view> fields_;
@@ -301,9 +301,9 @@ private:
 
 } // namespace
 
-LoggedTrack logged_track(const LogLines& log, const LogColumns& columns) {
+LoggedTrack logged_track(const LogText& log, const LogColumns& columns) {
     LogReader reader(log, columns);
-    for (std::size_t i = log.last_of_head + 1; i < log.lines.size(); ++i) {
+    for (std::size_t i = log.header_line + 1; i < log.lines.size(); ++i) {
         const bool is_empty = split_words(log.lines[i]).empty();
         if (!is_empty && !log.lines[i].starts_with('#')) {
             reader.read_line(i);

@@ -2,7 +2,7 @@
 
 #include "flightpaths/log_columns.h"
 #include "sim/aircraft_state.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -14,11 +14,11 @@
 namespace octant::flightpaths {
 
 /// The text of a log, cut into lines.
-struct LogLines {
+struct LogText {
     const std::filesystem::path& file;
     std::span<const std::string_view> lines;
     /// The last line before the samples, from 0: that of the columns' names or their units.
-    std::size_t last_of_head = 0;
+    std::size_t header_line = 0;
     char separator = ',';
     /// Which line of the file each of these is, from 1; empty: they are all of its lines.
     std::span<const int> numbers = {};
@@ -27,7 +27,7 @@ struct LogLines {
 struct LoggedTrack {
     /// At least 2, in the axes of a TransverseMercator frame at `origin`, heights above datum.
     std::vector<sim::AircraftState> samples;
-    GeoPlace origin;
+    GeoPosition origin;
     /// What a person should be told of it.
     std::vector<std::string> notes;
 };
@@ -39,6 +39,6 @@ struct LoggedTrack {
 /// that of the motion; otherwise they are made from the motion. Throws Error with file and line for
 /// what is neither empty nor a number where there must be one, a place that is on no earth, more
 /// than a day, and fewer than 2 samples.
-LoggedTrack logged_track(const LogLines& log, const LogColumns& columns);
+LoggedTrack logged_track(const LogText& log, const LogColumns& columns);
 
 } // namespace octant::flightpaths

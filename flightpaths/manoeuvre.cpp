@@ -24,21 +24,21 @@ double weave_g(double amplitude_g, double period_s, double since_s) {
     return amplitude_g * growth * std::sin(2.0 * pi * since_s / period_s);
 }
 
-Aim aim_of_pull(double right_g, double up_g) {
+ManoeuvreTarget aim_of_pull(double right_g, double up_g) {
     return {std::atan2(right_g, up_g), 0.0, std::hypot(right_g, up_g), 0.0};
 }
 
 } // namespace
 
-Aim weave_aim(const Leg& leg, double since_s, double climb_rad) {
+ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad) {
     const auto at = [&](double time_s) {
         return aim_of_pull(
             weave_g(leg.lateral_g, leg.period_s, time_s),
             std::cos(climb_rad) + weave_g(leg.vertical_g, leg.vertical_period_s, time_s));
     };
     constexpr double ahead_s = 0.01;
-    const Aim next = at(since_s + ahead_s);
-    Aim aim = at(since_s);
+    const ManoeuvreTarget next = at(since_s + ahead_s);
+    ManoeuvreTarget aim = at(since_s);
     aim.bank_rate_radps = wrapped_to_pi(next.bank_rad - aim.bank_rad) / ahead_s;
     aim.load_factor_rate_gps = (next.load_factor - aim.load_factor) / ahead_s;
     return aim;
@@ -61,9 +61,9 @@ LegPilot::LegPilot(const Leg& leg, const PointMass& start, const sim::AircraftLi
     }
 }
 
-Controls LegPilot::controls(const PointMass& now, double since_s) const {
-    const Aim to = aim(now, since_s);
-    Controls controls;
+PointMassControls LegPilot::controls(const PointMass& now, double since_s) const {
+    const ManoeuvreTarget to = aim(now, since_s);
+    PointMassControls controls;
     controls.roll_rate_radps = roll_rate(now, to);
     const double aimed =
         std::clamp(to.load_factor, limits_.min_load_factor, limits_.max_load_factor);
@@ -95,12 +95,12 @@ void LegPilot::count_turn(const PointMass& now) {
     last_track_rad_ = track;
 }
 
-Aim LegPilot::aim(const PointMass& now, double since_s) const {
+ManoeuvreTarget LegPilot::aim(const PointMass& now, double since_s) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
     if (leg_.kind == LegKind::Jink) {
-        return weave_aim(leg_, since_s, angles.pitch_rad);
+        return weave_target(leg_, since_s, angles.pitch_rad);
     }
-    Aim aim;
+    ManoeuvreTarget aim;
     if (leg_.kind == LegKind::Pull || leg_.kind == LegKind::Push) {
         // Loaded only as far as the lift points where it should: the roll into it is unloaded.
         aim.bank_rad = *leg_.bank_rad;
@@ -126,7 +126,7 @@ double LegPilot::load_factor_to_hold_path(const PointMass& now, double aim_bank_
                         std::clamp(correction_g, -path_correction_g, path_correction_g);
     // Beyond about 80 degrees of bank lift does not hold the path: wait for the roll, unloaded.
     const double steepest_rad = std::max(rad_from_deg(80.0), std::abs(aim_bank_rad));
-    Aim rolling;
+    ManoeuvreTarget rolling;
     rolling.bank_rad = aim_bank_rad;
     const double bank_soon_rad = angles.roll_rad + load_factor_lag_s * roll_rate(now, rolling);
     if (std::abs(bank_soon_rad) > steepest_rad) {
@@ -135,7 +135,7 @@ double LegPilot::load_factor_to_hold_path(const PointMass& now, double aim_bank_
     return up_g / std::cos(bank_soon_rad);
 }
 
-double LegPilot::roll_rate(const PointMass& now, const Aim& aim) const {
+double LegPilot::roll_rate(const PointMass& now, const ManoeuvreTarget& aim) const {
     const EulerAngles angles = euler_from_body_to_world(now.flight_to_world);
     // A turn on a climbing path banks the flight axes by itself.
     const double by_turn_radps = track_rate_radps(now) * std::sin(angles.pitch_rad);

@@ -7,7 +7,7 @@
 namespace octant::flightpaths {
 
 /// What a pilot aims at in one moment, and how fast the aim moves.
-struct Aim {
+struct ManoeuvreTarget {
     double bank_rad = 0.0;
     double bank_rate_radps = 0.0;
     double load_factor = 1.0;
@@ -16,7 +16,7 @@ struct Aim {
 
 /// The aim of a weave `since_s` after its start on a path at `climb_rad`. The weave grows evenly
 /// over its first period, which keeps it centred on the line it started from.
-Aim weave_aim(const Leg& leg, double since_s, double climb_rad);
+ManoeuvreTarget weave_target(const Leg& leg, double since_s, double climb_rad);
 
 /// Flies one leg: turns what the leg asks for into controls that the aircraft can follow.
 class LegPilot {
@@ -26,7 +26,7 @@ public:
 
     /// Controls for the step that begins now. Roll rate and change of the load factor are within
     /// the limits; the change of speed is what the leg asks for.
-    Controls controls(const PointMass& now, double since_s) const;
+    PointMassControls controls(const PointMass& now, double since_s) const;
 
     /// True when the leg has reached its end. A pull, a push and a turn end a little early: what
     /// is still to come while the aircraft unloads or rolls out is counted in.
@@ -36,9 +36,9 @@ public:
     void count_turn(const PointMass& now);
 
 private:
-    Aim aim(const PointMass& now, double since_s) const;
+    ManoeuvreTarget aim(const PointMass& now, double since_s) const;
     double load_factor_to_hold_path(const PointMass& now, double aim_bank_rad) const;
-    double roll_rate(const PointMass& now, const Aim& aim) const;
+    double roll_rate(const PointMass& now, const ManoeuvreTarget& aim) const;
     /// Change of the path angle while the load factor goes to 1 g.
     double climb_to_come_rad(const PointMass& now) const;
     bool reached_climb(const PointMass& now) const;

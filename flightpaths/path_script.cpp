@@ -28,17 +28,17 @@ constexpr std::array<std::pair<LegKind, std::string_view>, 8> words{{
 }};
 
 // Bounds keep numbers sane; what an aircraft can fly is judged later, against its limits.
-constexpr Bounds distance_m{-1e6, 1e6};
-constexpr Bounds height_m{-1000.0, 40000.0};
-constexpr Bounds speed_mps{1.0, 1500.0};
-constexpr Bounds load_factor_g{-20.0, 20.0};
-constexpr Bounds period_s{0.5, 600.0};
-constexpr Bounds weave_g{0.0, 20.0};
+constexpr NumberRange distance_m{-1e6, 1e6};
+constexpr NumberRange height_m{-1000.0, 40000.0};
+constexpr NumberRange speed_mps{1.0, 1500.0};
+constexpr NumberRange load_factor_g{-20.0, 20.0};
+constexpr NumberRange period_s{0.5, 600.0};
+constexpr NumberRange weave_g{0.0, 20.0};
 constexpr double steepest_rad = rad_from_deg(80.0);
-constexpr Bounds climb_rad{-steepest_rad, steepest_rad};
-constexpr Bounds slope_rad{0.0, steepest_rad};
+constexpr NumberRange climb_rad{-steepest_rad, steepest_rad};
+constexpr NumberRange slope_rad{0.0, steepest_rad};
 constexpr double longest_s = 7200.0;
-constexpr Bounds duration_s{0.05, longest_s};
+constexpr NumberRange duration_s{0.05, longest_s};
 
 LegKind kind_from(const std::string& word) {
     for (const auto& [kind, name] : words) {
@@ -49,7 +49,7 @@ LegKind kind_from(const std::string& word) {
     return LegKind::Straight;
 }
 
-void need_one_end(const Fields& fields, bool first, bool second, std::string_view both) {
+void need_one_end(const TomlFields& fields, bool first, bool second, std::string_view both) {
     if (first == second) {
         fields.refuse(
             fields.line(),
@@ -57,7 +57,7 @@ void need_one_end(const Fields& fields, bool first, bool second, std::string_vie
     }
 }
 
-void read_slope(Fields& fields, Leg& leg) {
+void read_slope(TomlFields& fields, Leg& leg) {
     const bool down = leg.kind == LegKind::Dive;
     const double angle = fields.required_number(word_of(leg.kind), "rad", slope_rad);
     leg.climb_rad = down ? -angle : angle;
@@ -70,7 +70,7 @@ void read_slope(Fields& fields, Leg& leg) {
         "duration_s or to_height_m (or _ft)");
 }
 
-void read_turn(Fields& fields, Leg& leg) {
+void read_turn(TomlFields& fields, Leg& leg) {
     leg.to_the_left = fields.required_word("side", {"left", "right"}) == "left";
     leg.bank_rad = fields.number("bank", "rad", {rad_from_deg(1.0), rad_from_deg(85.0)});
     leg.load_factor = fields.number("load_factor", "g", {1.001, load_factor_g.most});
@@ -87,7 +87,7 @@ void read_turn(Fields& fields, Leg& leg) {
         "duration_s or heading_change_deg");
 }
 
-void read_jink(Fields& fields, Leg& leg) {
+void read_jink(TomlFields& fields, Leg& leg) {
     leg.lateral_g = fields.required_number("lateral", "g", weave_g);
     leg.period_s = fields.required_number("period", "s", period_s);
     leg.duration_s = fields.required_number("duration", "s", duration_s);
@@ -101,17 +101,17 @@ void read_jink(Fields& fields, Leg& leg) {
     leg.vertical_period_s = vertical_period_s.value_or(1.0);
 }
 
-void read_pull(Fields& fields, Leg& leg) {
+void read_pull(TomlFields& fields, Leg& leg) {
     const bool pull = leg.kind == LegKind::Pull;
-    const Bounds bounds =
-        pull ? Bounds{1.01, load_factor_g.most} : Bounds{load_factor_g.least, 0.99};
+    const NumberRange bounds =
+        pull ? NumberRange{1.01, load_factor_g.most} : NumberRange{load_factor_g.least, 0.99};
     leg.load_factor = fields.required_number("load_factor", "g", bounds);
     leg.climb_rad = fields.required_number("to_climb", "rad", climb_rad);
     leg.bank_rad = fields.number("bank", "rad", {-pi, pi}).value_or(0.0);
 }
 
 Leg read_leg(const std::filesystem::path& file, const toml::table& table) {
-    Fields fields(file, table);
+    TomlFields fields(file, table);
     Leg leg;
     leg.line = fields.line();
     leg.kind = kind_from(fields.required_word(
@@ -149,7 +149,7 @@ Leg read_leg(const std::filesystem::path& file, const toml::table& table) {
 }
 
 void read_start(const std::filesystem::path& file, const toml::table& table, PathScript& script) {
-    Fields fields(file, table);
+    TomlFields fields(file, table);
     script.start_line = fields.line();
     script.north_m = fields.required_number("north", "m", distance_m);
     script.east_m = fields.required_number("east", "m", distance_m);
@@ -162,7 +162,7 @@ void read_start(const std::filesystem::path& file, const toml::table& table, Pat
 toml::table parsed(const std::filesystem::path& file) {
     const std::string text = read_text_file(file, std::size_t{1} << 20);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-        error_at(file, 1, "expected a flight path, got an empty file");
+        throw_error_at(file, 1, "expected a flight path, got an empty file");
     }
     return parse_toml(file, text);
 }
@@ -180,13 +180,13 @@ std::string_view word_of(LegKind kind) {
 
 PathScript read_path_script(const std::filesystem::path& file) {
     const toml::table root = parsed(file);
-    Fields fields(file, root);
+    TomlFields fields(file, root);
     PathScript script;
     script.file = file;
     script.aircraft = fields.required_text("aircraft");
     script.aircraft_line = line_of(*root.get("aircraft"));
     script.title = fields.required_text("title");
-    script.rate_hz = fields.required_whole("rate_hz", 1, sim::steps_per_second);
+    script.rate_hz = fields.required_integer("rate_hz", 1, sim::steps_per_second);
     if (sim::steps_per_second % script.rate_hz != 0) {
         fields.refuse(
             line_of(*root.get("rate_hz")),
@@ -195,7 +195,7 @@ PathScript read_path_script(const std::filesystem::path& file) {
                 sim::steps_per_second,
                 script.rate_hz));
     }
-    script.samples = fields.required_whole("samples", 2, 200000);
+    script.samples = fields.required_integer("samples", 2, 200000);
     const double flown_s = static_cast<double>(script.samples - 1) / script.rate_hz;
     if (flown_s > longest_s) {
         fields.refuse(

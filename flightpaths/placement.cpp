@@ -81,7 +81,7 @@ std::vector<double> heights_on_map(
     const GroundHeight& ground) {
     GroundTrack track = ground_along(places_m, ground);
     if (track.leaves_at) {
-        throw LeavesMap(
+        throw OutsideMapError(
             "path leaves the map at " +
             where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
     }
@@ -143,7 +143,7 @@ glm::dvec2 middle_of(const std::vector<glm::dvec3>& places_m) {
 Choice chosen(
     const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& times_s,
-    const Placement& placement,
+    const PlacementOptions& placement,
     const GroundHeight& ground) {
     if (placement.heading_rad) {
         return {wrapped_to_two_pi(*placement.heading_rad), placement.place_m};
@@ -157,7 +157,7 @@ Choice chosen(
     }
     const auto as_is = turned(places_m, 0.0, placement.place_m);
     const std::size_t at = ground_along(as_is, ground).leaves_at.value_or(0);
-    throw LeavesMap(fmt::format(
+    throw OutsideMapError(fmt::format(
         "path leaves the map at every heading, with heading 0 at {}",
         where(times_s[at], as_is[at])));
 }
@@ -226,7 +226,7 @@ double min_added_m(const sim::Trajectory& before, const sim::Trajectory& after) 
     return min_m;
 }
 
-LiftedPath following(
+RaisedPath following(
     const sim::Trajectory& path,
     const std::vector<glm::dvec3>& places_m,
     const std::vector<double>& ground_heights_m,
@@ -237,12 +237,12 @@ LiftedPath following(
     for (std::size_t i = 0; i < places_m.size(); ++i) {
         needed_m.push_back(ground_heights_m[i] + std::max(0.0, min_clearance_m - places_m[i].z));
     }
-    return lifted_over(path, needed_m, limits);
+    return raised_over_ground(path, needed_m, limits);
 }
 
 } // namespace
 
-sim::Trajectory placed_beside(const sim::Trajectory& path, const PlacedPath& placed) {
+sim::Trajectory with_same_placement(const sim::Trajectory& path, const PlacedPath& placed) {
     return raised(moved(path, {placed.heading_rad, placed.origin_m}), placed.offset_m);
 }
 
@@ -254,7 +254,7 @@ void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& grou
 
 PlacedPath place_over_ground(
     const sim::Trajectory& path,
-    const Placement& placement,
+    const PlacementOptions& placement,
     const GroundHeight& ground,
     double min_clearance_m,
     const std::optional<sim::AircraftLimits>& limits) {
@@ -269,7 +269,7 @@ PlacedPath place_over_ground(
     sim::Trajectory placed = over;
     bool follows = true;
     if (placement.mode == sim::HeightMode::Follow) {
-        LiftedPath lifted = following(over, places_m, ground_m, min_clearance_m, *limits);
+        RaisedPath lifted = following(over, places_m, ground_m, min_clearance_m, *limits);
         follows = lifted.follows;
         placed = std::move(lifted.trajectory);
         places_m = places_along(placed, times_s);

@@ -15,7 +15,7 @@
 
 namespace octant::flightpaths {
 
-struct Placement {
+struct PlacementOptions {
     /// Where the path's origin goes.
     glm::dvec2 place_m{0.0};
     /// Turn of the whole path about its origin, clockwise; 0 keeps its north. Not given: that one
@@ -40,7 +40,7 @@ struct PlacedPath {
 };
 
 /// A path goes beyond the map; the text says when and where.
-class LeavesMap : public Error {
+class OutsideMapError : public Error {
 public:
     using Error::Error;
 };
@@ -50,17 +50,17 @@ public:
 /// Clearances are looked at every 1/120 s along the trajectory's curve.
 /// HeightMode::Follow guarantees `min_clearance_m` as Clear does; it alone needs the limits of what
 /// flies (asserted).
-/// Throws Error with time and place when the path leaves the map (LeavesMap) or, in any mode, meets
+/// Throws Error with time and place when the path leaves the map (OutsideMapError) or, in any mode, meets
 /// the ground: at datum heights, or where `min_clearance_m` is not above zero.
 PlacedPath place_over_ground(
     const sim::Trajectory& path,
-    const Placement& placement,
+    const PlacementOptions& placement,
     const GroundHeight& ground,
     double min_clearance_m,
     const std::optional<sim::AircraftLimits>& limits);
 
 /// Another path in the axes of one that was placed, moved, turned and lifted as that one was.
-sim::Trajectory placed_beside(const sim::Trajectory& path, const PlacedPath& placed);
+sim::Trajectory with_same_placement(const sim::Trajectory& path, const PlacedPath& placed);
 
 /// Looks at a path in world axes, every 1/120 s along the trajectory's curve as place_over_ground
 /// does. Throws its Error with time and place when the path leaves the map or meets the ground.

@@ -21,7 +21,7 @@ struct Rate {
     double load_factor_gps = 0.0;
 };
 
-Rate rate_of(const PointMass& mass, const Controls& controls) {
+Rate rate_of(const PointMass& mass, const PointMassControls& controls) {
     // Gravity in flight axes; what of it is not along the velocity bends the path.
     const glm::dvec3 gravity =
         glm::conjugate(mass.flight_to_world) * glm::dvec3(0.0, 0.0, -gravity_mps2);
@@ -66,7 +66,7 @@ PointMass point_mass_at(
     return {position_m, speed_mps, body_to_world_from_euler({track_rad, climb_rad, bank_rad}), 1.0};
 }
 
-PointMass stepped(const PointMass& now, const Controls& controls, double step_s) {
+PointMass stepped(const PointMass& now, const PointMassControls& controls, double step_s) {
     const Rate a = rate_of(now, controls);
     const Rate b = rate_of(moved(now, a, 0.5 * step_s), controls);
     const Rate c = rate_of(moved(now, b, 0.5 * step_s), controls);

@@ -20,7 +20,7 @@ struct PointMass {
 };
 
 /// Rates that are held constant over one step.
-struct Controls {
+struct PointMassControls {
     /// About the velocity; positive lowers the right wing.
     double roll_rate_radps = 0.0;
     /// The change of the load factor, g/s.
@@ -39,7 +39,7 @@ PointMass point_mass_at(
 
 /// The point mass `step_s` later. Classical Runge-Kutta of fourth order; the aircraft never
 /// sideslips, so its side is turned into the path by what gravity pulls sideways.
-PointMass stepped(const PointMass& now, const Controls& controls, double step_s);
+PointMass stepped(const PointMass& now, const PointMassControls& controls, double step_s);
 
 glm::dvec3 velocity_mps(const PointMass& mass);
 

@@ -6,7 +6,7 @@
 #include "flightpaths/log_columns.h"
 #include "flightpaths/log_table.h"
 #include "flightpaths/logged_track.h"
-#include "flightpaths/motion_fill.h"
+#include "flightpaths/derived_motion.h"
 #include "flightpaths/track_columns.h"
 #include "flightpaths/track_fields.h"
 #include "flightpaths/track_limits.h"
@@ -41,7 +41,7 @@ constexpr double rounding = 1e-12;
 
 using Row = std::array<double, QuantityCount>;
 
-Row row_from(std::string_view line, const TrackHeader& header, const TrackLine& at) {
+Row row_from(std::string_view line, const TrackHeader& header, const TrackLineLocation& at) {
     const auto fields = unquoted_fields(line, header.separator);
     if (fields.size() < header.fields || !are_empty(std::span(fields).subspan(header.fields))) {
         at.refuse(fmt::format("expected {} fields, got {}", header.fields, fields.size()));
@@ -70,7 +70,7 @@ Row own_from_jsbsim(
     Row row,
     const TrackHeader& header,
     std::optional<TransverseMercator>& frame,
-    const TrackLine& at) {
+    const TrackLineLocation& at) {
     if (std::abs(row[North]) > 90.0 || std::abs(row[East]) > 360.0) {
         at.refuse(fmt::format(
             "expected a latitude within 90 deg and a longitude within 360 deg, got {} and {}",
@@ -80,24 +80,24 @@ Row own_from_jsbsim(
     if (header.columns[North].name == geocentric_latitude) {
         row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
     }
-    const GeoPlace place{row[North], row[East]};
+    const GeoPosition place{row[North], row[East]};
     if (!frame) {
         frame.emplace(place);
     }
-    const FramePlace local = frame->place_of(place);
-    const glm::dvec2 speed_mps = turned_clockwise(
-        {m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_turn_rad);
+    const FramePosition local = frame->place_of(place);
+    const glm::dvec2 speed_mps = rotated_clockwise(
+        {m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_bearing_rad);
     row[North] = local.east_north_m.y;
     row[East] = local.east_north_m.x;
     row[Altitude] = m_from_ft(row[Altitude]);
-    row[Yaw] += deg_from_rad(local.north_turn_rad);
+    row[Yaw] += deg_from_rad(local.north_bearing_rad);
     row[NorthSpeed] = speed_mps.y;
     row[EastSpeed] = speed_mps.x;
     row[UpSpeed] = -m_from_ft(row[UpSpeed]);
     return row;
 }
 
-glm::dquat attitude_from(const Row& row, bool as_quaternion, const TrackLine& at) {
+glm::dquat attitude_from(const Row& row, bool as_quaternion, const TrackLineLocation& at) {
     if (!as_quaternion) {
         return body_to_world_from_euler(
             {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
@@ -113,7 +113,7 @@ glm::dquat attitude_from(const Row& row, bool as_quaternion, const TrackLine& at
     return off <= rounding ? attitude : glm::normalize(attitude);
 }
 
-sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLine& at) {
+sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLineLocation& at) {
     sim::AircraftState state;
     state.time_s = row[Time];
     if (std::abs(state.time_s) > latest_s) {
@@ -124,10 +124,10 @@ sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLin
             state.time_s));
     }
     state.position_m = {row[East], row[North], row[Altitude]};
-    if (!(glm::length(state.position_m) <= furthest_track_m)) {
+    if (!(glm::length(state.position_m) <= max_track_distance_m)) {
         at.refuse(fmt::format(
             "expected a place within {:.0f} km of the origin, got {:.0f} km",
-            furthest_track_m / 1000.0,
+            max_track_distance_m / 1000.0,
             glm::length(state.position_m) / 1000.0));
     }
     state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
@@ -136,25 +136,25 @@ sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLin
     return state;
 }
 
-void check_times(double first_s, double before_s, double now_s, const TrackLine& at) {
+void check_times(double first_s, double before_s, double now_s, const TrackLineLocation& at) {
     if (!(now_s > before_s)) {
         at.refuse(fmt::format("expected a time after {:.3f} s, got {:.3f} s", before_s, now_s));
     }
-    if (!(now_s - first_s <= longest_track_s)) {
+    if (!(now_s - first_s <= max_track_duration_s)) {
         at.refuse(fmt::format(
-            "expected a time within {:.0f} s of the first, got {:.3f} s", longest_track_s, now_s));
+            "expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, now_s));
     }
 }
 
 void check_speed(
-    const sim::AircraftState& before, const sim::AircraftState& now, const TrackLine& at) {
+    const sim::AircraftState& before, const sim::AircraftState& now, const TrackLineLocation& at) {
     const double speed_mps = std::max(
         glm::length(now.velocity_mps),
         glm::length(now.position_m - before.position_m) / (now.time_s - before.time_s));
-    if (!(speed_mps <= fastest_track_mps)) {
+    if (!(speed_mps <= max_track_speed_mps)) {
         at.refuse(fmt::format(
             "expected a speed of at most {:.0f} m/s, got {:.1f} m/s",
-            fastest_track_mps,
+            max_track_speed_mps,
             speed_mps));
     }
 }
@@ -191,19 +191,19 @@ std::optional<RecordedTrack> track_of_others(
     if (names_line > 0) {
         units = unquoted_fields(lines[names_line - 1], separator);
     }
-    std::size_t last_of_head = names_line;
+    std::size_t header_line = names_line;
     if (names_line + 1 < lines.size()) {
         const auto below = unquoted_fields(lines[names_line + 1], separator);
         if (are_units(below)) {
             units = below;
-            ++last_of_head;
+            ++header_line;
         }
     }
     const auto columns = log_columns(names, units);
     if (!columns) {
         return std::nullopt;
     }
-    LoggedTrack track = logged_track({file, lines, last_of_head, separator}, *columns);
+    LoggedTrack track = logged_track({file, lines, header_line, separator}, *columns);
     return RecordedTrack{
         sim::Trajectory(std::move(track.samples)), track.origin, std::move(track.notes)};
 }
@@ -233,7 +233,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     }
     const std::size_t names = line_of_names(lines);
     if (names == lines.size()) {
-        error_at(file, 1, "expected a line of column names, got an empty one");
+        throw_error_at(file, 1, "expected a line of column names, got an empty one");
     }
     if (auto track = track_of_others(file, lines, names)) {
         return std::move(*track);
@@ -246,9 +246,9 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         if (is_empty(lines[i])) {
             continue;
         }
-        const TrackLine at{file, static_cast<int>(i) + 1};
+        const TrackLineLocation at{file, static_cast<int>(i) + 1};
         Row row = row_from(lines[i], header, at);
-        if (header.jsbsim) {
+        if (header.is_jsbsim) {
             row = own_from_jsbsim(row, header, frame, at);
         }
         samples.push_back(state_from(row, as_quaternion, at));
@@ -259,7 +259,7 @@ RecordedTrack read_recorded_track(const std::filesystem::path& file) {
         }
     }
     if (samples.size() < 2) {
-        error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
+        throw_error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
     }
     if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) {
         fill_velocities(samples);

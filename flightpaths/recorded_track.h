@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/trajectory.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct RecordedTrack {
     /// Where the first sample lies, set when the recording gives latitude and longitude: it is at
     /// x = y = 0 of a TransverseMercator frame there; heights stay those of the recording, above
     /// datum.
-    std::optional<GeoPlace> origin;
+    std::optional<GeoPosition> origin;
     /// What a person should be told of it.
     std::vector<std::string> notes;
 };

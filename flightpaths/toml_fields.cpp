@@ -61,7 +61,7 @@ toml::table parse_toml(const std::filesystem::path& file, std::string_view text)
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& fault) {
-        error_at(
+        throw_error_at(
             file,
             static_cast<int>(fault.source().begin.line),
             fmt::format(
@@ -73,13 +73,13 @@ int line_of(const toml::node& node) {
     return static_cast<int>(node.source().begin.line);
 }
 
-Fields::Fields(const std::filesystem::path& file, const toml::table& table)
+TomlFields::TomlFields(const std::filesystem::path& file, const toml::table& table)
     : file_(file)
     , table_(table)
     , line_(std::max(1, line_of(table))) {}
 
 std::optional<double>
-Fields::number(std::string_view name, std::string_view base_unit, Bounds bounds) {
+TomlFields::number(std::string_view name, std::string_view base_unit, NumberRange bounds) {
     std::optional<double> value;
     std::string said;
     for (const Unit& unit : units) {
@@ -111,7 +111,7 @@ Fields::number(std::string_view name, std::string_view base_unit, Bounds bounds)
     return value;
 }
 
-double Fields::required_number(std::string_view name, std::string_view base_unit, Bounds bounds) {
+double TomlFields::required_number(std::string_view name, std::string_view base_unit, NumberRange bounds) {
     if (const auto value = number(name, base_unit, bounds)) {
         return *value;
     }
@@ -124,7 +124,7 @@ double Fields::required_number(std::string_view name, std::string_view base_unit
     refuse_missing(keys);
 }
 
-int Fields::required_whole(std::string_view name, int least, int most) {
+int TomlFields::required_integer(std::string_view name, int least, int most) {
     const toml::node* node = take(name);
     if (node == nullptr) {
         refuse_missing(name);
@@ -143,7 +143,7 @@ int Fields::required_whole(std::string_view name, int least, int most) {
     return static_cast<int>(*value);
 }
 
-std::optional<std::string> Fields::text(std::string_view name) {
+std::optional<std::string> TomlFields::text(std::string_view name) {
     const toml::node* node = take(name);
     if (node == nullptr) {
         return std::nullopt;
@@ -165,7 +165,7 @@ std::optional<std::string> Fields::text(std::string_view name) {
     return value;
 }
 
-std::string Fields::required_text(std::string_view name) {
+std::string TomlFields::required_text(std::string_view name) {
     if (auto value = text(name)) {
         return *value;
     }
@@ -173,7 +173,7 @@ std::string Fields::required_text(std::string_view name) {
 }
 
 std::string
-Fields::required_word(std::string_view name, std::initializer_list<std::string_view> words) {
+TomlFields::required_word(std::string_view name, std::initializer_list<std::string_view> words) {
     std::string word = required_text(name);
     std::string list;
     for (const std::string_view allowed : words) {
@@ -187,7 +187,7 @@ Fields::required_word(std::string_view name, std::initializer_list<std::string_v
         fmt::format("expected {} to be one of {}, got \"{}\"", name, list, printable(word)));
 }
 
-const toml::table& Fields::required_table(std::string_view name) {
+const toml::table& TomlFields::required_table(std::string_view name) {
     const toml::node* node = take(name);
     if (node == nullptr) {
         refuse_missing(fmt::format("[{}]", name));
@@ -198,7 +198,7 @@ const toml::table& Fields::required_table(std::string_view name) {
     return *node->as_table();
 }
 
-const toml::array& Fields::required_tables(std::string_view name) {
+const toml::array& TomlFields::required_tables(std::string_view name) {
     const toml::node* node = take(name);
     if (node == nullptr) {
         refuse_missing(fmt::format("[[{}]]", name));
@@ -214,9 +214,9 @@ const toml::array& Fields::required_tables(std::string_view name) {
     return *tables;
 }
 
-void Fields::finish() const {
+void TomlFields::finish() const {
     for (const auto& [key, node] : table_) {
-        if (asked_.count(key.str()) == 0) {
+        if (requested_keys_.count(key.str()) == 0) {
             refuse(
                 static_cast<int>(key.source().begin.line),
                 fmt::format(
@@ -225,16 +225,16 @@ void Fields::finish() const {
     }
 }
 
-void Fields::refuse(int line, const std::string& what) const {
-    error_at(file_, line, what);
+void TomlFields::refuse(int line, const std::string& what) const {
+    throw_error_at(file_, line, what);
 }
 
-const toml::node* Fields::take(std::string_view key) {
-    asked_.emplace(key);
+const toml::node* TomlFields::take(std::string_view key) {
+    requested_keys_.emplace(key);
     return table_.get(key);
 }
 
-double Fields::number_of(const toml::node& node, std::string_view key) const {
+double TomlFields::number_of(const toml::node& node, std::string_view key) const {
     if (!node.is_number()) {
         refuse(
             line_of(node), fmt::format("expected {} to be a number, got {}", key, kind_of(node)));
@@ -246,7 +246,7 @@ double Fields::number_of(const toml::node& node, std::string_view key) const {
     return number;
 }
 
-void Fields::refuse_missing(std::string_view key) const {
+void TomlFields::refuse_missing(std::string_view key) const {
     refuse(line_, fmt::format("expected {}, got no such key", key));
 }
 

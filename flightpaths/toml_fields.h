@@ -12,7 +12,7 @@
 namespace octant::flightpaths {
 
 /// Smallest and largest number that a key may have.
-struct Bounds {
+struct NumberRange {
     double least = 0.0;
     double most = 0.0;
 };
@@ -20,17 +20,17 @@ struct Bounds {
 /// The keys of one TOML table, taken one by one; what is left over at the end is refused. The unit
 /// of a number is the end of its key: speed_mps and speed_kt are two ways to say one thing. All
 /// numbers come back in SI units and radians. Every fault throws Error with the file and the line.
-class Fields {
+class TomlFields {
 public:
-    Fields(const std::filesystem::path& file, const toml::table& table);
+    TomlFields(const std::filesystem::path& file, const toml::table& table);
 
     int line() const { return line_; }
 
     /// `name` + "_" + one of the units that belong to `base_unit` ("m", "mps", "rad", "s", "g",
     /// "mps2", "radps"), or `name` alone when `base_unit` is empty. Bounds are in the base unit.
-    std::optional<double> number(std::string_view name, std::string_view base_unit, Bounds bounds);
-    double required_number(std::string_view name, std::string_view base_unit, Bounds bounds);
-    int required_whole(std::string_view name, int least, int most);
+    std::optional<double> number(std::string_view name, std::string_view base_unit, NumberRange bounds);
+    double required_number(std::string_view name, std::string_view base_unit, NumberRange bounds);
+    int required_integer(std::string_view name, int least, int most);
     std::optional<std::string> text(std::string_view name);
     std::string required_text(std::string_view name);
     /// One of the words; their order is the order in which a message lists them.
@@ -52,7 +52,7 @@ private:
     const std::filesystem::path& file_;
     const toml::table& table_;
     int line_ = 1;
-    std::set<std::string, std::less<>> asked_;
+    std::set<std::string, std::less<>> requested_keys_;
 };
 
 /// The root of a file's TOML `text`. Throws Error with the file and the line for a fault.

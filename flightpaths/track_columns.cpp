@@ -13,7 +13,7 @@ namespace octant::flightpaths {
 namespace {
 
 struct Known {
-    Quantity quantity;
+    TrackQuantity quantity;
     std::string_view name;
 };
 
@@ -51,7 +51,7 @@ constexpr std::array<Known, 11> jsbsim_columns{{
 }};
 
 std::span<const Known> columns_of(const TrackHeader& header) {
-    return header.jsbsim ? std::span<const Known>(jsbsim_columns) : own_columns;
+    return header.is_jsbsim ? std::span<const Known>(jsbsim_columns) : own_columns;
 }
 
 bool is_same_name(std::string_view a, std::string_view b) {
@@ -81,7 +81,7 @@ bool are_of(std::span<const Known> columns, const std::vector<std::string_view>&
 }
 
 int field_of(
-    const std::vector<std::string_view>& names, std::string_view name, const TrackLine& at) {
+    const std::vector<std::string_view>& names, std::string_view name, const TrackLineLocation& at) {
     int found = -1;
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!is_same_name(names[i], name)) {
@@ -95,7 +95,7 @@ int field_of(
     return found;
 }
 
-void need_columns(const TrackHeader& header, const TrackLine& at) {
+void need_columns(const TrackHeader& header, const TrackLineLocation& at) {
     for (const Known& known : columns_of(header)) {
         if (known.quantity <= Altitude && !header.has({known.quantity})) {
             at.refuse(fmt::format("expected a column {}, got none", known.name));
@@ -104,7 +104,7 @@ void need_columns(const TrackHeader& header, const TrackLine& at) {
 }
 
 /// Refuses a header that names some but not all four columns of the quaternion.
-void need_whole_quaternion(const TrackHeader& header, const TrackLine& at) {
+void need_whole_quaternion(const TrackHeader& header, const TrackLineLocation& at) {
     const bool any = header.has({QuaternionW}) || header.has({QuaternionX}) ||
                      header.has({QuaternionY}) || header.has({QuaternionZ});
     for (const Known& known : own_columns) {
@@ -121,14 +121,14 @@ bool are_track_columns(const std::vector<std::string_view>& names) {
     return has_place(own_columns, names) || has_place(jsbsim_columns, names);
 }
 
-TrackHeader track_header(std::string_view line, const TrackLine& at) {
+TrackHeader track_header(std::string_view line, const TrackLineLocation& at) {
     TrackHeader header;
     header.separator = separator_of(line);
     const auto names = unquoted_fields(line, header.separator);
     header.fields = names.size();
     const bool own = are_of(own_columns, names);
-    header.jsbsim = !own && are_of(jsbsim_columns, names);
-    if (!own && !header.jsbsim) {
+    header.is_jsbsim = !own && are_of(jsbsim_columns, names);
+    if (!own && !header.is_jsbsim) {
         at.refuse(fmt::format(
             "expected column names with a time, a place and an altitude among them (t_s, north_m, "
             "east_m, alt_m or Time, Latitude, Longitude, Altitude), got {}",

@@ -13,7 +13,7 @@
 namespace octant::flightpaths {
 
 /// What a column means; the value of each column is in the unit of its name.
-enum Quantity {
+enum TrackQuantity {
     Time,
     North,
     East,
@@ -44,12 +44,12 @@ struct TrackColumn {
 /// Where a track of our own or of JSBSim has what.
 struct TrackHeader {
     char separator = ',';
-    bool jsbsim = false;
+    bool is_jsbsim = false;
     std::size_t fields = 0;
     std::array<TrackColumn, QuantityCount> columns;
 
-    bool has(std::initializer_list<Quantity> quantities) const {
-        for (const Quantity quantity : quantities) {
+    bool has(std::initializer_list<TrackQuantity> quantities) const {
+        for (const TrackQuantity quantity : quantities) {
             if (columns[quantity].field < 0) {
                 return false;
             }
@@ -59,11 +59,11 @@ struct TrackHeader {
 };
 
 /// A line of a file, for messages.
-struct TrackLine {
+struct TrackLineLocation {
     const std::filesystem::path& file;
     int line;
 
-    [[noreturn]] void refuse(const std::string& what) const { error_at(file, line, what); }
+    [[noreturn]] void refuse(const std::string& what) const { throw_error_at(file, line, what); }
 };
 
 /// Whether these are names of columns as we or JSBSim write them, with a time and a place among
@@ -72,6 +72,6 @@ bool are_track_columns(const std::vector<std::string_view>& names);
 
 /// Finds the columns of a track in a line of their names, whatever their case. Throws Error for a
 /// missing or doubled column.
-TrackHeader track_header(std::string_view line, const TrackLine& at);
+TrackHeader track_header(std::string_view line, const TrackLineLocation& at);
 
 } // namespace octant::flightpaths

@@ -96,7 +96,7 @@ std::optional<LogTime> log_time(std::string_view text) {
     }
     std::string_view rest = text;
     if (const auto clock_s = taken_clock(rest); clock_s && is_zone(rest)) {
-        return LogTime{.seconds = *clock_s, .of_day = true};
+        return LogTime{.seconds = *clock_s, .is_time_of_day = true};
     }
     rest = text;
     const auto date_s = taken_date(rest);

@@ -9,7 +9,7 @@ namespace octant::flightpaths {
 struct LogTime {
     double seconds = 0.0;
     /// Seconds since midnight, which begin anew each day; else since whatever the log counts from.
-    bool of_day = false;
+    bool is_time_of_day = false;
 };
 
 /// Reads a number (as seconds), a clock (07:41:03.5) or a date with a clock, whose parts may be

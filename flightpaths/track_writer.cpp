@@ -60,11 +60,11 @@ std::string properties_of(const AcmiHeader& header) {
 
 std::string acmi_transform(const sim::AircraftState& state, const EarthFrame& frame) {
     const glm::dvec2 east_north(state.position_m.x, state.position_m.y);
-    const GeoPlace origin = frame.origin();
-    const GeoPlace place = frame.geo_from_local(east_north);
+    const GeoPosition origin = frame.origin();
+    const GeoPosition place = frame.geo_from_local(east_north);
     const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
     const double true_rad =
-        wrapped_to_two_pi(angles.heading_rad - frame.place_of(place).north_turn_rad);
+        wrapped_to_two_pi(angles.heading_rad - frame.place_of(place).north_bearing_rad);
     return fmt::format(
         "T={}|{}|{}|{}|{}|{}|{}|{}|{}",
         fixed(std::remainder(place.longitude_deg - origin.longitude_deg, 360.0), 7),
@@ -137,7 +137,7 @@ std::string exact_track_csv(const sim::Trajectory& trajectory) {
 }
 
 std::string acmi_head(const AcmiHeader& header) {
-    const GeoPlace origin = frame_or_at_zero(header.frame).origin();
+    const GeoPosition origin = frame_or_at_zero(header.frame).origin();
     return fmt::format(
         "FileType=text/acmi/tacview\nFileVersion=2.2\n"
         "0,ReferenceTime=2026-01-01T00:00:00Z\n"

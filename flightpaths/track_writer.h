@@ -34,7 +34,7 @@ struct AcmiHeader {
     std::string aircraft;
     /// How the flight's axes lie on the earth; null: at 0 N, 0 E.
     const EarthFrame* frame = nullptr;
-    std::vector<LegBegin> bookmarks;
+    std::vector<LegStart> bookmarks;
 };
 
 /// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local

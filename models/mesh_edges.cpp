@@ -7,7 +7,7 @@
 
 namespace octant::models {
 
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
+std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triangles) {
     // By the smaller vertex sides are dealt out into the places that belong to it, and only the few
     // of each vertex are compared.
     std::vector<std::uint32_t> ends; // of each smaller vertex's places, once all are dealt out
@@ -16,21 +16,21 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
             for (std::uint8_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = triangles[t][k];
                 const std::uint32_t to = triangles[t][(k + 1U) % 3U];
-                take(Side{std::min(from, to), std::max(from, to), t, k, from < to});
+                take(TriangleEdge{std::min(from, to), std::max(from, to), t, k, from < to});
             }
         }
     };
-    for_each_side([&](const Side& side) {
+    for_each_side([&](const TriangleEdge& side) {
         ends.resize(std::max<std::size_t>(ends.size(), std::size_t{side.least} + 2), 0);
         ++ends[side.least + 1];
     });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Side> sides(triangles.size() * 3);
-    for_each_side([&](const Side& side) { sides[ends[side.least]++] = side; });
+    std::vector<TriangleEdge> sides(triangles.size() * 3);
+    for_each_side([&](const TriangleEdge& side) { sides[ends[side.least]++] = side; });
     auto first = sides.begin();
     for (const std::uint32_t end : ends) {
         const auto last = sides.begin() + static_cast<std::ptrdiff_t>(end);
-        std::sort(first, last, [](const Side& a, const Side& b) {
+        std::sort(first, last, [](const TriangleEdge& a, const TriangleEdge& b) {
             return std::tie(a.most, a.triangle, a.corner) < std::tie(b.most, b.triangle, b.corner);
         });
         first = last;
@@ -39,7 +39,7 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
 }
 
 std::size_t count_shells(const TriangleMesh& mesh) {
-    Groups shells(mesh.vertices_m.size());
+    DisjointSets shells(mesh.vertices_m.size());
     for (const Triangle& triangle : mesh.triangles) {
         shells.join(triangle[0], triangle[1]);
         shells.join(triangle[0], triangle[2]);
@@ -52,10 +52,10 @@ std::size_t count_shells(const TriangleMesh& mesh) {
 }
 
 std::size_t count_boundary_loops(const TriangleMesh& mesh) {
-    Groups loops(mesh.vertices_m.size());
+    DisjointSets loops(mesh.vertices_m.size());
     std::vector<bool> on_boundary(mesh.vertices_m.size(), false);
-    const std::vector<Side> sides = sorted_sides(mesh.triangles);
-    for_each_edge(sides, [&](std::span<const Side> edge) {
+    const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh.triangles);
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 1) {
             loops.join(edge[0].least, edge[0].most);
             on_boundary[edge[0].least] = true;

@@ -12,9 +12,9 @@ namespace octant::models {
 
 /// Things that are put together piece by piece (union-find); the smallest thing of a group names
 /// it.
-class Groups {
+class DisjointSets {
 public:
-    explicit Groups(std::size_t count)
+    explicit DisjointSets(std::size_t count)
         : parents_(count) {
         std::iota(parents_.begin(), parents_.end(), 0U);
     }
@@ -38,7 +38,7 @@ private:
 };
 
 /// One side of a triangle: from corner `corner` to the next one.
-struct Side {
+struct TriangleEdge {
     std::uint32_t least = 0; ///< the smaller of its vertices
     std::uint32_t most = 0;
     std::uint32_t triangle = 0;
@@ -50,16 +50,16 @@ struct Side {
 
     std::uint32_t max_corner() const { return rises ? (corner + 1U) % 3U : corner; }
 
-    bool operator==(const Side&) const = default;
+    bool operator==(const TriangleEdge&) const = default;
 };
 
 /// The sides of all triangles, sorted so that those of one edge stand together, in the order of
 /// their triangles.
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles);
+std::vector<TriangleEdge> sorted_triangle_edges(std::span<const Triangle> triangles);
 
 /// Calls `take(std::span<const Side>)` for each edge.
 template <typename Take>
-void for_each_edge(std::span<const Side> sides, Take&& take) {
+void for_each_edge(std::span<const TriangleEdge> sides, Take&& take) {
     for (std::size_t first = 0; first < sides.size();) {
         std::size_t last = first + 1;
         while (last < sides.size() && sides[last].least == sides[first].least &&

@@ -27,7 +27,7 @@ std::uint64_t spread_bits(std::uint64_t number) {
 /// The place of each vertex on a Morton curve through the bounding box.
 std::vector<std::uint64_t> morton_places(const TriangleMesh& mesh) {
     constexpr double cells = (1U << 21U) - 1;
-    const Bounds bounds = bounds_of(mesh);
+    const BoundingBox bounds = bounds_of(mesh);
     const glm::dvec3 size_m = bounds.max_m - bounds.min_m;
     const double longest_m = std::max({size_m.x, size_m.y, size_m.z, 1e-300});
     std::vector<std::uint64_t> places;
@@ -77,12 +77,12 @@ void reorder(std::vector<Item>& items, const std::vector<std::uint32_t>& order) 
 
 } // namespace
 
-Bounds bounds_of(const TriangleMesh& mesh) {
+BoundingBox bounds_of(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) {
         return {};
     }
     const glm::dvec3& first_m = mesh.vertices_m[mesh.triangles.front()[0]];
-    Bounds bounds{first_m, first_m};
+    BoundingBox bounds{first_m, first_m};
     for (const Triangle& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
             bounds.min_m = glm::min(bounds.min_m, mesh.vertices_m[vertex]);
@@ -93,11 +93,11 @@ Bounds bounds_of(const TriangleMesh& mesh) {
 }
 
 double diagonal_m(const TriangleMesh& mesh) {
-    const Bounds bounds = bounds_of(mesh);
+    const BoundingBox bounds = bounds_of(mesh);
     return glm::distance(bounds.min_m, bounds.max_m);
 }
 
-void sort_in_space(TriangleMesh& mesh) {
+void sort_spatially(TriangleMesh& mesh) {
     const std::vector<std::uint32_t> order = order_of(morton_places(mesh));
     reorder(mesh.vertices_m, order);
     reorder(mesh.colours, order);
@@ -127,10 +127,10 @@ glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle) {
 }
 
 glm::dvec3
-normal_of(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& without_area) {
+normal_of(const TriangleMesh& mesh, const Triangle& triangle, const glm::dvec3& degenerate_normal) {
     const glm::dvec3 across = area_vector(mesh, triangle);
     const double length = glm::length(across);
-    return length > 0.0 ? across / length : without_area;
+    return length > 0.0 ? across / length : degenerate_normal;
 }
 
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle) {

@@ -33,7 +33,7 @@ struct TriangleMesh {
     /// Places on the pictures of materials that corner_texture_coordinates points into: u to the
     /// right and v up from a picture's lower left corner, 1 is its width or height; often empty.
     std::vector<glm::vec2> texture_coordinates;
-    /// One a triangle, three times no_index for a triangle without; empty where
+    /// One a triangle, three times invalid_index for a triangle without; empty where
     /// `texture_coordinates` is.
     std::vector<Triangle> corner_texture_coordinates;
     std::vector<Material> materials;               ///< empty = none
@@ -42,28 +42,28 @@ struct TriangleMesh {
 };
 
 /// Smallest and largest coordinates of the vertices that triangles use; both 0 without triangles.
-struct Bounds {
+struct BoundingBox {
     glm::dvec3 min_m{0.0};
     glm::dvec3 max_m{0.0};
 };
 
-Bounds bounds_of(const TriangleMesh& mesh);
+BoundingBox bounds_of(const TriangleMesh& mesh);
 
 /// Length of the diagonal of bounds_of: what errors are given as fractions of.
 double diagonal_m(const TriangleMesh& mesh);
 
 /// Gives vertices and triangles new numbers, so that those that are near in space are near in
 /// memory (along a Morton curve). The surface stays the same.
-void sort_in_space(TriangleMesh& mesh);
+void sort_spatially(TriangleMesh& mesh);
 
 /// Along a triangle's normal, as long as twice its area.
 glm::dvec3 area_vector(const TriangleMesh& mesh, const Triangle& triangle);
 
-/// Unit normal of a triangle; `without_area` where it has none.
+/// Unit normal of a triangle; `degenerate_normal` where it has none.
 glm::dvec3 normal_of(
     const TriangleMesh& mesh,
     const Triangle& triangle,
-    const glm::dvec3& without_area = glm::dvec3(0.0));
+    const glm::dvec3& degenerate_normal = glm::dvec3(0.0));
 
 /// Colour of a triangle's material, the plain one's where it has none.
 glm::vec3 material_colour(const TriangleMesh& mesh, std::size_t triangle);

@@ -9,12 +9,12 @@
 namespace octant::sim {
 
 std::span<const AircraftKind> aircraft_kinds() {
-    return known_aircraft;
+    return aircraft_table;
 }
 
 const AircraftKind* find_aircraft_kind(std::string_view name) {
-    const auto found = std::ranges::find(known_aircraft, name, &AircraftKind::name);
-    return found == known_aircraft.end() ? nullptr : &*found;
+    const auto found = std::ranges::find(aircraft_table, name, &AircraftKind::name);
+    return found == aircraft_table.end() ? nullptr : &*found;
 }
 
 const AircraftKind& aircraft_kind(std::string_view name) {
@@ -22,7 +22,7 @@ const AircraftKind& aircraft_kind(std::string_view name) {
         return *kind;
     }
     std::string names;
-    for (const AircraftKind& kind : known_aircraft) {
+    for (const AircraftKind& kind : aircraft_table) {
         names += names.empty() ? "" : " or ";
         names += kind.name;
     }

@@ -21,7 +21,7 @@ struct AircraftKind {
     AircraftLimits limits;
     FlightModel flight_model = FlightModel::FixedWing;
     /// Slowest level flight that is handed to a pilot; not below limits.min_speed_mps.
-    double slowest_handed_over_mps = 0.0;
+    double min_handover_speed_mps = 0.0;
     /// Where the pilot's eye is, in body axes.
     glm::dvec3 pilot_eye_m{0.0};
     /// What Tacview calls such an aircraft: its tags ("Air+FixedWing") and its name.
@@ -31,17 +31,17 @@ struct AircraftKind {
     std::string_view model_file;
     std::string_view cockpit_file;
     /// The plain aircraft of the same type, whose built-in paths it flies and as which it is drawn
-    /// far away; empty = it is one. No point of one model is farther than `plain_error_m` from the
+    /// far away; empty = it is one. No point of one model is farther than `simple_model_error_m` from the
     /// other.
-    std::string_view plain_name = {};
-    double plain_error_m = 0.0;
+    std::string_view simple_type_name = {};
+    double simple_model_error_m = 0.0;
 };
 
 /// The same type in more detail: its model near, the plain one far away.
 constexpr AircraftKind
-in_detail(AircraftKind kind, std::string_view name, std::string_view file, double plain_error_m) {
-    kind.plain_name = kind.name;
-    kind.plain_error_m = plain_error_m;
+detailed_variant(AircraftKind kind, std::string_view name, std::string_view file, double simple_model_error_m) {
+    kind.simple_type_name = kind.name;
+    kind.simple_model_error_m = simple_model_error_m;
     kind.name = name;
     kind.model_file = file;
     return kind;
@@ -64,7 +64,7 @@ inline constexpr AircraftKind f15_kind{
          .climb_rate_mps = 254.0,
          .acceleration_mps2 = 8.0},
     .flight_model = FlightModel::FixedWing,
-    .slowest_handed_over_mps = 120.0,
+    .min_handover_speed_mps = 120.0,
     .pilot_eye_m = {5.4, 0.0, -0.94},
     .tacview_type = "Air+FixedWing",
     .tacview_name = "F-15C",
@@ -89,7 +89,7 @@ inline constexpr AircraftKind md500_kind{
          .climb_rate_mps = 8.6,
          .acceleration_mps2 = 3.0},
     .flight_model = FlightModel::Helicopter,
-    .slowest_handed_over_mps = 0.0,
+    .min_handover_speed_mps = 0.0,
     .pilot_eye_m = {0.75, -0.33, -0.3},
     .tacview_type = "Air+Rotorcraft",
     .tacview_name = "500MD",
@@ -98,10 +98,10 @@ inline constexpr AircraftKind md500_kind{
 
 /// The types that the program knows, one row each, in the order in which lists name them. A new
 /// type is a row here and its files: models, and paths of its name in flightpaths.
-inline constexpr std::array known_aircraft{
+inline constexpr std::array aircraft_table{
     f15_kind,
     md500_kind,
-    in_detail(f15_kind, "f15-detailed", "f15-detailed.obj", 0.66),
-    in_detail(md500_kind, "500md-detailed", "500md-detailed.obj", 0.69)};
+    detailed_variant(f15_kind, "f15-detailed", "f15-detailed.obj", 0.66),
+    detailed_variant(md500_kind, "500md-detailed", "500md-detailed.obj", 0.69)};
 
 } // namespace octant::sim

@@ -55,7 +55,7 @@ Air standard_air(double height_m) {
     air.pressure_ratio = layer.base_pressure_ratio * fall;
     air.temperature_ratio = temperature_k / sea_level_k;
     air.density_kgpm3 = sea_level_kgpm3 * air.pressure_ratio / air.temperature_ratio;
-    air.sound_mps = sea_level_sound_mps * std::sqrt(air.temperature_ratio);
+    air.speed_of_sound_mps = sea_level_sound_mps * std::sqrt(air.temperature_ratio);
     return air;
 }
 

@@ -6,7 +6,7 @@ namespace octant::sim {
 struct Air {
     double density_kgpm3 = 0.0;
     /// The speed of sound.
-    double sound_mps = 0.0;
+    double speed_of_sound_mps = 0.0;
     /// The pressure over that at sea level.
     double pressure_ratio = 0.0;
     /// The absolute temperature over that at sea level.

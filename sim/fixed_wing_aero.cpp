@@ -68,7 +68,7 @@ double lift_coefficient(double alpha_rad) {
     return std::copysign(lift, alpha_rad);
 }
 
-double alpha_of_lift(double coefficient) {
+double alpha_for_lift(double coefficient) {
     const double size = std::min(std::abs(coefficient), max_lift_coefficient);
     const double alpha_rad =
         size <= lift_slope * linear_alpha_rad
@@ -100,7 +100,7 @@ double thrust_n(double lever, double mach, const Air& air) {
     return share * full_thrust_n(mach, air);
 }
 
-double lever_of_thrust(double newtons, double mach, const Air& air) {
+double lever_for_thrust(double newtons, double mach, const Air& air) {
     const double full_n = full_thrust_n(mach, air);
     const double dry = dry_share(mach);
     const double share = full_n > 0.0 ? std::clamp(newtons / full_n, 0.0, 1.0) : 1.0;
@@ -108,7 +108,7 @@ double lever_of_thrust(double newtons, double mach, const Air& air) {
                         : dry_lever + (share - dry) / (1.0 - dry) * (1.0 - dry_lever);
 }
 
-double reheat_of_lever(double lever) {
+double reheat_from_lever(double lever) {
     return std::clamp((lever - dry_lever) / (1.0 - dry_lever), 0.0, 1.0);
 }
 

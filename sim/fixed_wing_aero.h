@@ -20,7 +20,7 @@ inline constexpr double max_lift_coefficient =
 double lift_coefficient(double alpha_rad);
 
 /// Angle of attack below the stall that gives this lift. |lift| <= max_lift_coefficient.
-double alpha_of_lift(double coefficient);
+double alpha_for_lift(double coefficient);
 
 double drag_coefficient(double alpha_rad, double beta_rad, double mach);
 
@@ -31,9 +31,9 @@ double side_coefficient(double beta_rad);
 double thrust_n(double lever, double mach, const Air& air);
 
 /// Lever that gives this thrust, the nearest where none does.
-double lever_of_thrust(double newtons, double mach, const Air& air);
+double lever_for_thrust(double newtons, double mach, const Air& air);
 
 /// The share of the reheat that a lever asks for, 0 .. 1.
-double reheat_of_lever(double lever);
+double reheat_from_lever(double lever);
 
 } // namespace octant::sim::f15

@@ -77,7 +77,7 @@ struct Trim {
 /// Level flight without acceleration: thrust along the body holds the drag and some weight.
 Trim level_trim(double speed_mps, const Air& air) {
     const double scale_n = lift_scale_n(air, speed_mps);
-    const double mach = speed_mps / air.sound_mps;
+    const double mach = speed_mps / air.speed_of_sound_mps;
     Trim trim;
     if (!(scale_n > 0.0)) {
         return trim;
@@ -85,12 +85,12 @@ Trim level_trim(double speed_mps, const Air& air) {
     double thrust_n = 0.0;
     for (int i = 0; i < 60; ++i) {
         const double lift_n = weight_n - thrust_n * std::sin(trim.alpha_rad);
-        trim.alpha_rad = f15::alpha_of_lift(
+        trim.alpha_rad = f15::alpha_for_lift(
             std::clamp(lift_n / scale_n, -f15::max_lift_coefficient, f15::max_lift_coefficient));
         thrust_n =
             scale_n * f15::drag_coefficient(trim.alpha_rad, 0.0, mach) / std::cos(trim.alpha_rad);
     }
-    trim.lever = f15::lever_of_thrust(thrust_n, mach, air);
+    trim.lever = f15::lever_for_thrust(thrust_n, mach, air);
     return trim;
 }
 
@@ -108,28 +108,28 @@ FixedWingFlight::FixedWingFlight(const AircraftLimits& limits, const AircraftSta
     , state_(start)
     , clock_(start.time_s)
     , air_(standard_air(start.position_m.z)) {
-    now_ = flow(start.velocity_mps, start.body_to_world, 0.0);
-    trim_lever_ = level_trim(now_.speed_mps, air_).lever;
-    lever_ = trim_lever_;
-    now_ = flow(start.velocity_mps, start.body_to_world, 0.0);
-    asked_load_factor_ =
+    flow_ = flow(start.velocity_mps, start.body_to_world, 0.0);
+    trim_throttle_ = level_trim(flow_.speed_mps, air_).lever;
+    lever_ = trim_throttle_;
+    flow_ = flow(start.velocity_mps, start.body_to_world, 0.0);
+    commanded_load_factor_ =
         std::clamp(start.load_factor, limits_.min_load_factor, limits_.max_load_factor);
-    asked_alpha_rad_ = wanted_alpha_rad(asked_load_factor_, now_.speed_mps, 0.0);
+    commanded_alpha_rad_ = alpha_for_load_factor(commanded_load_factor_, flow_.speed_mps, 0.0);
     warnings_ = {}; // nothing has been flown yet
-    if (now_.speed_mps > full_authority_mps) {
-        incidence_rad_ = asked_alpha_rad_ - now_.alpha_rad;
+    if (flow_.speed_mps > full_authority_mps) {
+        incidence_rad_ = commanded_alpha_rad_ - flow_.alpha_rad;
     } else {
-        asked_alpha_rad_ = now_.alpha_rad;
+        commanded_alpha_rad_ = flow_.alpha_rad;
     }
-    asked_beta_rad_ = std::clamp(now_.beta_rad, -full_rudder_rad, full_rudder_rad);
-    now_ = flow(start.velocity_mps, start.body_to_world, incidence_rad_);
+    commanded_sideslip_rad_ = std::clamp(flow_.beta_rad, -full_rudder_rad, full_rudder_rad);
+    flow_ = flow(start.velocity_mps, start.body_to_world, incidence_rad_);
 }
 
 FixedWingFlight::Flow FixedWingFlight::flow(
     const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const {
     Flow flow;
     flow.speed_mps = glm::length(velocity_mps);
-    const double mach = flow.speed_mps / air_.sound_mps;
+    const double mach = flow.speed_mps / air_.speed_of_sound_mps;
     const glm::dvec3 thrust_n = f15::thrust_n(lever_, mach, air_) * (attitude * body_forward);
     const glm::dvec3 gravity_n(0.0, 0.0, -weight_n);
     if (!(flow.speed_mps > 1e-3)) {
@@ -162,12 +162,12 @@ FixedWingFlight::Flow FixedWingFlight::flow(
 
 /// Angle of attack, with incidence, that gives a load factor: beyond the stall when the wing has
 /// not that much. Sets the warning of a stall.
-double FixedWingFlight::wanted_alpha_rad(double load_factor, double speed_mps, double pull) {
+double FixedWingFlight::alpha_for_load_factor(double load_factor, double speed_mps, double pull) {
     const double scale_n = std::max(1.0, lift_scale_n(air_, speed_mps));
-    const double wanted = (load_factor * weight_n - now_.thrust_lift_n) / scale_n;
+    const double wanted = (load_factor * weight_n - flow_.thrust_lift_n) / scale_n;
     const double share = std::abs(wanted) / f15::max_lift_coefficient;
     warnings_.stalled = share > 1.0;
-    double alpha_rad = f15::alpha_of_lift(wanted);
+    double alpha_rad = f15::alpha_for_lift(wanted);
     if (warnings_.stalled) {
         const double max_rad =
             centred_beyond_rad + (pulled_beyond_rad - centred_beyond_rad) * std::abs(pull);
@@ -180,7 +180,7 @@ double FixedWingFlight::wanted_alpha_rad(double load_factor, double speed_mps, d
 /// Rate of the attitude in world axes: with the velocity, about it as the pilot rolls, and towards
 /// the asked angles of attack and sideslip. `share` of the step has passed.
 glm::dvec3 FixedWingFlight::turn_radps(
-    const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const {
+    const Flow& flow, const glm::dquat& attitude, const PitchStep& pitching, double share) const {
     const double held = authority(flow.speed_mps);
     if (held == 0.0) {
         return glm::dvec3(0.0);
@@ -196,7 +196,7 @@ glm::dvec3 FixedWingFlight::turn_radps(
     const double pitch_radps = std::clamp(
         course_radps + error_rad / attitude_lag_s, -fastest_pitch_radps, fastest_pitch_radps);
     const double yaw_radps = std::clamp(
-        (flow.beta_rad - asked_beta_rad_) / attitude_lag_s,
+        (flow.beta_rad - commanded_sideslip_rad_) / attitude_lag_s,
         -fastest_pitch_radps,
         fastest_pitch_radps);
     return held * (with_path + roll_radps_ * flow.along + pitch_radps * (attitude * body_right) +
@@ -205,7 +205,7 @@ glm::dvec3 FixedWingFlight::turn_radps(
 
 /// The load factor at which the wing stalls.
 double FixedWingFlight::max_load_factor() const {
-    return lift_scale_n(air_, now_.speed_mps) * f15::max_lift_coefficient / weight_n;
+    return lift_scale_n(air_, flow_.speed_mps) * f15::max_lift_coefficient / weight_n;
 }
 
 bool FixedWingFlight::is_safe(double climb_rad) const {
@@ -214,7 +214,7 @@ bool FixedWingFlight::is_safe(double climb_rad) const {
 
 /// The load factor of a centred stick after a stall: it brings the climb angle to one at which the
 /// aircraft gathers the speed it lacks, and to level flight once it has that.
-double FixedWingFlight::recovering_load_factor(double climb_rad, double centred) const {
+double FixedWingFlight::recovery_load_factor(double climb_rad, double centred) const {
     const double most = max_load_factor();
     const double wanted_rad =
         -std::clamp((safe_load_factor - most) * dive_rad_per_g, 0.0, steepest_recovery_rad);
@@ -224,50 +224,50 @@ double FixedWingFlight::recovering_load_factor(double climb_rad, double centred)
     }
     const double turning_radps = std::clamp(
         (wanted_rad - climb_rad) / recovery_lag_s, -fastest_recovery_radps, fastest_recovery_radps);
-    const double wanted = centred + now_.speed_mps * turning_radps / gravity_mps2 / up;
+    const double wanted = centred + flow_.speed_mps * turning_radps / gravity_mps2 / up;
     return std::clamp(wanted, 0.3, std::max(centred, recovery_share * most));
 }
 
 /// Moves what the flight controls ask for one step towards what the pilot's controls command.
-void FixedWingFlight::ask(const PilotControls& controls) {
+void FixedWingFlight::set_commands(const PilotControls& controls) {
     const glm::dvec3& velocity = state_.velocity_mps;
-    const double speed_mps = now_.speed_mps;
+    const double speed_mps = flow_.speed_mps;
     const double level = std::hypot(velocity.x, velocity.y);
     const double climb_rad = std::atan2(velocity.z, level);
     double centred = speed_mps > no_authority_mps ? level / speed_mps : 1.0;
-    recovers_ = warnings_.stalled ||
-                (recovers_ && std::abs(controls.pitch) < moved_stick && !is_safe(climb_rad));
-    if (recovers_ && !warnings_.stalled) {
-        centred = recovering_load_factor(climb_rad, centred);
+    is_recovering_stall_ = warnings_.stalled ||
+                (is_recovering_stall_ && std::abs(controls.pitch) < moved_stick && !is_safe(climb_rad));
+    if (is_recovering_stall_ && !warnings_.stalled) {
+        centred = recovery_load_factor(climb_rad, centred);
     }
     const double range = controls.pitch >= 0.0 ? limits_.max_load_factor - centred
                                                : centred - limits_.min_load_factor;
-    asked_load_factor_ = lagged(
-        asked_load_factor_,
+    commanded_load_factor_ = first_order_lag(
+        commanded_load_factor_,
         centred + controls.pitch * range,
         load_factor_lag_s,
         limits_.load_factor_rate_gps);
     const double max_roll_radps =
         limits_.roll_rate_radps * std::min(1.0, speed_mps / full_roll_mps) *
         (1.0 -
-         0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(now_.alpha_rad)));
-    roll_radps_ = lagged(roll_radps_, controls.roll * max_roll_radps, roll_lag_s);
+         0.7 * smooth_step(rad_from_deg(15.0), f15::stall_alpha_rad, std::abs(flow_.alpha_rad)));
+    roll_radps_ = first_order_lag(roll_radps_, controls.roll * max_roll_radps, roll_lag_s);
     roll_radps_ = std::clamp(roll_radps_, -max_roll_radps, max_roll_radps);
-    asked_beta_rad_ = lagged(asked_beta_rad_, -controls.yaw * full_rudder_rad, rudder_lag_s);
-    warnings_.at_a_limit = asked_load_factor_ > limits_.max_load_factor - 0.02 ||
-                           asked_load_factor_ < limits_.min_load_factor + 0.02 ||
+    commanded_sideslip_rad_ = first_order_lag(commanded_sideslip_rad_, -controls.yaw * full_rudder_rad, rudder_lag_s);
+    warnings_.is_at_limit = commanded_load_factor_ > limits_.max_load_factor - 0.02 ||
+                           commanded_load_factor_ < limits_.min_load_factor + 0.02 ||
                            std::abs(roll_radps_) > 0.99 * max_roll_radps ||
                            speed_mps > limits_.max_speed_mps;
 }
 
-void FixedWingFlight::move(const Pitching& pitching) {
+void FixedWingFlight::move(const PitchStep& pitching) {
     const glm::dvec3 velocity = state_.velocity_mps;
     const glm::dquat attitude = state_.body_to_world;
     const double half_s = 0.5 * step_s;
     const glm::dquat half_turned =
-        turned(attitude, turn_radps(now_, attitude, pitching, 0.0), half_s);
+        turned(attitude, turn_radps(flow_, attitude, pitching, 0.0), half_s);
     const Flow half = flow(
-        velocity + half_s * now_.acceleration_mps2,
+        velocity + half_s * flow_.acceleration_mps2,
         half_turned,
         0.5 * (pitching.incidence_from_rad + pitching.incidence_to_rad));
     state_.velocity_mps = velocity + step_s * half.acceleration_mps2;
@@ -277,22 +277,22 @@ void FixedWingFlight::move(const Pitching& pitching) {
 
 void FixedWingFlight::step(const PilotControls& controls) {
     const PilotControls asked = clean(controls);
-    ask(asked);
+    set_commands(asked);
     const double coming_mps =
-        std::max(0.0, now_.speed_mps + step_s * glm::dot(now_.along, now_.acceleration_mps2));
-    Pitching pitching;
-    pitching.from_rad = asked_alpha_rad_;
-    pitching.to_rad = wanted_alpha_rad(asked_load_factor_, coming_mps, asked.pitch);
+        std::max(0.0, flow_.speed_mps + step_s * glm::dot(flow_.along, flow_.acceleration_mps2));
+    PitchStep pitching;
+    pitching.from_rad = commanded_alpha_rad_;
+    pitching.to_rad = alpha_for_load_factor(commanded_load_factor_, coming_mps, asked.pitch);
     pitching.incidence_from_rad = incidence_rad_;
-    pitching.incidence_to_rad = lagged(incidence_rad_, 0.0, incidence_lag_s);
+    pitching.incidence_to_rad = first_order_lag(incidence_rad_, 0.0, incidence_lag_s);
     move(pitching);
-    asked_alpha_rad_ = pitching.to_rad;
+    commanded_alpha_rad_ = pitching.to_rad;
     incidence_rad_ = pitching.incidence_to_rad;
-    lever_ = lagged(lever_, asked.throttle, engine_lag_s);
+    lever_ = first_order_lag(lever_, asked.throttle, engine_lag_s);
     air_ = standard_air(state_.position_m.z);
-    now_ = flow(state_.velocity_mps, state_.body_to_world, incidence_rad_);
-    state_.load_factor = now_.load_factor;
-    state_.speed_rate_mps2 = glm::dot(now_.along, now_.acceleration_mps2);
+    flow_ = flow(state_.velocity_mps, state_.body_to_world, incidence_rad_);
+    state_.load_factor = flow_.load_factor;
+    state_.speed_rate_mps2 = glm::dot(flow_.along, flow_.acceleration_mps2);
     state_.time_s = clock_.next_s();
 }
 

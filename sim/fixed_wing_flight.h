@@ -3,7 +3,7 @@
 #include "sim/aircraft_limits.h"
 #include "sim/atmosphere.h"
 #include "sim/flight_steps.h"
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 
 namespace octant::sim {
 
@@ -12,7 +12,7 @@ namespace octant::sim {
 /// After a stall it is stable in pitch until the pilot pulls or pushes: centred, it lets the nose
 /// down to gather speed and brings it up to level flight at that speed. The rudder asks for
 /// sideslip.
-class FixedWingFlight final : public HandFlight {
+class FixedWingFlight final : public PilotedFlight {
 public:
     FixedWingFlight(const AircraftLimits& limits, const AircraftState& start);
 
@@ -22,7 +22,7 @@ public:
 
     FlightWarnings warnings() const override { return warnings_; }
 
-    double trim_throttle() const override { return trim_lever_; }
+    double trim_throttle() const override { return trim_throttle_; }
 
 private:
     /// Airflow and forces at one velocity and attitude.
@@ -40,7 +40,7 @@ private:
     };
 
     /// The angle of attack at the beginning and at the end of a step.
-    struct Pitching {
+    struct PitchStep {
         double from_rad = 0.0;
         double to_rad = 0.0;
         double incidence_from_rad = 0.0;
@@ -50,32 +50,32 @@ private:
     Flow
     flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude, double incidence_rad) const;
     glm::dvec3 turn_radps(
-        const Flow& flow, const glm::dquat& attitude, const Pitching& pitching, double share) const;
-    void ask(const PilotControls& controls);
+        const Flow& flow, const glm::dquat& attitude, const PitchStep& pitching, double share) const;
+    void set_commands(const PilotControls& controls);
     double max_load_factor() const;
     bool is_safe(double climb_rad) const;
-    double recovering_load_factor(double climb_rad, double centred) const;
-    double wanted_alpha_rad(double load_factor, double speed_mps, double pull);
-    void move(const Pitching& pitching);
+    double recovery_load_factor(double climb_rad, double centred) const;
+    double alpha_for_load_factor(double load_factor, double speed_mps, double pull);
+    void move(const PitchStep& pitching);
 
     AircraftLimits limits_;
     AircraftState state_;
     StepClock clock_;
     Air air_;
-    Flow now_;
+    Flow flow_;
     FlightWarnings warnings_;
     /// Whether it has stalled and is not yet back in level flight.
-    bool recovers_ = false;
-    double trim_lever_ = 0.0;
+    bool is_recovering_stall_ = false;
+    double trim_throttle_ = 0.0;
     /// What the engines run at; lags behind the pilot's lever.
     double lever_ = 0.0;
     /// Lags behind what the stick commands.
-    double asked_load_factor_ = 1.0;
-    /// Gives asked_load_factor_; includes incidence_rad_.
-    double asked_alpha_rad_ = 0.0;
+    double commanded_load_factor_ = 1.0;
+    /// Gives commanded_load_factor_; includes incidence_rad_.
+    double commanded_alpha_rad_ = 0.0;
     /// The roll rate about the velocity.
     double roll_radps_ = 0.0;
-    double asked_beta_rad_ = 0.0;
+    double commanded_sideslip_rad_ = 0.0;
     /// What the start's attitude lacks of the angle of attack of its load factor; fades away.
     double incidence_rad_ = 0.0;
 };

@@ -2,7 +2,7 @@
 
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 
 #include <glm/vec3.hpp>
 
@@ -12,7 +12,7 @@ namespace octant::sim {
 
 /// Takes an aircraft over in this state, as it is: position, velocity, attitude and load factor go
 /// on from there.
-std::unique_ptr<HandFlight> hand_flight(const AircraftKind& kind, const AircraftState& start);
+std::unique_ptr<PilotedFlight> make_piloted_flight(const AircraftKind& kind, const AircraftState& start);
 
 /// Level, wings level, unaccelerated: where a flight from trim begins. `speed_mps` true airspeed;
 /// heading clockwise from north.
@@ -25,6 +25,6 @@ AircraftState trimmed_state(
 /// with the drag, mass and engines of the kind (fixed_wing_aero.cpp names their sources) in still
 /// standard air. Null, a shape of which nothing is known, counts as the F-15. Helicopters have
 /// none.
-double reheat_share(const AircraftKind* kind, const AircraftState& state);
+double reheat_fraction(const AircraftKind* kind, const AircraftState& state);
 
 } // namespace octant::sim

@@ -29,11 +29,11 @@ PilotControls clean(const PilotControls& controls) {
         within(controls.throttle, 0.0, 1.0)};
 }
 
-double lagged(double now, double target, double time_constant_s) {
+double first_order_lag(double now, double target, double time_constant_s) {
     return now + (target - now) * share_of_step(time_constant_s);
 }
 
-double lagged(double now, double target, double time_constant_s, double fastest_per_s) {
+double first_order_lag(double now, double target, double time_constant_s, double fastest_per_s) {
     const double most = fastest_per_s * step_s;
     return now + std::clamp((target - now) * share_of_step(time_constant_s), -most, most);
 }

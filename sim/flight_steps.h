@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fixed_step.h"
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -12,10 +12,10 @@ namespace octant::sim {
 PilotControls clean(const PilotControls& controls);
 
 /// The value after one step of a first-order lag towards `target`.
-double lagged(double now, double target, double time_constant_s);
+double first_order_lag(double now, double target, double time_constant_s);
 
 /// The same with a rate of at most `fastest_per_s` in either direction.
-double lagged(double now, double target, double time_constant_s, double fastest_per_s);
+double first_order_lag(double now, double target, double time_constant_s, double fastest_per_s);
 
 /// 0 up to `low`, 1 from `high` on, smooth between. low < high.
 double smooth_step(double low, double high, double value);

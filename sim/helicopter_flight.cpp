@@ -106,13 +106,13 @@ HelicopterFlight::HelicopterFlight(const AircraftLimits& limits, const AircraftS
             0.5 * (md500::steady_induced_mps(trim.thrust_n, level, air_) - level.induced_mps);
     }
     trim_collective_ =
-        std::clamp(md500::collective_of_thrust(trim.thrust_n, level, air_), 0.0, 1.0);
-    settle_downwash();
-    now_ = flow(start.velocity_mps, start.body_to_world);
+        std::clamp(md500::collective_for_thrust(trim.thrust_n, level, air_), 0.0, 1.0);
+    update_downwash();
+    flow_ = flow(start.velocity_mps, start.body_to_world);
 }
 
 /// Collective and downwash that go with the load factor of the start.
-void HelicopterFlight::settle_downwash() {
+void HelicopterFlight::update_downwash() {
     const glm::dvec3 body_mps = glm::conjugate(state_.body_to_world) * state_.velocity_mps;
     const glm::dvec3 drag = drag_n(body_mps, air_);
     const double felt_n = std::abs(state_.load_factor) * weight_n;
@@ -124,7 +124,7 @@ void HelicopterFlight::settle_downwash() {
             0.5 * (md500::steady_induced_mps(thrust_n, rotor, air_) - rotor.induced_mps);
     }
     induced_mps_ = rotor.induced_mps;
-    collective_ = std::clamp(md500::collective_of_thrust(thrust_n, rotor, air_), 0.0, 1.0);
+    collective_ = std::clamp(md500::collective_for_thrust(thrust_n, rotor, air_), 0.0, 1.0);
 }
 
 HelicopterFlight::Flow
@@ -134,9 +134,9 @@ HelicopterFlight::flow(const glm::dvec3& velocity_mps, const glm::dquat& attitud
     flow.rotor = {-body_mps.z, std::hypot(body_mps.x, body_mps.y), induced_mps_};
     const double blades_n = md500::blade_thrust_n(collective_, flow.rotor, air_);
     const double max_n =
-        std::min(md500::powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
+        std::min(md500::max_powered_thrust_n(flow.rotor, air_), limits_.max_load_factor * weight_n);
     flow.thrust_n = std::clamp(blades_n, 0.0, max_n);
-    flow.held = blades_n > max_n;
+    flow.is_thrust_limited = blades_n > max_n;
     const glm::dvec3 force_n = drag_n(body_mps, air_) + flow.thrust_n * body_up;
     flow.load_factor = std::hypot(force_n.x, force_n.z) / weight_n;
     flow.acceleration_mps2 =
@@ -144,7 +144,7 @@ HelicopterFlight::flow(const glm::dvec3& velocity_mps, const glm::dquat& attitud
     return flow;
 }
 
-double HelicopterFlight::asked_pitch_rad(const PilotControls& controls, double heading_rad) {
+double HelicopterFlight::commanded_pitch_rad(const PilotControls& controls, double heading_rad) {
     const glm::dvec3& velocity = state_.velocity_mps;
     const double forward_mps = glm::dot(velocity, direction_from_heading(heading_rad));
     const double centred_rad = level_trim(forward_mps, air_).pitch_rad *
@@ -155,7 +155,7 @@ double HelicopterFlight::asked_pitch_rad(const PilotControls& controls, double h
     const double range_rad =
         controls.pitch < 0.0 ? pitch_range_rad * std::clamp(left, 0.0, 1.0) : pitch_range_rad;
     const double above_mps = std::max(0.0, speed_mps - limits_.max_speed_mps);
-    warnings_.at_a_limit = above_mps > 0.0 || (controls.pitch < 0.0 && left < 1.0);
+    warnings_.is_at_limit = above_mps > 0.0 || (controls.pitch < 0.0 && left < 1.0);
     const double pull_up_rad =
         forward_mps > 0.0 ? std::min(max_pull_up_rad, pull_up_rad_per_mps * above_mps) : 0.0;
     return std::clamp(
@@ -164,9 +164,9 @@ double HelicopterFlight::asked_pitch_rad(const PilotControls& controls, double h
         steepest_pitch_rad);
 }
 
-double HelicopterFlight::asked_yaw_radps(const PilotControls& controls, double heading_rad) const {
+double HelicopterFlight::commanded_yaw_radps(const PilotControls& controls, double heading_rad) const {
     const glm::dvec3& velocity = state_.velocity_mps;
-    const glm::dvec3& acceleration = now_.acceleration_mps2;
+    const glm::dvec3& acceleration = flow_.acceleration_mps2;
     const double level2 = velocity.x * velocity.x + velocity.y * velocity.y;
     const double share = smooth_step(slow_mps, fast_mps, std::sqrt(level2));
     if (share == 0.0) {
@@ -183,23 +183,23 @@ double HelicopterFlight::asked_yaw_radps(const PilotControls& controls, double h
 /// Rate of the attitude in world axes that brings it towards what is asked for.
 glm::dvec3 HelicopterFlight::turn_radps(const PilotControls& controls) {
     const EulerAngles angles = euler_from_body_to_world(state_.body_to_world);
-    const double pitch_error_rad = asked_pitch_rad(controls, angles.heading_rad) - angles.pitch_rad;
+    const double pitch_error_rad = commanded_pitch_rad(controls, angles.heading_rad) - angles.pitch_rad;
     const double roll_error_rad = wrapped_to_pi(controls.roll * limits_.bank_rad - angles.roll_rad);
     EulerAngles& rates = angle_rates_radps_;
     const auto towards = [](double rate, double error_rad, double fastest_radps) {
-        return lagged(
+        return first_order_lag(
             rate,
             std::clamp(error_rad / attitude_lag_s, -fastest_radps, fastest_radps),
             rate_lag_s);
     };
     rates.pitch_rad = towards(rates.pitch_rad, pitch_error_rad, fastest_pitch_radps);
     rates.roll_rad = towards(rates.roll_rad, roll_error_rad, limits_.roll_rate_radps);
-    rates.heading_rad = lagged(
+    rates.heading_rad = first_order_lag(
         rates.heading_rad,
         std::clamp(
-            asked_yaw_radps(controls, angles.heading_rad), -fastest_yaw_radps, fastest_yaw_radps),
+            commanded_yaw_radps(controls, angles.heading_rad), -fastest_yaw_radps, fastest_yaw_radps),
         rate_lag_s);
-    warnings_.at_a_limit = warnings_.at_a_limit ||
+    warnings_.is_at_limit = warnings_.is_at_limit ||
                            std::abs(angles.roll_rad) > 0.99 * limits_.bank_rad ||
                            std::abs(rates.roll_rad) > 0.99 * limits_.roll_rate_radps;
     // Heading about the world's down, pitch about the level right, roll about the nose.
@@ -214,7 +214,7 @@ void HelicopterFlight::move(const glm::dvec3& turn_radps) {
     const double half_s = 0.5 * step_s;
     const glm::dvec3 velocity = state_.velocity_mps;
     const Flow half = flow(
-        velocity + half_s * now_.acceleration_mps2,
+        velocity + half_s * flow_.acceleration_mps2,
         turned(state_.body_to_world, turn_radps, half_s));
     state_.velocity_mps = velocity + step_s * half.acceleration_mps2;
     state_.position_m += half_s * (velocity + state_.velocity_mps);
@@ -224,13 +224,13 @@ void HelicopterFlight::move(const glm::dvec3& turn_radps) {
 void HelicopterFlight::step(const PilotControls& controls) {
     const PilotControls asked = clean(controls);
     move(turn_radps(asked));
-    collective_ = lagged(collective_, asked.throttle, collective_lag_s);
-    induced_mps_ = lagged(
-        induced_mps_, md500::steady_induced_mps(now_.thrust_n, now_.rotor, air_), downwash_lag_s);
+    collective_ = first_order_lag(collective_, asked.throttle, collective_lag_s);
+    induced_mps_ = first_order_lag(
+        induced_mps_, md500::steady_induced_mps(flow_.thrust_n, flow_.rotor, air_), downwash_lag_s);
     air_ = standard_air(state_.position_m.z);
-    now_ = flow(state_.velocity_mps, state_.body_to_world);
-    warnings_.at_a_limit = warnings_.at_a_limit || now_.held;
-    state_.load_factor = now_.load_factor;
+    flow_ = flow(state_.velocity_mps, state_.body_to_world);
+    warnings_.is_at_limit = warnings_.is_at_limit || flow_.is_thrust_limited;
+    state_.load_factor = flow_.load_factor;
     state_.time_s = clock_.next_s();
 }
 

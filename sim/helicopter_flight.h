@@ -4,7 +4,7 @@
 #include "sim/atmosphere.h"
 #include "sim/base/axes.h"
 #include "sim/flight_steps.h"
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 #include "sim/rotor.h"
 
 namespace octant::sim {
@@ -12,7 +12,7 @@ namespace octant::sim {
 /// The 500MD by hand. The cyclic asks for pitch and bank, centred for wings level and the pitch
 /// that holds the speed (below a walking pace, that stops it); the throttle is the collective. The
 /// pedals turn on the spot when slow and ask for sideslip in forward flight.
-class HelicopterFlight final : public HandFlight {
+class HelicopterFlight final : public PilotedFlight {
 public:
     HelicopterFlight(const AircraftLimits& limits, const AircraftState& start);
 
@@ -29,17 +29,17 @@ private:
         md500::RotorFlow rotor;
         double thrust_n = 0.0;
         /// Whether the blades could lift more than power or strength allow.
-        bool held = false;
+        bool is_thrust_limited = false;
         glm::dvec3 acceleration_mps2{0.0};
         double load_factor = 0.0;
     };
 
     Flow flow(const glm::dvec3& velocity_mps, const glm::dquat& attitude) const;
     glm::dvec3 turn_radps(const PilotControls& controls);
-    double asked_pitch_rad(const PilotControls& controls, double heading_rad);
-    double asked_yaw_radps(const PilotControls& controls, double heading_rad) const;
+    double commanded_pitch_rad(const PilotControls& controls, double heading_rad);
+    double commanded_yaw_radps(const PilotControls& controls, double heading_rad) const;
     void move(const glm::dvec3& turn_radps);
-    void settle_downwash();
+    void update_downwash();
 
     AircraftLimits limits_;
     AircraftState state_;
@@ -52,7 +52,7 @@ private:
     /// The rates of heading, pitch and roll.
     EulerAngles angle_rates_radps_;
     FlightWarnings warnings_;
-    Flow now_;
+    Flow flow_;
 };
 
 /// See trimmed_state in flight_models.h.

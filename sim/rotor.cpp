@@ -35,8 +35,8 @@ constexpr double engine_w = 420.0 * 745.7;
 /// What the tail rotor, gears and fans leave of the engine's power.
 constexpr double rotor_share = 0.845;
 
-double pitch_share(double across_mps) {
-    const double advance = across_mps / tip_mps;
+double pitch_share(double in_plane_mps) {
+    const double advance = in_plane_mps / tip_mps;
     return 1.0 / 3.0 + 0.5 * advance * advance;
 }
 
@@ -44,8 +44,8 @@ double thrust_scale_n(const Air& air) {
     return air.density_kgpm3 * disc_m2 * tip_mps * tip_mps * 0.5 * solidity * lift_slope;
 }
 
-double profile_w(double across_mps, const Air& air) {
-    const double advance = across_mps / tip_mps;
+double profile_w(double in_plane_mps, const Air& air) {
+    const double advance = in_plane_mps / tip_mps;
     return air.density_kgpm3 * disc_m2 * tip_mps * tip_mps * tip_mps * solidity * blade_drag / 8.0 *
            (1.0 + 4.65 * advance * advance);
 }
@@ -53,33 +53,33 @@ double profile_w(double across_mps, const Air& air) {
 } // namespace
 
 double blade_thrust_n(double collective, const RotorFlow& flow, const Air& air) {
-    const double inflow = (flow.through_mps + flow.induced_mps) / tip_mps;
+    const double inflow = (flow.axial_mps + flow.induced_mps) / tip_mps;
     return thrust_scale_n(air) *
-           (collective * max_pitch_rad * pitch_share(flow.across_mps) - 0.5 * inflow);
+           (collective * max_pitch_rad * pitch_share(flow.in_plane_mps) - 0.5 * inflow);
 }
 
-double collective_of_thrust(double newtons, const RotorFlow& flow, const Air& air) {
-    const double inflow = (flow.through_mps + flow.induced_mps) / tip_mps;
+double collective_for_thrust(double newtons, const RotorFlow& flow, const Air& air) {
+    const double inflow = (flow.axial_mps + flow.induced_mps) / tip_mps;
     return (newtons / thrust_scale_n(air) + 0.5 * inflow) /
-           (max_pitch_rad * pitch_share(flow.across_mps));
+           (max_pitch_rad * pitch_share(flow.in_plane_mps));
 }
 
-double powered_thrust_n(const RotorFlow& flow, const Air& air) {
+double max_powered_thrust_n(const RotorFlow& flow, const Air& air) {
     const double power_w =
         rotor_share *
         std::min(shaft_w, engine_w * air.density_kgpm3 / standard_air(0.0).density_kgpm3);
-    const double per_newton_mps = induced_loss * flow.induced_mps + flow.through_mps;
-    const double left_w = std::max(0.0, power_w - profile_w(flow.across_mps, air));
+    const double per_newton_mps = induced_loss * flow.induced_mps + flow.axial_mps;
+    const double left_w = std::max(0.0, power_w - profile_w(flow.in_plane_mps, air));
     return per_newton_mps > 1e-3 ? left_w / per_newton_mps
                                  : std::numeric_limits<double>::infinity();
 }
 
 double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air) {
     const double hover2 = std::max(0.0, newtons) / (2.0 * air.density_kgpm3 * disc_m2);
-    const double through_mps = flow.through_mps + flow.induced_mps;
+    const double axial_mps = flow.axial_mps + flow.induced_mps;
     // Where the rotor sinks into its own wake momentum theory has no answer.
     const double min_mps = 0.5 * std::sqrt(hover2);
-    const double wind_mps = std::max(std::hypot(flow.across_mps, through_mps), min_mps);
+    const double wind_mps = std::max(std::hypot(flow.in_plane_mps, axial_mps), min_mps);
     return wind_mps > 0.0 ? hover2 / wind_mps : 0.0;
 }
 

@@ -9,9 +9,9 @@ inline constexpr double mass_kg = 1361.0;
 /// The airflow at the rotor.
 struct RotorFlow {
     /// The speed of climb along the shaft.
-    double through_mps = 0.0;
+    double axial_mps = 0.0;
     /// The speed in the plane of the disc; not negative.
-    double across_mps = 0.0;
+    double in_plane_mps = 0.0;
     /// The induced velocity (downwash) at the disc.
     double induced_mps = 0.0;
 };
@@ -20,10 +20,10 @@ struct RotorFlow {
 double blade_thrust_n(double collective, const RotorFlow& flow, const Air& air);
 
 /// Collective that lifts this; may lie outside 0 .. 1.
-double collective_of_thrust(double newtons, const RotorFlow& flow, const Air& air);
+double collective_for_thrust(double newtons, const RotorFlow& flow, const Air& air);
 
 /// The most that the engine's power can lift, infinite where the wind drives the rotor.
-double powered_thrust_n(const RotorFlow& flow, const Air& air);
+double max_powered_thrust_n(const RotorFlow& flow, const Air& air);
 
 /// The induced velocity of a steady thrust.
 double steady_induced_mps(double newtons, const RotorFlow& flow, const Air& air);

@@ -1,4 +1,4 @@
-# Fails when the page of a room does not name one of its files, which a reader then cannot place; and
+# Fails when the page of a module does not name one of its files, which a reader then cannot place; and
 # when no README.md above links a page. X.h and X.cpp are named together, as the word X; `*_x` and
 # `x_*` stand for all that end or begin so. A README.md speaks of the files beside it.
 cmake_minimum_required(VERSION 3.25)
@@ -6,9 +6,9 @@ cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE pages RELATIVE ${ROOT} ${ROOT}/sim/README.md ${ROOT}/flightpaths/README.md ${ROOT}/models/README.md
   ${ROOT}/visuals/README.md ${ROOT}/ui/README.md ${ROOT}/tests/README.md)
 foreach(page ${pages})
-  get_filename_component(room ${page} DIRECTORY)
+  get_filename_component(module ${page} DIRECTORY)
   file(READ ${ROOT}/${page} text)
-  set(above ${room})
+  set(above ${module})
   set(linked FALSE)
   while(above AND NOT linked)
     get_filename_component(above "${above}" DIRECTORY)
@@ -30,10 +30,10 @@ foreach(page ${pages})
   list(FILTER patterns INCLUDE REGEX "^([*]_[a-z_]+|[a-z_]+_[*])$")
   list(TRANSFORM patterns REPLACE "[*]" ".*")
   list(JOIN patterns "|" patterns)
-  file(GLOB files RELATIVE ${ROOT}/${room} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
+  file(GLOB files RELATIVE ${ROOT}/${module} ${ROOT}/${module}/*.h ${ROOT}/${module}/*.cpp)
   list(TRANSFORM files REPLACE "[.](h|cpp)$" "")
   list(REMOVE_DUPLICATES files)
-  if(room MATCHES "^tests")
+  if(module MATCHES "^tests")
     continue() # one page tells how all tests are laid out
   endif()
   foreach(name ${files})

@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field_export.h"
 #include "tests/scratch.h"
-#include "visuals/groundfile/damage_tally.h"
+#include "visuals/groundfile/tile_damage_log.h"
 #include "visuals/groundfile/ground_import.h"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ inline std::string damaged(std::string bytes, Numbers& numbers) {
 
 /// Whether damage of this file was met and is told at the end.
 inline bool is_noted(const std::filesystem::path& file) {
-    const std::vector<std::string> lines = visuals::groundfile::damage_lines();
+    const std::vector<std::string> lines = visuals::groundfile::tile_damage_messages();
     return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
         return line.starts_with(file.string() + ":");
     });

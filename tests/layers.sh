@@ -24,7 +24,7 @@ asan() {
 }
 
 # Whose threads are looked at: worker teams, meshing ahead, loading, rendering, links.
-threaded_rooms=(sim sim/links models/heights models/made models/simplify models/measure visuals/draworder
+threaded_rooms=(sim sim/links models/heights models/procedural models/simplify models/measure visuals/draworder
   visuals/separation visuals/ordercache visuals/terrain visuals/groundfile visuals/nature visuals/landscape
   visuals/planning visuals/raster ui/world ui/flight)
 

@@ -1,7 +1,7 @@
 #include "tests/order_shapes.h"
 
-#include "models/made/made_up.h"
-#include "sim/base/dice.h"
+#include "models/procedural/background60.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
@@ -80,7 +80,7 @@ struct Body {
     double radius_m = 0.0;
 };
 
-Body body_of_kind(int kind, Dice& dice) {
+Body body_of_kind(int kind, RandomGenerator& dice) {
     constexpr std::array<int, 4> corner_counts{4, 3, 3, 6};
     const int corners = corner_counts[static_cast<std::size_t>(kind)];
     const double half_height_m = dice.between(0.2, 0.8);
@@ -101,7 +101,7 @@ Body body_of_kind(int kind, Dice& dice) {
     return body;
 }
 
-glm::dquat random_attitude(Dice& dice) {
+glm::dquat random_attitude(RandomGenerator& dice) {
     const glm::dvec3 axis = dice.direction(); // Compilers differ in which argument comes first.
     return glm::angleAxis(dice.between(0.0, 2.0 * pi), axis);
 }
@@ -173,7 +173,7 @@ bool apart(const Placed& a, const Placed& b) {
 }
 
 /// From far away along a random line towards the origin, until the next step would hit another.
-void place(Placed& shape, const std::vector<Placed>& others, Dice& dice) {
+void place(Placed& shape, const std::vector<Placed>& others, RandomGenerator& dice) {
     constexpr double step_m = 0.1;
     const glm::dvec3 direction = dice.direction();
     double distance_m = 0.0;
@@ -300,11 +300,11 @@ PolygonModel torus(int quads) {
             around = i;
         }
     }
-    return models::made::torus(around, quads / around);
+    return models::procedural::torus(around, quads / around);
 }
 
 PolygonModel pile(std::uint64_t seed, int bodies) {
-    Dice dice(seed);
+    RandomGenerator dice(seed);
     PolygonModel model = empty_model("pile");
     std::vector<Placed> placed;
     for (int i = 0; i < bodies; ++i) {

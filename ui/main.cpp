@@ -1,5 +1,5 @@
 #include "sim/base/utf8.h"
-#include "ui/base/other_names.h"
+#include "ui/base/path_alias.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/command_line.h"
 #include "ui/commands/commands.h"
@@ -7,7 +7,7 @@
 #include "ui/window/listen_command.h"
 #include "ui/window/view_command.h"
 #include "visuals/gl/platform_tuning.h"
-#include "visuals/groundfile/damage_tally.h"
+#include "visuals/groundfile/tile_damage_log.h"
 
 #include <cerrno>
 #include <csignal>
@@ -21,13 +21,13 @@
 
 namespace {
 
-constexpr int check_said_no = 1;
-constexpr int wrong_input = 2;
+constexpr int exit_check_failed = 1;
+constexpr int exit_invalid_input = 2;
 
-int fail(const std::string& line) {
-    const std::string named = octant::ui::base::with_other_names(line);
+int print_error(const std::string& line) {
+    const std::string named = octant::ui::base::with_path_aliases(line);
     std::fputs(fmt::format("octant: {}\n", octant::one_line(named)).c_str(), stderr);
-    return wrong_input;
+    return exit_invalid_input;
 }
 
 /// Does what the command line asks for; the exit code.
@@ -37,18 +37,18 @@ int run(int argc, char** argv) {
         commands::octant_program({window::view_command(), window::listen_command()});
     int code = 0;
     try {
-        commands::action_of(program, argc, argv)();
-    } catch (const commands::CheckSaidNo&) {
-        code = check_said_no;
+        commands::parse_command_line(program, argc, argv)();
+    } catch (const commands::CheckFailed&) {
+        code = exit_check_failed;
     } catch (const base::StoppedBySignal&) {
         return code; // which the signal replaces
     }
-    for (const std::string& line : octant::visuals::groundfile::damage_lines()) {
+    for (const std::string& line : octant::visuals::groundfile::tile_damage_messages()) {
         std::fputs(fmt::format("octant: {}\n", line).c_str(), stderr);
-        code = check_said_no;
+        code = exit_check_failed;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        return fail(
+        return print_error(
             fmt::format("results cannot be written to standard output: {}", std::strerror(errno)));
     }
     return code;
@@ -63,14 +63,14 @@ int main(int argc, char** argv) {
     try {
         const int code = run(argc, argv);
         octant::ui::report::remove_unpacked();
-        octant::ui::base::end_by_signal_that_came();
+        octant::ui::base::exit_by_received_signal();
         return code;
     } catch (const std::bad_alloc&) {
         std::fputs("octant: expected enough memory for this input, got none\n", stderr);
-        return wrong_input;
+        return exit_invalid_input;
     } catch (const std::filesystem::filesystem_error& fault) {
-        return fail(fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
+        return print_error(fmt::format("{}: {}", fault.path1().string(), fault.code().message()));
     } catch (const std::exception& fault) {
-        return fail(fault.what());
+        return print_error(fault.what());
     }
 }

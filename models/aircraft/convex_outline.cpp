@@ -20,14 +20,14 @@ glm::dvec3 area_vector(const Outline& corners) {
     return 0.5 * sum;
 }
 
-Outline without_repeats(const Outline& corners) {
+Outline without_duplicates(const Outline& corners) {
     Outline out;
     for (const glm::dvec3& corner : corners) {
-        if (out.empty() || glm::distance(out.back(), corner) > one_place_m) {
+        if (out.empty() || glm::distance(out.back(), corner) > coincident_distance_m) {
             out.push_back(corner);
         }
     }
-    while (out.size() > 1 && glm::distance(out.front(), out.back()) <= one_place_m) {
+    while (out.size() > 1 && glm::distance(out.front(), out.back()) <= coincident_distance_m) {
         out.pop_back();
     }
     return out;
@@ -44,15 +44,15 @@ Outline in_front(const Outline& corners, const Plane& plane) {
         const glm::dvec3& to = corners[(i + 1) % corners.size()];
         const double at_from = distance_m(plane, from);
         const double at_to = distance_m(plane, to);
-        if (at_from >= -one_place_m) {
+        if (at_from >= -coincident_distance_m) {
             out.push_back(from);
         }
-        if ((at_from > one_place_m && at_to < -one_place_m) ||
-            (at_from < -one_place_m && at_to > one_place_m)) {
+        if ((at_from > coincident_distance_m && at_to < -coincident_distance_m) ||
+            (at_from < -coincident_distance_m && at_to > coincident_distance_m)) {
             out.push_back(from + (to - from) * (at_from / (at_from - at_to)));
         }
     }
-    return without_repeats(out);
+    return without_duplicates(out);
 }
 
 } // namespace octant::models::aircraft

@@ -13,7 +13,7 @@ namespace octant::models::aircraft {
 using Outline = std::vector<glm::dvec3>;
 
 /// Corners nearer than this are one.
-inline constexpr double one_place_m = 1e-6;
+inline constexpr double coincident_distance_m = 1e-6;
 
 /// Along the normal of the side from which the corners run counter-clockwise; as long as the area,
 /// square metres.
@@ -23,7 +23,7 @@ glm::dvec3 area_vector(const Outline& corners);
 bool has_area(const Outline& corners);
 
 /// Leaves out corners in the place of the one before.
-Outline without_repeats(const Outline& corners);
+Outline without_duplicates(const Outline& corners);
 
 /// The part in front of a plane; few or no corners where there is none.
 Outline in_front(const Outline& corners, const Plane& plane);

@@ -54,8 +54,8 @@ PaintedSolid body() {
         stations.section(3.45, 0.38, 1.94, 0.98, 0.05, 0.02),
         stations.section(3.7, 0.20, 1.84, 1.42)};
     PaintedSolid solid = lofted(sections, body_sides, "olive");
-    solid.push_back(end_of(sections.front(), body_sides, true, "olive"));
-    solid.push_back(end_of(sections.back(), body_sides, false, "olive"));
+    solid.push_back(section_cap(sections.front(), body_sides, true, "olive"));
+    solid.push_back(section_cap(sections.back(), body_sides, false, "olive"));
     // The bubble, then its posts; windows of the doors.
     paint(
         solid,
@@ -131,7 +131,7 @@ void add_tail(ModelBuilder& model) {
         stations.section(3.7, 0.17, 1.82, 1.46, 0.0, 0.0),
         stations.section(6.45, 0.09, 1.72, 1.52, 0.0, 0.0)};
     PaintedSolid tube = lofted(boom, 12, "olive");
-    tube.push_back(end_of(boom[1], 12, false, "olive"));
+    tube.push_back(section_cap(boom[1], 12, false, "olive"));
     for (const double s : {4.4, 5.4, 6.1}) {
         stations.ring_line(tube, s);
     }
@@ -145,7 +145,7 @@ void add_tail(ModelBuilder& model) {
     upper.tip_m = at(6.62, 0.0, 2.40);
     upper.tip_chord_m = 0.46;
     upper.half_thickness_m = 0.04 * right;
-    PaintedSolid fin = wing_of(upper, "olive", "olive");
+    PaintedSolid fin = wing_solid(upper, "olive", "olive");
     const std::array<glm::dvec2, 4> panel{
         {{1.95 - 6.60, 1.20 - 2.06},
          {1.95 - 6.95, 1.20 - 2.06},
@@ -160,7 +160,7 @@ void add_tail(ModelBuilder& model) {
     Aerofoil lower = upper;
     lower.tip_m = at(6.55, 0.0, 0.88);
     lower.tip_chord_m = 0.36;
-    model.add("fin", wing_of(lower, "olive", "olive"));
+    model.add("fin", wing_solid(lower, "olive", "olive"));
 
     Aerofoil half;
     half.root_m = at(6.56, 0.0, 2.44);
@@ -168,16 +168,16 @@ void add_tail(ModelBuilder& model) {
     half.tip_m = at(6.66, 0.78, 2.44);
     half.tip_chord_m = 0.46;
     half.half_thickness_m = 0.025 * up;
-    model.add_both("stabiliser", wing_of(half, "olive", "olive"));
+    model.add_mirrored("stabiliser", wing_solid(half, "olive", "olive"));
     Aerofoil plate;
     plate.root_m = at(6.60, 0.81, 2.22);
     plate.root_chord_m = 0.40;
     plate.tip_m = at(6.78, 0.84, 2.72);
     plate.tip_chord_m = 0.26;
     plate.half_thickness_m = 0.015 * right;
-    PaintedSolid end = wing_of(plate, "olive", "olive");
+    PaintedSolid end = wing_solid(plate, "olive", "olive");
     cut_off(end, {up, 1.20 - 2.23}, "olive");
-    model.add_both("end_plate", end);
+    model.add_mirrored("end_plate", end);
 }
 
 /// A bar with four sides between two places; `wide` and `tall` reach from its middle to its sides.
@@ -214,12 +214,12 @@ bar(const glm::dvec3& from_m,
 void add_skids(ModelBuilder& model) {
     PaintedSolid skid =
         bar(at(0.25, 1.06, 0.05), at(2.72, 1.06, 0.05), 0.04 * right, 0.04 * up, "black");
-    model.add_both("skid", skid);
+    model.add_mirrored("skid", skid);
     const glm::dvec3 across = glm::normalize(glm::dvec3(-0.5, 0.0, -1.0));
     PaintedSolid toe =
         bar(at(0.02, 1.06, 0.19), at(0.25, 1.06, 0.05), 0.04 * right, 0.04 * across, "black");
     cut_off(toe, {{1.0, 0.0, 0.0}, -(1.95 - 0.25)}, "black");
-    model.add_both("skid", toe);
+    model.add_mirrored("skid", toe);
     for (const double s : {1.05, 2.25}) {
         PaintedSolid leg =
             bar(at(s, 0.40, 0.46),
@@ -231,7 +231,7 @@ void add_skids(ModelBuilder& model) {
         // Outside the body's lower side: its plane at 45 degrees.
         const glm::dvec3 out = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
         cut_off(leg, {out, -glm::dot(out, at(s, 0.62, 0.40))}, "olive");
-        model.add_both("leg", leg);
+        model.add_mirrored("leg", leg);
     }
 }
 

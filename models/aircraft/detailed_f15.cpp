@@ -106,8 +106,8 @@ void add_cockpit(ModelBuilder& model) {
         stations.section(5.10, 0.13, 1.09, 0.82),
         stations.section(5.18, 0.09, 1.05, 0.84)};
     PaintedSolid head = lofted(helmet, 8, "helmet");
-    head.push_back(end_of(helmet.front(), 8, true, "tub"));
-    head.push_back(end_of(helmet.back(), 8, false, "helmet"));
+    head.push_back(section_cap(helmet.front(), 8, true, "tub"));
+    head.push_back(section_cap(helmet.back(), 8, false, "helmet"));
     model.add("cockpit", head);
     model.add("cockpit", box_between(at(5.22, -0.25, deck_u), at(5.55, 0.25, 1.02), "seat"));
     model.add("cockpit", box_between(at(6.1, -0.35, deck_u), at(7.1, 0.35, 0.62), "tub"));
@@ -139,8 +139,8 @@ PaintedSolid body() {
         stations.section(16.2, 1.66, deck_u, -0.86, 1.2, 0.3),
         stations.section(17.2, 1.50, 0.30, -0.74, 0.9, 0.2)};
     PaintedSolid solid = lofted(sections, body_sides, "grey");
-    solid.push_back(end_of(sections.front(), body_sides, true, "panel"));
-    solid.push_back(end_of(sections.back(), body_sides, false, "metal"));
+    solid.push_back(section_cap(sections.front(), body_sides, true, "panel"));
+    solid.push_back(section_cap(sections.back(), body_sides, false, "metal"));
     for (const double s : {10.1, 12.2, 14.4, 16.2}) {
         stations.ring_line(solid, s);
     }
@@ -200,7 +200,7 @@ PaintedSolid wing() {
     shape.tip_m = at(13.19, 6.525, 0.04);
     shape.tip_chord_m = 1.74;
     shape.half_thickness_m = 0.14 * up;
-    PaintedSolid solid = wing_of(shape, "wing", "under");
+    PaintedSolid solid = wing_solid(shape, "wing", "under");
     const glm::dvec3 tip_edge = at(13.75, 6.525, 0.0) - at(12.71, 6.05, 0.0);
     const glm::dvec3 inward = glm::normalize(glm::dvec3(tip_edge.y, -tip_edge.x, 0.0));
     const glm::dvec3 kept = inward.y < 0.0 ? inward : -inward;
@@ -256,11 +256,11 @@ polygons::PolygonModel detailed_f15() {
     ModelBuilder model("f15-detailed");
     add_materials(model);
     model.add("forebody", forebody());
-    model.add_both("intake", intake());
+    model.add_mirrored("intake", intake());
     model.add("body", body());
     add_wings(model);
     add_tail(model);
-    model.add_both("nozzle", nozzle());
+    model.add_mirrored("nozzle", nozzle());
     add_cockpit(model);
     add_spine(model);
     model.add("canopy", canopy());

@@ -25,7 +25,7 @@ void add_tail(ModelBuilder& model) {
     const glm::dvec3 nose = glm::normalize(glm::dvec3(-1.0, -0.9, 0.0));
     cut_off(boom, {nose, -glm::dot(nose, at(14.45, 1.80, 0.0))}, "grey");
     stations.ring_line(boom, 16.0);
-    model.add_both("boom", boom);
+    model.add_mirrored("boom", boom);
 
     Aerofoil stabilator;
     stabilator.root_m = at(15.75, 2.15, -0.02);
@@ -33,10 +33,10 @@ void add_tail(ModelBuilder& model) {
     stabilator.tip_m = at(18.20, 4.30, -0.06);
     stabilator.tip_chord_m = 1.15;
     stabilator.half_thickness_m = 0.075 * up;
-    PaintedSolid plane = wing_of(stabilator, "wing", "under");
+    PaintedSolid plane = wing_solid(stabilator, "wing", "under");
     Stencil rib = stripe(at(0.0, 2.7, 0.0), right, stations.panel_line_m);
     paint(plane, rib, "line");
-    model.add_both("stabilator", plane);
+    model.add_mirrored("stabilator", plane);
 
     Aerofoil fin;
     fin.root_m = at(14.75, 1.86, deck_u + 0.002);
@@ -44,7 +44,7 @@ void add_tail(ModelBuilder& model) {
     fin.tip_m = at(17.35, 1.97, 3.40);
     fin.tip_chord_m = 1.15;
     fin.half_thickness_m = 0.09 * right;
-    PaintedSolid upright = wing_of(fin, "fin", "fin");
+    PaintedSolid upright = wing_solid(fin, "fin", "fin");
     paint(upright, {{{up, 0.11 - 3.18}, {down, -(0.11 - 3.36)}}}, "band");
     paint(upright, stripe(at(0.0, 0.0, 2.2), up, stations.panel_line_m), "line");
     const glm::dvec3 hinge = (fin.tip_m - glm::dvec3(0.72 * fin.tip_chord_m, 0.0, 0.0)) -
@@ -70,7 +70,7 @@ void add_tail(ModelBuilder& model) {
         bar(s + 0.07, s + 0.26, 1.93, 2.0);
         bar(s + 0.07, s + 0.2, 1.76, 1.83);
     }
-    model.add_both("fin", upright);
+    model.add_mirrored("fin", upright);
 }
 
 PaintedSolid nozzle() {
@@ -85,9 +85,9 @@ PaintedSolid nozzle() {
         std::ranges::reverse(face.corners_m);
         solid.push_back(face);
     }
-    solid.push_back(end_of(inner[0], sides, false, "burner"));
-    const PaintedFace wide = end_of(outer[2], sides, false, "metal");
-    const PaintedFace narrow = end_of(inner[1], sides, false, "metal");
+    solid.push_back(section_cap(inner[0], sides, false, "burner"));
+    const PaintedFace wide = section_cap(outer[2], sides, false, "metal");
+    const PaintedFace narrow = section_cap(inner[1], sides, false, "metal");
     for (std::size_t i = 0; i < wide.corners_m.size(); ++i) {
         const std::size_t next = (i + 1) % wide.corners_m.size();
         solid.push_back(

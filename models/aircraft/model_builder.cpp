@@ -23,7 +23,7 @@ std::uint32_t ModelBuilder::vertex_at(const glm::dvec3& at_m) {
     constexpr double grid_m = 1e-10; // what the file keeps
     const glm::dvec3 kept = glm::round(at_m / grid_m) * grid_m + glm::dvec3(0.0);
     const auto found = std::ranges::find_if(model_.vertices_m, [&](const glm::dvec3& other) {
-        return glm::distance(other, kept) < one_place_m;
+        return glm::distance(other, kept) < coincident_distance_m;
     });
     if (found != model_.vertices_m.end()) {
         return static_cast<std::uint32_t>(found - model_.vertices_m.begin());
@@ -63,7 +63,7 @@ void ModelBuilder::add(const std::string& part, const PaintedSolid& solid) {
     }
 }
 
-void ModelBuilder::add_both(const std::string& part, const PaintedSolid& right_side) {
+void ModelBuilder::add_mirrored(const std::string& part, const PaintedSolid& right_side) {
     add(part + "_right", right_side);
     add(part + "_left", mirrored(right_side));
 }

@@ -22,7 +22,7 @@ public:
     void add(const std::string& part, const PaintedSolid& solid);
 
     /// A solid on the right, and its mirror image, as parts NAME_right and NAME_left.
-    void add_both(const std::string& part, const PaintedSolid& right_side);
+    void add_mirrored(const std::string& part, const PaintedSolid& right_side);
 
     /// The part added under that name turns.
     void add_pivot(const std::string& part, const polygons::Pivot& pivot);

@@ -18,7 +18,7 @@ namespace octant::models::aircraft {
 namespace {
 
 void add_face(PaintedSolid& solid, Outline corners, const std::string& material) {
-    corners = without_repeats(corners);
+    corners = without_duplicates(corners);
     if (has_area(corners)) {
         solid.push_back({std::move(corners), material});
     }
@@ -88,8 +88,8 @@ PaintedSolid lofted(std::span<const Section> sections, int sides, const std::str
     return solid;
 }
 
-PaintedFace end_of(const Section& section, int sides, bool ahead, const std::string& material) {
-    PaintedFace face{without_repeats(corners_of(section, sides)), material};
+PaintedFace section_cap(const Section& section, int sides, bool ahead, const std::string& material) {
+    PaintedFace face{without_duplicates(corners_of(section, sides)), material};
     face_away_from(face, middle_of(section) + glm::dvec3(ahead ? -1.0 : 1.0, 0.0, 0.0));
     return face;
 }
@@ -116,7 +116,7 @@ box_between(const glm::dvec3& a_m, const glm::dvec3& b_m, const std::string& mat
     return solid;
 }
 
-PaintedSolid wing_of(const Aerofoil& shape, const std::string& material, const std::string& other) {
+PaintedSolid wing_solid(const Aerofoil& shape, const std::string& material, const std::string& other) {
     // Shares of the chord and of half the thickness: leading edge, front and rear of the thickest
     // part, trailing edge, which is a little blunt.
     constexpr std::array<glm::dvec2, 8> section{
@@ -161,9 +161,9 @@ void cut_off(PaintedSolid& solid, const Plane& plane, const std::string& materia
     for (const PaintedFace& face : solid) {
         const Outline kept = in_front(face.corners_m, plane);
         for (const glm::dvec3& corner : kept) {
-            if (std::abs(distance_m(plane, corner)) <= 2.0 * one_place_m &&
+            if (std::abs(distance_m(plane, corner)) <= 2.0 * coincident_distance_m &&
                 std::ranges::none_of(rim, [&](const glm::dvec3& other) {
-                    return glm::distance(other, corner) <= one_place_m;
+                    return glm::distance(other, corner) <= coincident_distance_m;
                 })) {
                 rim.push_back(corner);
             }

@@ -38,7 +38,7 @@ struct Section {
 PaintedSolid lofted(std::span<const Section> sections, int sides, const std::string& material);
 
 /// The end of such a body: the polygon of a section, seen from ahead or from astern.
-PaintedFace end_of(const Section& section, int sides, bool ahead, const std::string& material);
+PaintedFace section_cap(const Section& section, int sides, bool ahead, const std::string& material);
 
 /// A box between two corners, body axes.
 PaintedSolid box_between(const glm::dvec3& a_m, const glm::dvec3& b_m, const std::string& material);
@@ -57,7 +57,7 @@ struct Aerofoil {
 
 /// All faces but the root's. Two materials: of the side that half_thickness_m points to, and of the
 /// other side and the edges.
-PaintedSolid wing_of(const Aerofoil& shape, const std::string& material, const std::string& other);
+PaintedSolid wing_solid(const Aerofoil& shape, const std::string& material, const std::string& other);
 
 /// Cuts a convex solid off behind a plane and closes it there.
 void cut_off(PaintedSolid& solid, const Plane& plane, const std::string& material);

@@ -2,6 +2,6 @@
 
 namespace octant::models::heights {
 
-constinit LateLibrary gdal_library(OCTANT_GDAL_FILE);
+constinit LazyLibrary gdal_library(OCTANT_GDAL_FILE);
 
 } // namespace octant::models::heights

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/late_library.h"
+#include "sim/base/lazy_library.h"
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -16,9 +16,9 @@
 // line here and nothing else.
 namespace octant::models::heights {
 
-extern constinit LateLibrary gdal_library;
+extern constinit LazyLibrary gdal_library;
 
-#define OCTANT_GDAL(name) inline const LateFunction<decltype(::name)> name(gdal_library, #name)
+#define OCTANT_GDAL(name) inline const LazyFunction<decltype(::name)> name(gdal_library, #name)
 OCTANT_GDAL(CPLErrorReset);
 OCTANT_GDAL(CPLEscapeString);
 OCTANT_GDAL(CPLGetErrorHandlerUserData);

@@ -83,12 +83,12 @@ void CPL_STDCALL hear(CPLErr severity, CPLErrorNum /*number*/, const char* text)
 
 } // namespace
 
-void error_unreadable(
+void throw_unreadable(
     const std::filesystem::path& file, std::string_view expected, const std::string& got) {
-    error_in(file, fmt::format("expected {} that GDAL can read, got {}", expected, got));
+    throw_error_in(file, fmt::format("expected {} that GDAL can read, got {}", expected, got));
 }
 
-void CloseDataset::operator()(void* dataset) const {
+void DatasetDeleter::operator()(void* dataset) const {
     GDALClose(dataset);
 }
 
@@ -115,7 +115,7 @@ void GdalSession::note_warning(const char* text) {
     add_text(warnings_, text);
 }
 
-bool GdalSession::names_no_format() const {
+bool GdalSession::is_unknown_format() const {
     return first_error_.find("not recognized as") != std::string::npos;
 }
 

@@ -26,7 +26,7 @@ public:
     bool failed() const { return !first_error_.empty(); }
 
     /// True when the error was that no driver knows the file.
-    bool names_no_format() const;
+    bool is_unknown_format() const;
 
     /// Starts over: what went wrong so far was harmless.
     void forget() { first_error_.clear(); }
@@ -52,14 +52,14 @@ private:
 };
 
 /// Refuses a file that should have been "an image" or "a height field".
-[[noreturn]] void error_unreadable(
+[[noreturn]] void throw_unreadable(
     const std::filesystem::path& file, std::string_view expected, const std::string& got);
 
-struct CloseDataset {
+struct DatasetDeleter {
     void operator()(void* dataset) const;
 };
 
 /// Owner of a GDALDatasetH. GDAL's own headers stay out of ours.
-using Dataset = std::unique_ptr<void, CloseDataset>;
+using Dataset = std::unique_ptr<void, DatasetDeleter>;
 
 } // namespace octant::models::heights

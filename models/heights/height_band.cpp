@@ -1,7 +1,7 @@
 #include "models/heights/height_band.h"
 
 #include "models/heights/gdal_functions.h"
-#include "models/heights/web_tiles.h"
+#include "models/heights/colour_coded_heights.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -192,7 +192,7 @@ void take_unit(
     const bool is_named = !is_unspecified(unit);
     const auto named = is_named ? metres_from_unit(unit) : vertical_unit_m(system);
     if (!named && !given && is_named) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected heights in metres or feet, got '{}': --height-scale says how many metres "
@@ -202,7 +202,7 @@ void take_unit(
     if (!named && !given) {
         note_feet(file, system, band);
     }
-    band.names_unit = named.has_value();
+    band.declares_unit = named.has_value();
     const double unit_m = named ? *named : given.value_or(1.0);
     band.scale_m = GDALGetRasterScale(band.band, nullptr) * unit_m;
     band.offset_m = GDALGetRasterOffset(band.band, nullptr) * unit_m;
@@ -255,7 +255,7 @@ int band_named(const path& file, GDALDatasetH dataset, const std::string& wanted
             return number;
         }
     }
-    error_in(
+    throw_error_in(
         file,
         fmt::format(
             "--band {}: the file has {}, {}",
@@ -299,7 +299,7 @@ bool says_no_heights(const std::vector<std::string>& words) {
 std::vector<int> bands_named_heights(GDALDatasetH dataset) {
     std::vector<int> numbers;
     for (int number = 1; number <= GDALGetRasterCount(dataset); ++number) {
-        if (is_name_of_heights(name_of(dataset, number))) {
+        if (is_height_band_name(name_of(dataset, number))) {
             numbers.push_back(number);
         }
     }
@@ -326,12 +326,12 @@ int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& no
         GDALGetRasterColorTable(GDALGetRasterBand(dataset, number)) != nullptr ||
         (colour != GCI_Undefined && colour != GCI_GrayIndex);
     if (is_coloured) {
-        error_in(file, "expected one band of heights, got a colour picture");
+        throw_error_in(file, "expected one band of heights, got a colour picture");
     }
     const bool has_alpha = count > 1 && colour_of(dataset, count) == GCI_AlphaBand;
     const int others = count - 1 - (has_alpha ? 1 : 0);
     if (named.empty() && others >= 2 && is_bytes(dataset)) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected one band of heights, got {} of 8 bits, which make a picture: --band N "
@@ -368,7 +368,7 @@ void take_band(
     const path& file, GDALDatasetH dataset, const ImportOptions& options, HeightBand& band) {
     band.band = GDALGetRasterBand(dataset, band.number);
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(band.band)) != 0) {
-        error_in(file, "expected real heights, got complex numbers");
+        throw_error_in(file, "expected real heights, got complex numbers");
     }
     take_unit(file, GDALGetSpatialRef(dataset), options.height_scale, band);
     band.no_data = declared_no_data(band.band);
@@ -377,7 +377,7 @@ void take_band(
 
 } // namespace
 
-bool is_name_of_heights(std::string_view name) {
+bool is_height_band_name(std::string_view name) {
     constexpr std::array<std::string_view, 16> heights = {
         "elevation",
         "elevations",
@@ -441,12 +441,12 @@ std::optional<double> metres_from_unit(std::string_view unit) {
 
 HeightBand height_band_of(const path& file, void* dataset, const ImportOptions& options) {
     if (GDALGetRasterCount(dataset) < 1) {
-        error_unreadable(file, "a height field", "no band");
+        throw_unreadable(file, "a height field", "no band");
     }
     HeightBand band;
-    const std::optional<ColourCode> forced =
-        options.band ? colour_code_named(*options.band) : std::nullopt;
-    const std::optional<ColourCode> code = options.band ? forced : colour_code_of(dataset);
+    const std::optional<HeightEncoding> forced =
+        options.band ? height_encoding_from_name(*options.band) : std::nullopt;
+    const std::optional<HeightEncoding> code = options.band ? forced : height_encoding_of(dataset);
     if (code) {
         band.decoded = decoded_heights(file, dataset, *code);
         band.notes.push_back({fmt::format(

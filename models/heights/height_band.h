@@ -24,13 +24,13 @@ struct HeightBand {
     std::optional<double> no_data; ///< as the file declares it
     double scale_m = 1.0;
     double offset_m = 0.0;
-    bool names_unit = false; ///< the file says what its heights are measured in
+    bool declares_unit = false; ///< the file says what its heights are measured in
     std::vector<MapNote> notes;
 };
 
 /// Whether a band's name says that it holds heights of the ground, and not their error, their
 /// slope, or heights of trees.
-bool is_name_of_heights(std::string_view name);
+bool is_height_band_name(std::string_view name);
 
 /// The raw number that a GDALRasterBandH declares for no data.
 std::optional<double> declared_no_data(void* band);

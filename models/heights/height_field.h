@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@
 namespace octant::models::heights {
 
 /// A coordinate system whose x and y run along a field's own.
-struct MapSystem {
+struct CoordinateSystem {
     std::string wkt;
     double centre_x = 0.0; ///< of the field, in the system's units
     double centre_y = 0.0;
@@ -31,7 +31,7 @@ struct MapNote {
 };
 
 /// How far a ground lies from the surface it was made from, as measured at some places.
-struct Deviation {
+struct HeightDeviation {
     double rms_m = 0.0;
     double worst_m = 0.0;
     std::int64_t places = 0;
@@ -75,8 +75,8 @@ public:
     float highest_m() const { return highest_m_; }
 
     std::string name;                ///< built-in name or file name, for reports
-    std::optional<GeoPlace> place;   ///< of its centre; nothing for made ground
-    std::optional<MapSystem> system; ///< nothing for ground without a place in any
+    std::optional<GeoPosition> place;   ///< of its centre; nothing for made ground
+    std::optional<CoordinateSystem> system; ///< nothing for ground without a place in any
     long filled_voids = 0;           ///< samples without data that were filled in on reading
     std::vector<MapNote> notes;      ///< of the files it was read from
 

@@ -47,7 +47,7 @@ private:
 
 void set_system(GDALDatasetH dataset, const HeightField& field) {
     if (field.place) {
-        GDALSetSpatialRef(dataset, system_about(*field.place).get());
+        GDALSetSpatialRef(dataset, local_coordinate_system(*field.place).get());
     } else {
         const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
         OSRSetLocalCS(system, "metres east and north of the map centre");
@@ -116,7 +116,7 @@ void write_height_field(const std::filesystem::path& path, const HeightField& fi
         dataset.reset();
     }
     if (!written || gdal.failed()) {
-        error_in(path, "cannot be written: " + gdal.reason(memory.name()));
+        throw_error_in(path, "cannot be written: " + gdal.reason(memory.name()));
     }
     write_file(path, memory.bytes());
 }

@@ -29,7 +29,7 @@ HeightField field_from(const std::vector<path>& files, const ImportOptions& opti
     source.read(0, grid.heights_m);
     const long voids = fill_voids(grid);
     if (static_cast<std::size_t>(voids) == grid.heights_m.size()) {
-        error_in(files.front(), "expected at least one height, got only samples without data");
+        throw_error_in(files.front(), "expected at least one height, got only samples without data");
     }
     HeightField field(grid.columns, grid.rows, source.spacing_m(), std::move(grid.heights_m));
     field.name = source.name();
@@ -52,14 +52,14 @@ HeightField read_height_field(const std::vector<path>& files, const ImportOption
     try {
         return field_from(files, options);
     } catch (const std::bad_alloc&) {
-        error_in(files.front(), "expected a height field that fits in memory, got a larger one");
+        throw_error_in(files.front(), "expected a height field that fits in memory, got a larger one");
     }
 }
 
-void check_system(const ImportOptions& options) {
-    if (options.system && *options.system != no_system_but_metres) {
+void check_coordinate_system(const ImportOptions& options) {
+    if (options.system && *options.system != local_metres_name) {
         const GdalSession gdal;
-        system_named(*options.system);
+        coordinate_system_from_name(*options.system);
     }
 }
 

@@ -38,6 +38,6 @@ HeightField read_height_field(
 
 /// Throws Error where the options name a coordinate system that is none, also for files that need
 /// none.
-void check_system(const ImportOptions& options);
+void check_coordinate_system(const ImportOptions& options);
 
 } // namespace octant::models::heights

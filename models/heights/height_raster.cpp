@@ -1,6 +1,6 @@
 #include "models/heights/height_raster.h"
 
-#include "models/heights/bounds.h"
+#include "models/heights/map_rectangle.h"
 #include "models/heights/gdal_functions.h"
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
@@ -32,13 +32,13 @@ using std::filesystem::path;
 using GeoTransform = std::array<double, 6>;
 
 /// Whether a raw number stands for no data by the file's word or the options'.
-bool is_void(double raw, const OpenRaster& raster) {
+bool is_void(double raw, const HeightRaster& raster) {
     return !std::isfinite(raw) || (raster.no_data && is_same_raw(raw, *raster.no_data)) ||
            std::ranges::any_of(
-               raster.given_voids, [raw](double mark) { return is_same_raw(raw, mark); });
+               raster.user_void_values, [raw](double mark) { return is_same_raw(raw, mark); });
 }
 
-double height_of(double raw, const OpenRaster& raster) {
+double height_of(double raw, const HeightRaster& raster) {
     const bool plain = raster.scale_m == 1.0 && raster.offset_m == 0.0;
     return plain ? raw : raw * raster.scale_m + raster.offset_m;
 }
@@ -46,7 +46,7 @@ double height_of(double raw, const OpenRaster& raster) {
 /// The heights that are believed on a body.
 glm::dvec2 believed_m(const Ellipsoid& ellipsoid) {
     return ellipsoid.is_earth() ? glm::dvec2(lowest_import_m, highest_import_m)
-                                : glm::dvec2(-highest_elsewhere_m, highest_elsewhere_m);
+                                : glm::dvec2(-max_height_other_body_m, max_height_other_body_m);
 }
 
 bool is_believed(double height_m, const Ellipsoid& ellipsoid) {
@@ -55,8 +55,8 @@ bool is_believed(double height_m, const Ellipsoid& ellipsoid) {
 }
 
 /// Whether a number must be looked at among all others of its raster before it counts as a height.
-bool is_doubtful(double raw, double height_m, const OpenRaster& raster) {
-    return !is_believed(height_m, raster.ellipsoid) || is_usual_void(raw);
+bool is_doubtful(double raw, double height_m, const HeightRaster& raster) {
+    return !is_believed(height_m, raster.ellipsoid) || is_common_void_value(raw);
 }
 
 std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset) {
@@ -69,22 +69,22 @@ std::optional<GeoTransform> transform_of(const path& file, GDALDatasetH dataset)
     t[4] = std::abs(t[4]) <= 1e-9 * std::abs(t[5]) ? 0.0 : t[4];
     const double area = t[1] * t[5] - t[2] * t[4];
     if (!std::isfinite(t[0]) || !std::isfinite(t[3]) || !std::isnormal(area)) {
-        error_in(
+        throw_error_in(
             file, fmt::format("expected a cell size that is a number, got {} x {}", t[1], t[5]));
     }
     return t;
 }
 
 /// Turns an upright raster so that it runs from the south-west; a rotated one stays from the south.
-void take_transform(const GeoTransform& t, OpenRaster& raster) {
+void take_transform(const GeoTransform& t, HeightRaster& raster) {
     const bool upright = t[2] == 0.0 && t[4] == 0.0;
-    raster.from_east = upright && t[1] < 0.0;
-    raster.from_south = upright && t[5] > 0.0;
-    const double first_line = raster.from_south ? 0.5 : raster.rows - 0.5;
-    const double first_pixel = raster.from_east ? raster.columns - 0.5 : 0.5;
-    const double right = raster.from_east ? -1.0 : 1.0;
-    const double up = raster.from_south ? 1.0 : -1.0;
-    raster.map = MapFromGrid{
+    raster.rows_run_west = upright && t[1] < 0.0;
+    raster.first_row_is_south = upright && t[5] > 0.0;
+    const double first_line = raster.first_row_is_south ? 0.5 : raster.rows - 0.5;
+    const double first_pixel = raster.rows_run_west ? raster.columns - 0.5 : 0.5;
+    const double right = raster.rows_run_west ? -1.0 : 1.0;
+    const double up = raster.first_row_is_south ? 1.0 : -1.0;
+    raster.map = GridTransform{
         t[0] + first_pixel * t[1] + first_line * t[2],
         right * t[1],
         up * t[2],
@@ -109,20 +109,20 @@ constexpr GDALDataType type_of() {
 template <typename Number>
 void read_window(
     const path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     GDALRasterBandH band,
     const GridWindow& window,
     Number* numbers,
     const GdalSession& gdal) {
     const int line =
-        raster.from_south ? window.first_row : raster.rows - window.first_row - window.rows;
-    const int pixel = raster.from_east ? raster.columns - window.first_column - window.columns
+        raster.first_row_is_south ? window.first_row : raster.rows - window.first_row - window.rows;
+    const int pixel = raster.rows_run_west ? raster.columns - window.first_column - window.columns
                                        : window.first_column;
     const auto size = static_cast<GSpacing>(sizeof(Number));
     const GSpacing line_size = size * window.columns;
     Number* const start =
-        numbers + (raster.from_east ? window.columns - 1 : 0) +
-        (raster.from_south ? std::ptrdiff_t{0} : std::ptrdiff_t{window.rows - 1} * window.columns);
+        numbers + (raster.rows_run_west ? window.columns - 1 : 0) +
+        (raster.first_row_is_south ? std::ptrdiff_t{0} : std::ptrdiff_t{window.rows - 1} * window.columns);
     const CPLErr result = GDALRasterIOEx(
         band,
         GF_Read,
@@ -134,22 +134,22 @@ void read_window(
         window.columns,
         window.rows,
         type_of<Number>(),
-        raster.from_east ? -size : size,
-        raster.from_south ? line_size : -line_size,
+        raster.rows_run_west ? -size : size,
+        raster.first_row_is_south ? line_size : -line_size,
         nullptr);
     if (result != CE_None || gdal.failed()) {
-        const std::string cut_short = cut_short_text(file, raster.datasets.front().get());
+        const std::string cut_short = truncation_error(file, raster.datasets.front().get());
         if (!cut_short.empty()) {
-            error_unreadable(file, "a height field", cut_short);
+            throw_unreadable(file, "a height field", cut_short);
         }
-        error_unreadable(file, "a height field", gdal.reason(file));
+        throw_unreadable(file, "a height field", gdal.reason(file));
     }
 }
 
 /// Raw numbers of one line, NaN without data by the file's word or the options'.
 void read_raw_line(
     const path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& line,
     std::span<double> raw,
     const GdalSession& gdal) {
@@ -159,13 +159,13 @@ void read_raw_line(
         const std::int64_t from_north = raster.rows - 1 - line.first_row;
         raster.text_voids.apply(from_north * raster.columns + line.first_column, raw);
     }
-    std::vector<std::uint8_t> is_there;
+    std::vector<std::uint8_t> path_exists;
     if (raster.mask != nullptr) {
-        is_there.resize(raw.size());
-        read_window(file, raster, raster.mask, line, is_there.data(), gdal);
+        path_exists.resize(raw.size());
+        read_window(file, raster, raster.mask, line, path_exists.data(), gdal);
     }
     for (std::size_t x = 0; x < raw.size(); ++x) {
-        if ((!is_there.empty() && is_there[x] == 0) || is_void(raw[x], raster)) {
+        if ((!path_exists.empty() && path_exists[x] == 0) || is_void(raw[x], raster)) {
             raw[x] = std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -177,10 +177,10 @@ double modulus_of(GDALRasterBandH band) {
 }
 
 const UndeclaredVoids&
-undeclared_voids(const path& file, const OpenRaster& raster, const GdalSession& gdal) {
+undeclared_voids(const path& file, const HeightRaster& raster, const GdalSession& gdal) {
     if (!raster.undeclared) {
         const glm::dvec2 range_m = believed_m(raster.ellipsoid);
-        VoidSurvey survey(range_m.x, range_m.y, modulus_of(raster.band));
+        VoidDetector survey(range_m.x, range_m.y, modulus_of(raster.band));
         std::vector<double> line(static_cast<std::size_t>(raster.columns));
         for (int row = 0; row < raster.rows; ++row) {
             read_raw_line(file, raster, {0, raster.columns, row, 1}, line, gdal);
@@ -198,7 +198,7 @@ undeclared_voids(const path& file, const OpenRaster& raster, const GdalSession& 
 /// The height in metres of a raw number; NaN for one that stands for no data. Throws Error for one
 /// that is neither.
 float height_from_raw(
-    const path& file, double raw, const OpenRaster& raster, const GdalSession& gdal) {
+    const path& file, double raw, const HeightRaster& raster, const GdalSession& gdal) {
     if (std::isnan(raw)) {
         return std::numeric_limits<float>::quiet_NaN();
     }
@@ -207,7 +207,7 @@ float height_from_raw(
         if (undeclared_voids(file, raster, gdal).has(raw)) {
             return std::numeric_limits<float>::quiet_NaN();
         }
-        check_height(file, height_m, raw, raster.names_unit, raster.ellipsoid);
+        check_height(file, height_m, raw, raster.declares_unit, raster.ellipsoid);
     }
     return static_cast<float>(height_m);
 }
@@ -248,8 +248,8 @@ struct DegreeSigns {
     bool is_fine() const { return std::max(cell.x, cell.y) < 1.0; }
 };
 
-DegreeSigns degree_signs(GDALDatasetH dataset, const OpenRaster& raster) {
-    Bounds bounds;
+DegreeSigns degree_signs(GDALDatasetH dataset, const HeightRaster& raster) {
+    MapRectangle bounds;
     for (const double column : {-0.5, raster.columns - 0.5}) {
         for (const double row : {-0.5, raster.rows - 0.5}) {
             bounds.add(raster.map->at(column, row));
@@ -269,17 +269,17 @@ DegreeSigns degree_signs(GDALDatasetH dataset, const OpenRaster& raster) {
     return signs;
 }
 
-void note(const path& file, OpenRaster& raster, std::string_view text) {
+void note(const path& file, HeightRaster& raster, std::string_view text) {
     raster.notes.push_back({fmt::format("{}: {}", file.filename().string(), text)});
 }
 
-Reference wgs84_system() {
-    return system_named("EPSG:4326");
+SpatialReference wgs84_system() {
+    return coordinate_system_from_name("EPSG:4326");
 }
 
 /// The system of a raster that names none: degrees are taken for WGS 84, all else for metres.
 /// Throws Error where either may be meant.
-Reference assumed_system(const path& file, GDALDatasetH dataset, OpenRaster& raster) {
+SpatialReference assumed_system(const path& file, GDALDatasetH dataset, HeightRaster& raster) {
     constexpr double widest_deg = 9.0; // 1000 km; more would not be read
     const DegreeSigns signs = degree_signs(dataset, raster);
     if (!signs.fit) {
@@ -299,7 +299,7 @@ Reference assumed_system(const path& file, GDALDatasetH dataset, OpenRaster& ras
         return wgs84_system();
     }
     if (signs.is_fine() || is_world) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected a coordinate system, got none and cells of {:g}, which are degrees or "
@@ -320,15 +320,15 @@ Reference assumed_system(const path& file, GDALDatasetH dataset, OpenRaster& ras
 }
 
 /// Throws Error where a geographic system does not fit the coordinates.
-void check_degrees(const path& file, GDALDatasetH dataset, const OpenRaster& raster) {
-    const SystemHandle system = raster.system.get();
+void check_degrees(const path& file, GDALDatasetH dataset, const HeightRaster& raster) {
+    const SpatialReferenceHandle system = raster.system.get();
     if (system == nullptr || OSRIsGeographic(system) == 0) {
         return;
     }
     const DegreeSigns signs = degree_signs(dataset, raster);
     if (!signs.fit) {
         const bool is_own = GDALGetSpatialRef(dataset) != nullptr;
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected longitudes and latitudes, as {} says, got coordinates up to {:.10g}{}",
@@ -339,7 +339,7 @@ void check_degrees(const path& file, GDALDatasetH dataset, const OpenRaster& ras
 }
 
 /// Whether a geographic system of the Earth leaves its datum open.
-bool has_unnamed_datum(SystemHandle system) {
+bool has_unnamed_datum(SpatialReferenceHandle system) {
     const char* const datum = OSRGetAttrValue(system, "DATUM", 0);
     std::string name = datum == nullptr ? "" : datum;
     std::ranges::transform(
@@ -355,18 +355,18 @@ bool has_unnamed_datum(SystemHandle system) {
 }
 
 /// Whether a system that should count lengths, a local one or a projection, counts degrees.
-bool has_degrees_for_lengths(SystemHandle system) {
+bool has_degrees_for_lengths(SpatialReferenceHandle system) {
     constexpr double degree = std::numbers::pi / 180.0; // no unit of length is so many metres
     return (OSRIsLocal(system) != 0 || OSRIsProjected(system) != 0) &&
            std::abs(OSRGetLinearUnits(system, nullptr) - degree) < 1e-9;
 }
 
 /// The coordinate system of a raster that has a map. Null where lengths are metres.
-Reference system_of_raster(
-    const path& file, GDALDatasetH dataset, const ImportOptions& options, OpenRaster& raster) {
-    const SystemHandle own = GDALGetSpatialRef(dataset);
+SpatialReference system_of_raster(
+    const path& file, GDALDatasetH dataset, const ImportOptions& options, HeightRaster& raster) {
+    const SpatialReferenceHandle own = GDALGetSpatialRef(dataset);
     if (own == nullptr && options.system) {
-        return *options.system == no_system_but_metres ? nullptr : system_named(*options.system);
+        return *options.system == local_metres_name ? nullptr : coordinate_system_from_name(*options.system);
     }
     if (own == nullptr) {
         return assumed_system(file, dataset, raster);
@@ -378,11 +378,11 @@ Reference system_of_raster(
         note(file, raster, "degrees on a datum that is not named are taken as WGS 84");
         return wgs84_system();
     }
-    return reference_of(own);
+    return spatial_reference_of(own);
 }
 
 /// Checks the words of a text grid and takes those that stand for no data.
-void take_text(const path& file, const std::string& driver, OpenRaster& raster) {
+void take_text(const path& file, const std::string& driver, HeightRaster& raster) {
     raster.text_voids = check_text_grid(file, driver, raster.columns, raster.rows);
     const TextVoids& found = raster.text_voids;
     if (found.declares_no_number) {
@@ -413,13 +413,13 @@ void take_text(const path& file, const std::string& driver, OpenRaster& raster) 
 /// The first height that a few lines of the raster have, as the file says it; nothing where they
 /// are empty.
 std::optional<double>
-some_height_m(const path& file, const OpenRaster& raster, const GdalSession& gdal) {
+some_height_m(const path& file, const HeightRaster& raster, const GdalSession& gdal) {
     std::vector<double> line(static_cast<std::size_t>(raster.columns));
     for (const int eighth : {4, 2, 6, 1, 7}) {
         const GridWindow window{0, raster.columns, raster.rows * eighth / 8, 1};
         read_raw_line(file, raster, window, line, gdal);
         for (const double raw : line) {
-            if (!std::isnan(raw) && !is_usual_void(raw)) {
+            if (!std::isnan(raw) && !is_common_void_value(raw)) {
                 return height_of(raw, raster);
             }
         }
@@ -428,14 +428,14 @@ some_height_m(const path& file, const OpenRaster& raster, const GdalSession& gda
 }
 
 /// Planetary archives often have heights as distances from the centre: these become heights above
-/// the equator's radius. All ground of a planet lies within highest_elsewhere_m of that.
-void take_distances(const path& file, OpenRaster& raster, const GdalSession& gdal) {
+/// the equator's radius. All ground of a planet lies within max_height_other_body_m of that.
+void take_distances(const path& file, HeightRaster& raster, const GdalSession& gdal) {
     const double radius_m = raster.ellipsoid.semi_major_m;
-    if (raster.ellipsoid.is_earth() || radius_m < 4.0 * highest_elsewhere_m) {
+    if (raster.ellipsoid.is_earth() || radius_m < 4.0 * max_height_other_body_m) {
         return;
     }
     const auto height_m = some_height_m(file, raster, gdal);
-    if (height_m && std::abs(*height_m - radius_m) <= highest_elsewhere_m) {
+    if (height_m && std::abs(*height_m - radius_m) <= max_height_other_body_m) {
         raster.offset_m -= radius_m;
         note(
             file,
@@ -451,9 +451,9 @@ void take_distances(const path& file, OpenRaster& raster, const GdalSession& gda
 void check_whole(const path& file, GDALDatasetH dataset) {
     const bool tells_itself =
         std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset))) == "GTiff";
-    const std::string cut_short = tells_itself ? std::string() : cut_short_text(file, dataset);
+    const std::string cut_short = tells_itself ? std::string() : truncation_error(file, dataset);
     if (!cut_short.empty()) {
-        error_unreadable(file, "a height field", cut_short);
+        throw_unreadable(file, "a height field", cut_short);
     }
 }
 
@@ -493,7 +493,7 @@ Dataset grid_by_control_points(const path& file, void* source, int band, const G
     Dataset grid(
         GDALAutoCreateWarpedVRT(source, system, system, GRA_Bilinear, exact, options.get()));
     if (!grid) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected control points that a grid fits, got {}: {}", points, gdal.reason(file)));
@@ -502,13 +502,13 @@ Dataset grid_by_control_points(const path& file, void* source, int band, const G
 }
 
 /// Whether heights count from the ellipsoid and not from the sea, as the system says.
-bool is_ellipsoidal(SystemHandle system) {
+bool is_ellipsoidal(SpatialReferenceHandle system) {
     const char* const datum = OSRGetAttrValue(system, "VERT_DATUM", 0);
     return datum == nullptr ? OSRGetAxesCount(system) == 3
                             : std::string_view(datum).find("llipsoid") != std::string_view::npos;
 }
 
-void note_ellipsoid(const path& file, OpenRaster& raster) {
+void note_ellipsoid(const path& file, HeightRaster& raster) {
     if (raster.system && raster.ellipsoid.is_earth() && is_ellipsoidal(raster.system.get())) {
         note(
             file,
@@ -521,14 +521,14 @@ void note_ellipsoid(const path& file, OpenRaster& raster) {
 } // namespace
 
 void check_import_size(const path& file, int columns, int rows) {
-    const auto fits = [](int n) { return n >= 2 && n <= largest_import_samples; };
+    const auto fits = [](int n) { return n >= 2 && n <= max_import_samples; };
     if (!fits(columns) || !fits(rows)) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected 2 x 2 to {} x {} samples, got {} x {}",
-                largest_import_samples,
-                largest_import_samples,
+                max_import_samples,
+                max_import_samples,
                 columns,
                 rows));
     }
@@ -540,10 +540,10 @@ bool is_same_raw(double raw, double mark) {
 }
 
 void check_height(
-    const path& file, double height_m, double raw, bool names_unit, const Ellipsoid& ellipsoid) {
+    const path& file, double height_m, double raw, bool declares_unit, const Ellipsoid& ellipsoid) {
     if (!is_believed(height_m, ellipsoid)) {
         const glm::dvec2 range_m = believed_m(ellipsoid);
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected heights from {:g} to {:g} m, got {:.7g} m: {}--void {} treats it as "
@@ -551,13 +551,13 @@ void check_height(
                 range_m.x,
                 range_m.y,
                 height_m,
-                names_unit ? "" : "--height-scale says how many metres a unit is, ",
+                declares_unit ? "" : "--height-scale says how many metres a unit is, ",
                 raw_text(raw)));
     }
 }
 
-OpenRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
-    OpenRaster raster;
+HeightRaster open_height_raster(const path& file, const ImportOptions& options, GdalSession& gdal) {
+    HeightRaster raster;
     ImportOptions own = options;
     raster.datasets.push_back(open_raster_file(file, gdal, own.band, raster.notes));
     check_whole(file, raster.datasets.back().get());
@@ -568,14 +568,14 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     raster.band = band.band;
     raster.mask = band.mask;
     raster.no_data = band.no_data;
-    raster.given_voids = options.voids.values;
+    raster.user_void_values = options.voids.values;
     if (options.voids.only) {
         raster.no_data.reset();
         raster.undeclared.emplace(); // nothing is searched for
     }
     raster.scale_m = band.scale_m;
     raster.offset_m = band.offset_m;
-    raster.names_unit = band.names_unit;
+    raster.declares_unit = band.declares_unit;
     raster.notes.insert(raster.notes.end(), band.notes.begin(), band.notes.end());
     if (Dataset grid =
             grid_by_control_points(file, raster.datasets.back().get(), band.number, gdal)) {
@@ -601,13 +601,13 @@ OpenRaster open_height_raster(const path& file, const ImportOptions& options, Gd
     take_distances(file, raster, gdal);
     note_ellipsoid(file, raster);
     const GDALDataType type = GDALGetRasterDataType(raster.band);
-    raster.whole_metres = (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 &&
+    raster.has_integer_metres = (type == GDT_Byte || type == GDT_Int16) && raster.scale_m == 1.0 &&
                           raster.offset_m == 0.0 && raster.text_voids.samples == 0;
     gdal.forget();
     return raster;
 }
 
-std::vector<MapNote> notes_of(const path& file, const OpenRaster& raster) {
+std::vector<MapNote> notes_of(const path& file, const HeightRaster& raster) {
     std::vector<MapNote> notes = raster.notes;
     if (raster.undeclared && !raster.undeclared->note.empty()) {
         notes.push_back({file.filename().string() + ": " + raster.undeclared->note});
@@ -617,7 +617,7 @@ std::vector<MapNote> notes_of(const path& file, const OpenRaster& raster) {
 
 void read_raw(
     const path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<double> raw,
     const GdalSession& gdal) {
@@ -632,7 +632,7 @@ void read_raw(
 
 void read_heights(
     const path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<float> heights_m,
     const GdalSession& gdal) {
@@ -640,7 +640,7 @@ void read_heights(
     assert(heights_m.size() == columns * static_cast<std::size_t>(window.rows));
     std::vector<double> line(columns);
     for (int line_in_file = 0; line_in_file < window.rows; ++line_in_file) {
-        const int row = raster.from_south ? line_in_file : window.rows - 1 - line_in_file;
+        const int row = raster.first_row_is_south ? line_in_file : window.rows - 1 - line_in_file;
         const GridWindow one{window.first_column, window.columns, window.first_row + row, 1};
         read_raw_line(file, raster, one, line, gdal);
         std::ranges::transform(
@@ -650,18 +650,18 @@ void read_heights(
     }
 }
 
-void read_whole_metres(
+void read_integer_metres(
     const path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<std::int16_t> heights_m,
     const GdalSession& gdal) {
-    assert(raster.whole_metres);
+    assert(raster.has_integer_metres);
     read_window(file, raster, raster.band, window, heights_m.data(), gdal);
-    std::vector<std::uint8_t> is_there;
+    std::vector<std::uint8_t> path_exists;
     if (raster.mask != nullptr) {
-        is_there.resize(heights_m.size());
-        read_window(file, raster, raster.mask, window, is_there.data(), gdal);
+        path_exists.resize(heights_m.size());
+        read_window(file, raster, raster.mask, window, path_exists.data(), gdal);
     }
     constexpr int lowest_sure_m = -998; // all usual marks are below, or above the highest height
     constexpr int highest_sure_m = 9000;
@@ -669,10 +669,10 @@ void read_whole_metres(
         const int metres = heights_m[i];
         const bool is_sure = metres >= lowest_sure_m && metres <= highest_sure_m;
         const bool is_left_out =
-            (!is_there.empty() && is_there[i] == 0) || is_void(metres, raster) ||
+            (!path_exists.empty() && path_exists[i] == 0) || is_void(metres, raster) ||
             (!is_sure && std::isnan(height_from_raw(file, metres, raster, gdal)));
         if (is_left_out) {
-            heights_m[i] = void_metres;
+            heights_m[i] = void_height_m;
         }
     }
 }

@@ -17,27 +17,27 @@ namespace octant::models::heights {
 
 /// A file of heights, open to be read piece by piece: its band of heights and how raw numbers
 /// become metres. Row 0 is the south and column 0 the west, where it is upright.
-struct OpenRaster {
+struct HeightRaster {
     std::vector<Dataset> datasets; ///< the file's; behind it what was made of it, which owns `band`
     void* band = nullptr;          ///< GDALRasterBandH
     void* mask = nullptr;          ///< GDALRasterBandH that is 0 where there is no data; null: none
     std::optional<double> no_data; ///< raw number, as the file declares it
-    std::vector<double> given_voids; ///< raw numbers, as the options have them
+    std::vector<double> user_void_values; ///< raw numbers, as the options have them
     TextVoids text_voids;            ///< of a text grid
     /// Found by the first read that meets a doubtful number, from all samples.
     mutable std::optional<UndeclaredVoids> undeclared;
     double scale_m = 1.0;
     double offset_m = 0.0;
-    bool names_unit = false; ///< of heights
+    bool declares_unit = false; ///< of heights
     int columns = 0;
     int rows = 0;
-    bool from_east = false;         ///< its lines run westward
-    bool from_south = false;        ///< its first line is the southernmost
-    bool whole_metres = false;      ///< its numbers are metres that fit 16 bits
+    bool rows_run_west = false;         ///< its lines run westward
+    bool first_row_is_south = false;        ///< its first line is the southernmost
+    bool has_integer_metres = false;      ///< its numbers are metres that fit 16 bits
     std::vector<MapNote> notes;     ///< what a person should be told of the file
-    std::optional<MapFromGrid> map; ///< nothing for a file without georeference
+    std::optional<GridTransform> map; ///< nothing for a file without georeference
     Ellipsoid ellipsoid;            ///< of its system; WGS 84 without one
-    Reference system;               ///< null where lengths are metres without a place on the earth
+    SpatialReference system;               ///< null where lengths are metres without a place on the earth
 };
 
 /// A rectangle of a grid.
@@ -49,9 +49,9 @@ struct GridWindow {
 };
 
 /// Stands for a sample without data among whole metres.
-inline constexpr std::int16_t void_metres = std::numeric_limits<std::int16_t>::min();
+inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>::min();
 
-/// Throws Error unless both are from 2 to largest_import_samples.
+/// Throws Error unless both are from 2 to max_import_samples.
 void check_import_size(const std::filesystem::path& file, int columns, int rows);
 
 /// Throws Error unless the height is within the bounds of import_options.h for this body. The
@@ -61,22 +61,22 @@ void check_height(
     const std::filesystem::path& file,
     double height_m,
     double raw,
-    bool names_unit,
+    bool declares_unit,
     const Ellipsoid& ellipsoid = {});
 
 /// Opens a file by any of GDAL's drivers; the contract is read_height_field's, but for the size,
 /// which is not checked.
-OpenRaster open_height_raster(
+HeightRaster open_height_raster(
     const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
 /// What a person should be told of a raster; complete once all heights have been read.
-std::vector<MapNote> notes_of(const std::filesystem::path& file, const OpenRaster& raster);
+std::vector<MapNote> notes_of(const std::filesystem::path& file, const HeightRaster& raster);
 
 /// Heights of a window of the raster, row after row from the south, NaN without data. Throws Error
 /// as read_height_field.
 void read_heights(
     const std::filesystem::path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<float> heights_m,
     const GdalSession& gdal);
@@ -85,7 +85,7 @@ void read_heights(
 /// no data by the file's word or the options'. Throws Error as read_height_field.
 void read_raw(
     const std::filesystem::path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<double> raw,
     const GdalSession& gdal);
@@ -94,10 +94,10 @@ void read_raw(
 /// rounding of floats.
 bool is_same_raw(double raw, double mark);
 
-/// As read_heights, for a raster of whole metres (asserted); void_metres without data.
-void read_whole_metres(
+/// As read_heights, for a raster of whole metres (asserted); void_height_m without data.
+void read_integer_metres(
     const std::filesystem::path& file,
-    const OpenRaster& raster,
+    const HeightRaster& raster,
     const GridWindow& window,
     std::span<std::int16_t> heights_m,
     const GdalSession& gdal);

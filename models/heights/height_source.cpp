@@ -2,12 +2,12 @@
 
 #include "models/heights/gdal_functions.h"
 #include "models/heights/height_raster.h"
-#include "models/heights/map_doubts.h"
+#include "models/heights/map_defects.h"
 #include "models/heights/plain_pgm.h"
 #include "models/heights/raster_file.h"
 #include "models/heights/resampler.h"
 #include "models/heights/source_grid.h"
-#include "models/heights/target_lattice.h"
+#include "models/heights/target_grid.h"
 #include "models/heights/void_values.h"
 #include "sim/base/error.h"
 
@@ -35,7 +35,7 @@ plain_heights(const path& file, const ImportOptions& options, std::vector<MapNot
     const auto is_given = [&given](float raw) {
         return std::ranges::find(given, static_cast<double>(raw)) != given.end();
     };
-    VoidSurvey survey(lowest_import_m, highest_import_m, 65536.0);
+    VoidDetector survey(lowest_import_m, highest_import_m, 65536.0);
     for (const float raw : grid.heights_m) {
         if (!is_given(raw)) {
             survey.add(static_cast<double>(raw), static_cast<double>(raw) * unit_m);
@@ -63,7 +63,7 @@ open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSes
     for (const path& file : files) {
         SourcePiece piece{file, open_height_raster(file, options, gdal)};
         if (files.size() > 1 && !piece.raster.map) {
-            error_in(file, "expected a file that knows its place, beside others, got a picture");
+            throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
         const bool taken =
             std::ranges::any_of(grids, [&piece](SourceGrid& grid) { return grid.take(piece); });
@@ -89,11 +89,11 @@ struct HeightSource::Content {
     std::optional<HeightGrid> whole; ///< a plain PGM
     double whole_unit_m = 1.0;
     std::vector<MapNote> whole_notes;
-    TargetLattice lattice;
+    TargetGrid lattice;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
-    std::optional<GeoPlace> place;
-    std::optional<MapSystem> system;
+    std::optional<GeoPosition> place;
+    std::optional<CoordinateSystem> system;
     std::optional<SpikeFinder> spikes;
 
     void open(const ImportOptions& options);
@@ -126,7 +126,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
             continue;
         }
         if (files.size() > 1) {
-            error_in(file, "expected a file that knows its place, beside others, got a picture");
+            throw_error_in(file, "expected a file that knows its place, beside others, got a picture");
         }
         whole = plain_heights(file, options, whole_notes);
         whole_unit_m = options.height_scale.value_or(1.0);
@@ -139,7 +139,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
         take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
         return;
     }
-    lattice = lattice_for(files.front(), grids);
+    lattice = target_grid_for(files.front(), grids);
     spacing_m = lattice.step * lattice.unit_m;
     if (!lattice.is_source) {
         resampler.emplace(grids, lattice);
@@ -152,7 +152,7 @@ void HeightSource::Content::open(const ImportOptions& options) {
 void HeightSource::Content::take_picture(int columns, int rows, double spacing) {
     const auto fits = [](int n) { return n >= 2 && n <= largest_samples; };
     if (!fits(columns) || !fits(rows)) {
-        error_in(
+        throw_error_in(
             files.front(),
             fmt::format(
                 "expected 2 x 2 to {0} x {0} samples, got {1} x {2}",
@@ -172,12 +172,12 @@ void HeightSource::Content::find_place() {
         return;
     }
     system = lattice.system();
-    const Reference globe = globe_system(ellipsoid_of(system->wkt));
+    const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(system->wkt));
     const Transformation to_globe = between(lattice.frame.get(), globe.get());
     const auto middle =
         to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
     if (middle && std::abs(middle->y) <= 90.0) {
-        place = GeoPlace{middle->y, middle->x, ellipsoid_of(system->wkt)};
+        place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)};
     }
 }
 
@@ -196,7 +196,7 @@ glm::dvec2 HeightSource::Content::metres_of(const glm::dvec2& column_row) const 
 std::string HeightSource::Content::words_of(const glm::dvec2& at_m) const {
     std::string geo;
     if (place) {
-        const Reference globe = globe_system(place->ellipsoid);
+        const SpatialReference globe = geographic_coordinate_system(place->ellipsoid);
         const glm::dvec2 centre(system->centre_x, system->centre_y);
         const auto there =
             moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
@@ -414,11 +414,11 @@ double HeightSource::spacing_m() const {
     return content_->spacing_m;
 }
 
-std::optional<GeoPlace> HeightSource::place() const {
+std::optional<GeoPosition> HeightSource::place() const {
     return content_->place;
 }
 
-std::optional<MapSystem> HeightSource::system() const {
+std::optional<CoordinateSystem> HeightSource::system() const {
     return content_->system;
 }
 
@@ -427,7 +427,7 @@ std::string HeightSource::name() const {
 }
 
 std::string HeightSource::system_name() const {
-    const SystemHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
+    const SpatialReferenceHandle own = content_->grids.empty() ? nullptr : content_->grids.front().system();
     const char* const name = own == nullptr ? nullptr : OSRGetName(own);
     return name == nullptr ? "" : printable(name);
 }
@@ -472,11 +472,11 @@ std::int64_t HeightSource::count_voids() const {
     return voids;
 }
 
-bool HeightSource::whole_metres() const {
-    return has_own_samples() && !content_->whole && content_->grids.front().whole_metres();
+bool HeightSource::has_integer_metres() const {
+    return keeps_source_samples() && !content_->whole && content_->grids.front().has_integer_metres();
 }
 
-bool HeightSource::has_own_samples() const {
+bool HeightSource::keeps_source_samples() const {
     return content_->lattice.is_source;
 }
 
@@ -485,7 +485,7 @@ std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
     return source_height_m(content_->grids, content_->lattice, x_m, y_m, *content_->gdal);
 }
 
-std::optional<Deviation> HeightSource::deviation_of(const GroundAt& ground) const {
+std::optional<HeightDeviation> HeightSource::deviation_of(const GroundAt& ground) const {
     if (content_->grids.empty() || !content_->grids.front().map()) {
         return std::nullopt;
     }
@@ -514,7 +514,7 @@ void HeightSource::read(int first_row, std::span<float> heights_m) {
 }
 
 void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
-    assert(whole_metres());
+    assert(has_integer_metres());
     const auto width = static_cast<std::size_t>(columns());
     const int count = static_cast<int>(heights_m.size() / width);
     content_->grids.front().read({0, columns(), first_row, count}, heights_m, *content_->gdal);
@@ -522,7 +522,7 @@ void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
     for (int i = 0; i < count; ++i) {
         const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);
         std::ranges::transform(metres, row.begin(), [](std::int16_t height_m) {
-            return height_m == void_metres ? std::numeric_limits<float>::quiet_NaN()
+            return height_m == void_height_m ? std::numeric_limits<float>::quiet_NaN()
                                            : static_cast<float>(height_m);
         });
         content_->spikes->take(first_row + i, row);

@@ -37,8 +37,8 @@ public:
     int columns() const;
     int rows() const;
     double spacing_m() const;
-    std::optional<GeoPlace> place() const;
-    std::optional<MapSystem> system() const; ///< nothing for ground without a place in any
+    std::optional<GeoPosition> place() const;
+    std::optional<CoordinateSystem> system() const; ///< nothing for ground without a place in any
 
     /// Name of the first file, and how many more there are.
     std::string name() const;
@@ -57,10 +57,10 @@ public:
     std::int64_t count_voids() const;
 
     /// Whether all heights are whole metres that fit 16 bits.
-    bool whole_metres() const;
+    bool has_integer_metres() const;
 
     /// Whether all samples are the files' own, none computed between them.
-    bool has_own_samples() const;
+    bool keeps_source_samples() const;
 
     /// The files' bilinear height at a place in metres east and north of the ground's centre;
     /// nothing where there is none. Not for files without georeference. Throws Error.
@@ -68,13 +68,13 @@ public:
 
     /// How far some ground on these samples lies from the files; nothing for files without
     /// georeference, whose samples are the ground's. Throws Error.
-    std::optional<Deviation> deviation_of(const GroundAt& ground) const;
+    std::optional<HeightDeviation> deviation_of(const GroundAt& ground) const;
 
     /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south,
     /// NaN without data. Throws Error (damaged file, heights not believed).
     void read(int first_row, std::span<float> heights_m);
 
-    /// Whole metres, where whole_metres() (asserted); void_metres (height_raster.h) without data.
+    /// Whole metres, where has_integer_metres() (asserted); void_height_m (height_raster.h) without data.
     void read(int first_row, std::span<std::int16_t> heights_m);
 
 private:

@@ -25,10 +25,10 @@ Dataset open(const path& file, const GdalSession& gdal) {
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     Dataset dataset(GDALOpenEx(file.c_str(), flags, drivers.data(), nullptr, nullptr));
     if (!dataset) {
-        error_unreadable(
+        throw_unreadable(
             file,
             "an image",
-            gdal.names_no_format()
+            gdal.is_unknown_format()
                 ? "another kind of file (GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)"
                 : gdal.reason(file));
     }
@@ -39,7 +39,7 @@ Dataset open(const path& file, const GdalSession& gdal) {
 std::array<GDALRasterBandH, 3> colour_bands(const path& file, GDALDatasetH dataset) {
     const int count = GDALGetRasterCount(dataset);
     if (count < 1) {
-        error_unreadable(file, "an image", "no band");
+        throw_unreadable(file, "an image", "no band");
     }
     std::array<int, 3> numbers = {1, 1, 1};
     if (count >= 3) {
@@ -57,7 +57,7 @@ std::array<GDALRasterBandH, 3> colour_bands(const path& file, GDALDatasetH datas
         bands.at(part) = GDALGetRasterBand(dataset, numbers.at(part));
         const GDALDataType type = GDALGetRasterDataType(bands.at(part));
         if (type != GDT_Byte) {
-            error_in(
+            throw_error_in(
                 file,
                 fmt::format(
                     "expected 8 bits a colour part (Byte), got {}", GDALGetDataTypeName(type)));
@@ -88,7 +88,7 @@ void read_part(
         GSpacing{4} * image.width,
         &how);
     if (result != CE_None || gdal.failed()) {
-        error_unreadable(file, "an image", gdal.reason(file));
+        throw_unreadable(file, "an image", gdal.reason(file));
     }
 }
 
@@ -157,7 +157,7 @@ Image image_from(const path& file) {
     const int width = GDALGetRasterXSize(dataset.get());
     const int height = GDALGetRasterYSize(dataset.get());
     const double shrink =
-        std::max({width, height, largest_image_px}) / static_cast<double>(largest_image_px);
+        std::max({width, height, max_image_px}) / static_cast<double>(max_image_px);
     Image image;
     image.name = file.filename().string();
     image.width = std::max(static_cast<int>(std::lround(width / shrink)), 1);
@@ -197,7 +197,7 @@ Image read_image(const path& file) {
     try {
         return image_from(file);
     } catch (const std::bad_alloc&) {
-        error_in(file, "expected an image that fits in memory, got a larger one");
+        throw_error_in(file, "expected an image that fits in memory, got a larger one");
     }
 }
 
@@ -209,7 +209,7 @@ Image image_from_bytes(const std::string& name, std::string_view bytes) {
         bytes.size(),
         FALSE);
     if (file == nullptr) {
-        error_in(name, "expected an image that fits in memory, got a larger one");
+        throw_error_in(name, "expected an image that fits in memory, got a larger one");
     }
     VSIFCloseL(file);
     const auto remove = [](const char* gone) { VSIUnlink(gone); };
@@ -219,9 +219,9 @@ Image image_from_bytes(const std::string& name, std::string_view bytes) {
         image.name = name;
         return image;
     } catch (const Error&) {
-        error_in(name, "expected an image that GDAL can read, got another file");
+        throw_error_in(name, "expected an image that GDAL can read, got another file");
     } catch (const std::bad_alloc&) {
-        error_in(name, "expected an image that fits in memory, got a larger one");
+        throw_error_in(name, "expected an image that fits in memory, got a larger one");
     }
 }
 

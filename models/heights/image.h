@@ -31,7 +31,7 @@ struct Image {
 
 /// Largest width and height that is held, pixels. A larger file is read at reduced resolution,
 /// averaged, and `note` says so.
-inline constexpr int largest_image_px = 16384;
+inline constexpr int max_image_px = 16384;
 
 /// Reads an image of 8 bits a part: GeoTIFF, PNG, JPEG, BMP, SGI or TGA with red, green and blue,
 /// grey or a palette, with or without alpha or a value for no data. Nothing else is opened, no

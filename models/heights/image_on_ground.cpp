@@ -62,7 +62,7 @@ Dataset dataset_of(Image& image) {
 }
 
 /// Metres a pixel of the image about covers in the system.
-double pixel_m(const Image& image, const Dataset& source, const MapSystem& system) {
+double pixel_m(const Image& image, const Dataset& source, const CoordinateSystem& system) {
     const Transformer transformer(GDALCreateGenImgProjTransformer(
         source.get(), image.wkt.c_str(), nullptr, system.wkt.c_str(), FALSE, 0.0, 0));
     std::array<double, 6> transform{};
@@ -79,7 +79,7 @@ double pixel_m(const Image& image, const Dataset& source, const MapSystem& syste
 }
 
 /// An empty image from edge to edge of the ground.
-Image empty_over(const GroundArea& ground, const MapSystem& system, int width, int height) {
+Image empty_over(const GroundArea& ground, const CoordinateSystem& system, int width, int height) {
     const glm::dvec2 half = ground.half_extent_m / system.unit_m;
     Image image;
     image.width = width;
@@ -159,7 +159,7 @@ GroundArea area_of(const HeightField& field) {
     return {field.name, field.half_extent_m(), field.spacing_m(), field.system};
 }
 
-Image laid_on_ground(Image image, const GroundArea& ground, int largest_px) {
+Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px) {
     const bool placed = !image.wkt.empty();
     if (placed && !ground.system) {
         throw Error(fmt::format(
@@ -172,7 +172,7 @@ Image laid_on_ground(Image image, const GroundArea& ground, int largest_px) {
         return image;
     }
     GdalSession gdal;
-    const MapSystem system = placed ? *ground.system : MapSystem{};
+    const CoordinateSystem system = placed ? *ground.system : CoordinateSystem{};
     const glm::dvec2 extent_m = 2.0 * ground.half_extent_m;
     if (!placed) {
         image.transform = empty_over(ground, system, image.width, image.height).transform;

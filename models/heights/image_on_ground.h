@@ -15,7 +15,7 @@ struct GroundArea {
     std::string name;
     glm::dvec2 half_extent_m{0.0}; ///< from the centre, east and north
     double spacing_m = 1.0;        ///< of its samples
-    std::optional<MapSystem> system;
+    std::optional<CoordinateSystem> system;
 };
 
 GroundArea area_of(const HeightField& field);
@@ -28,6 +28,6 @@ GroundArea area_of(const HeightField& field);
 ///
 /// Throws Error for a placed image over ground without a coordinate system, and for one that lies
 /// elsewhere.
-Image laid_on_ground(Image image, const GroundArea& ground, int largest_px);
+Image resampled_to_ground(Image image, const GroundArea& ground, int largest_px);
 
 } // namespace octant::models::heights

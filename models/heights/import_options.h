@@ -7,11 +7,11 @@
 namespace octant::models::heights {
 
 /// Stored numbers of height files that mean "no data".
-struct VoidMarks {
+struct VoidValues {
     std::vector<double> values = {}; ///< in addition to the file's own and to common ones
     bool only = false; ///< neither the file's own nor common ones mean "no data", only `values` do
 
-    bool operator==(const VoidMarks&) const = default;
+    bool operator==(const VoidValues&) const = default;
 };
 
 /// What files of heights do not say themselves. Numbers above zero and finite (asserted).
@@ -23,7 +23,7 @@ struct ImportOptions {
     /// a PROJ string, well-known text, a .prj file; or "metres". Nothing: WGS 84 where their axes
     /// are in degrees, else metres.
     std::optional<std::string> system = {};
-    VoidMarks voids = {};
+    VoidValues voids = {};
     /// The band of heights: its number from 1 on, its name, or "terrarium" or "mapbox" for heights
     /// that are coded in colours. Nothing: chosen by height_band_of.
     std::optional<std::string> band = {};
@@ -32,7 +32,7 @@ struct ImportOptions {
 };
 
 /// Largest width and height that is read, samples.
-inline constexpr int largest_import_samples = 20000;
+inline constexpr int max_import_samples = 20000;
 
 /// Heights that are believed on the earth, metres. A file with others is refused.
 inline constexpr double lowest_import_m = -12000.0;
@@ -40,6 +40,6 @@ inline constexpr double highest_import_m = 9000.0;
 
 /// Heights that are believed elsewhere, up and down from the ellipsoid: Olympus Mons on Mars is
 /// 21.2 km high, the deepest basin of Vesta 22 km deep.
-inline constexpr double highest_elsewhere_m = 25000.0;
+inline constexpr double max_height_other_body_m = 25000.0;
 
 } // namespace octant::models::heights

@@ -18,12 +18,12 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-Reference counted(OGRSpatialReferenceH system) {
+SpatialReference counted(OGRSpatialReferenceH system) {
     return {system, [](void* own) { OSRRelease(own); }};
 }
 
-Reference reference_from_proj(const std::string& text) {
-    Reference reference = counted(OSRNewSpatialReference(nullptr));
+SpatialReference reference_from_proj(const std::string& text) {
+    SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
     if (OSRImportFromProj4(reference.get(), text.c_str()) != OGRERR_NONE) {
         return nullptr;
     }
@@ -55,17 +55,17 @@ std::string proj_text(const Ellipsoid& ellipsoid) {
 
 } // namespace
 
-void CloseTransformation::operator()(void* transformation) const {
+void TransformationDeleter::operator()(void* transformation) const {
     OCTDestroyCoordinateTransformation(transformation);
 }
 
-glm::dvec2 MapFromGrid::steps() const {
+glm::dvec2 GridTransform::steps() const {
     return {std::hypot(x_column, y_column), std::hypot(x_row, y_row)};
 }
 
-MapFromGrid MapFromGrid::inverse() const {
+GridTransform GridTransform::inverse() const {
     const double area = x_column * y_row - x_row * y_column;
-    MapFromGrid back;
+    GridTransform back;
     back.x_column = y_row / area;
     back.x_row = -x_row / area;
     back.y_column = -y_column / area;
@@ -75,7 +75,7 @@ MapFromGrid MapFromGrid::inverse() const {
     return back;
 }
 
-std::string wkt_of(SystemHandle system) {
+std::string wkt_of(SpatialReferenceHandle system) {
     char* text = nullptr;
     const bool written = OSRExportToWkt(system, &text) == OGRERR_NONE;
     std::string wkt = written ? text : "";
@@ -104,13 +104,13 @@ Ellipsoid ellipsoid_of(const std::string& wkt) {
     return !is_sound || named.is_earth() ? Ellipsoid() : named;
 }
 
-Reference globe_system(const Ellipsoid& ellipsoid) {
+SpatialReference geographic_coordinate_system(const Ellipsoid& ellipsoid) {
     return reference_from_proj(fmt::format("+proj=longlat {} +no_defs", proj_text(ellipsoid)));
 }
 
-Reference system_named(const std::string& name) {
+SpatialReference coordinate_system_from_name(const std::string& name) {
     const bool is_address = name.find("://") != std::string::npos;
-    Reference reference = counted(OSRNewSpatialReference(nullptr));
+    SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
     if (is_address || OSRSetFromUserInput(reference.get(), name.c_str()) != OGRERR_NONE) {
         throw Error(fmt::format(
             "--terrain-system: expected a coordinate system such as EPSG:4326, got '{}'",
@@ -120,8 +120,8 @@ Reference system_named(const std::string& name) {
     return reference;
 }
 
-Reference system_of(const MapSystem& system) {
-    Reference reference = counted(OSRNewSpatialReference(nullptr));
+SpatialReference coordinate_system_of(const CoordinateSystem& system) {
+    SpatialReference reference = counted(OSRNewSpatialReference(nullptr));
     if (OSRSetFromUserInput(reference.get(), system.wkt.c_str()) != OGRERR_NONE) {
         return nullptr;
     }
@@ -129,11 +129,11 @@ Reference system_of(const MapSystem& system) {
     return reference;
 }
 
-Reference reference_of(SystemHandle system) {
+SpatialReference spatial_reference_of(SpatialReferenceHandle system) {
     return system == nullptr ? nullptr : counted(OSRClone(system));
 }
 
-Reference system_about(const GeoPlace& place) {
+SpatialReference local_coordinate_system(const GeoPosition& place) {
     return reference_from_proj(fmt::format(
         "+proj=tmerc +lat_0={:.17g} +lon_0={:.17g} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
         place.latitude_deg,
@@ -141,11 +141,11 @@ Reference system_about(const GeoPlace& place) {
         proj_text(place.ellipsoid)));
 }
 
-Transformation between(SystemHandle from, SystemHandle to) {
+Transformation between(SpatialReferenceHandle from, SpatialReferenceHandle to) {
     return Transformation(OCTNewCoordinateTransformation(from, to));
 }
 
-void move_points(const Transformation& by, std::span<double> x, std::span<double> y) {
+void transform_points(const Transformation& by, std::span<double> x, std::span<double> y) {
     if (!by || x.empty()) {
         return;
     }
@@ -161,25 +161,25 @@ void move_points(const Transformation& by, std::span<double> x, std::span<double
 }
 
 std::optional<glm::dvec2> moved(const Transformation& by, glm::dvec2 point) {
-    move_points(by, {&point.x, 1}, {&point.y, 1});
+    transform_points(by, {&point.x, 1}, {&point.y, 1});
     return std::isnan(point.x) ? std::nullopt : std::optional(point);
 }
 
-std::optional<Distortion>
-distortion_at_corners(const MapSystem& system, const glm::dvec2& half_extent_m) {
+std::optional<ProjectionDistortion>
+distortion_at_corners(const CoordinateSystem& system, const glm::dvec2& half_extent_m) {
     const GdalSession gdal;
-    const Reference own = system_of(system);
+    const SpatialReference own = coordinate_system_of(system);
     if (!own) {
         return std::nullopt;
     }
     const Ellipsoid ellipsoid = ellipsoid_of(wkt_of(own.get()));
-    const Reference globe = globe_system(ellipsoid);
+    const SpatialReference globe = geographic_coordinate_system(ellipsoid);
     const Transformation to_globe = between(own.get(), globe.get());
     if (!to_globe) {
         return std::nullopt;
     }
     constexpr double step_m = 50.0;
-    Distortion worst;
+    ProjectionDistortion worst;
     for (const double side : {-1.0, 1.0}) {
         for (const double end : {-1.0, 1.0}) {
             const glm::dvec2 corner = glm::dvec2(system.centre_x, system.centre_y) +

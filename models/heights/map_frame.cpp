@@ -17,19 +17,19 @@ constexpr double furthest_m = 1.0e6;
 
 } // namespace
 
-MapFrame::MapFrame(const MapSystem& system, const GeoPlace& middle)
+MapFrame::MapFrame(const CoordinateSystem& system, const GeoPosition& middle)
     : system_(system)
     , about_(middle) {
     const GdalSession gdal;
-    const Reference own = system_of(system);
-    const Reference globe = globe_system(middle.ellipsoid);
+    const SpatialReference own = coordinate_system_of(system);
+    const SpatialReference globe = geographic_coordinate_system(middle.ellipsoid);
     if (own) {
         from_globe_ = between(globe.get(), own.get());
         to_globe_ = between(own.get(), globe.get());
     }
 }
 
-glm::dvec2 MapFrame::local_from_geo(const GeoPlace& place) const {
+glm::dvec2 MapFrame::local_from_geo(const GeoPosition& place) const {
     const glm::dvec2 about_m = about_.local_from_geo(place);
     if (!from_globe_ || !(glm::length(about_m) <= furthest_m)) {
         return about_m;
@@ -40,17 +40,17 @@ glm::dvec2 MapFrame::local_from_geo(const GeoPlace& place) const {
     return at ? (*at - centre) * system_.unit_m : about_m;
 }
 
-GeoPlace MapFrame::geo_from_local(const glm::dvec2& east_north_m) const {
+GeoPosition MapFrame::geo_from_local(const glm::dvec2& east_north_m) const {
     const glm::dvec2 centre(system_.centre_x, system_.centre_y);
     const bool asks = to_globe_ && glm::length(east_north_m) <= furthest_m;
     const GdalSession gdal;
     const auto at = asks ? moved(to_globe_, centre + east_north_m / system_.unit_m) : std::nullopt;
-    return at ? GeoPlace{std::clamp(at->y, -90.0, 90.0), at->x, about_.origin().ellipsoid}
+    return at ? GeoPosition{std::clamp(at->y, -90.0, 90.0), at->x, about_.origin().ellipsoid}
               : about_.geo_from_local(east_north_m);
 }
 
 std::shared_ptr<const EarthFrame>
-frame_of_ground(const std::optional<MapSystem>& system, const std::optional<GeoPlace>& place) {
+frame_of_ground(const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place) {
     if (!place) {
         return nullptr;
     }

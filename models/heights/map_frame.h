@@ -15,15 +15,15 @@ namespace octant::models::heights {
 class MapFrame final : public EarthFrame {
 public:
     /// `system` names a system that knows its place on the earth, `middle` is the ground's there.
-    MapFrame(const MapSystem& system, const GeoPlace& middle);
+    MapFrame(const CoordinateSystem& system, const GeoPosition& middle);
 
-    GeoPlace origin() const override { return about_.origin(); }
+    GeoPosition origin() const override { return about_.origin(); }
 
-    glm::dvec2 local_from_geo(const GeoPlace& place) const override;
-    GeoPlace geo_from_local(const glm::dvec2& east_north_m) const override;
+    glm::dvec2 local_from_geo(const GeoPosition& place) const override;
+    GeoPosition geo_from_local(const glm::dvec2& east_north_m) const override;
 
 private:
-    MapSystem system_;
+    CoordinateSystem system_;
     TransverseMercator about_;
     Transformation from_globe_;
     Transformation to_globe_;
@@ -32,6 +32,6 @@ private:
 /// The frame of ground with a place on the earth, null for other ground: that of its system, where
 /// it has one, or the TransverseMercator frame there.
 std::shared_ptr<const EarthFrame>
-frame_of_ground(const std::optional<MapSystem>& system, const std::optional<GeoPlace>& place);
+frame_of_ground(const std::optional<CoordinateSystem>& system, const std::optional<GeoPosition>& place);
 
 } // namespace octant::models::heights

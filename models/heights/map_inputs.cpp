@@ -111,7 +111,7 @@ std::vector<path> matching(const std::string& pattern) {
 } // namespace
 
 bool is_many(const std::string& name) {
-    return is_pattern(name) || is_folder(name) || is_name_within_file(name);
+    return is_pattern(name) || is_folder(name) || is_subdataset_name(name);
 }
 
 std::vector<path> map_inputs(const std::vector<std::string>& names) {
@@ -124,12 +124,12 @@ std::vector<path> map_inputs(const std::vector<std::string>& names) {
             some = matching(name);
         } else if (is_folder(name)) {
             some = in_folder(name);
-        } else if (!prefix.empty() && !is_name_within_file(name) && driver_of(name).empty()) {
+        } else if (!prefix.empty() && !is_subdataset_name(name) && driver_of(name).empty()) {
             check_local_file(name);
             some = in_archive(name, prefix);
         }
         if (some.empty()) {
-            error_in(name, "expected maps of heights that GDAL reads, found none");
+            throw_error_in(name, "expected maps of heights that GDAL reads, found none");
         }
         files.insert(files.end(), some.begin(), some.end());
     }

@@ -53,12 +53,12 @@ long number_between(
     const std::filesystem::path& path, Words& words, long lowest, long highest, const char* what) {
     const std::string_view word = words.next();
     if (word.empty()) {
-        error_at(path, words.line(), fmt::format("expected {}, got the end of the file", what));
+        throw_error_at(path, words.line(), fmt::format("expected {}, got the end of the file", what));
     }
     const auto number = whole_number(word);
     if (!number || *number < lowest || *number > highest) {
         const std::string got = printable(std::string(word));
-        error_at(
+        throw_error_at(
             path,
             words.line(),
             fmt::format("expected {} from {} to {}, got '{}'", what, lowest, highest, got));
@@ -93,7 +93,7 @@ read_plain_pgm(const std::filesystem::path& path, const std::function<void(int, 
     const std::size_t columns = static_cast<std::size_t>(grid.columns);
     const std::size_t count = columns * static_cast<std::size_t>(grid.rows);
     if (count > text.size()) {
-        error_in(
+        throw_error_in(
             path, fmt::format("expected {} values, got a file of {} bytes", count, text.size()));
     }
     grid.heights_m.resize(count);

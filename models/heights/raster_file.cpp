@@ -4,7 +4,7 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
 #include "models/heights/text_grid.h"
-#include "models/heights/web_tiles.h"
+#include "models/heights/colour_coded_heights.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ void check_sources(const path& file, GDALDatasetH dataset) {
         const bool is_far = name.find("://") != std::string::npos ||
                             (is_virtual(name) && !is_in_archive(name) && !is_own);
         if (is_far) {
-            error_in(
+            throw_error_in(
                 file,
                 fmt::format(
                     "expected heights on this computer, got a reference to '{}'", printable(name)));
@@ -120,7 +120,7 @@ std::string chosen_subdataset(
             band.reset();
             return name;
         }
-        if (is_name_of_heights(variables.back())) {
+        if (is_height_band_name(variables.back())) {
             heights.push_back(name);
         }
     }
@@ -135,7 +135,7 @@ std::string chosen_subdataset(
             is_cut ? ", ..." : "")});
         return heights.front();
     }
-    error_in(
+    throw_error_in(
         file,
         fmt::format(
             "expected one raster, got {}: --band names one of {}{}, or write {} for the file",
@@ -357,7 +357,7 @@ void check_end(const path& file) {
     FileHeader header(file);
     const std::uintmax_t bytes = bytes_by_header(header);
     if (header.bytes() < bytes) {
-        error_unreadable(
+        throw_unreadable(
             file,
             "a height field",
             fmt::format("only the first {} of its at least {} bytes", header.bytes(), bytes));
@@ -380,7 +380,7 @@ std::string cut_short_tile(const path& file) {
 
 } // namespace
 
-bool is_name_within_file(const std::string& name) {
+bool is_subdataset_name(const std::string& name) {
     if (is_virtual(name)) {
         return is_in_archive(name);
     }
@@ -394,29 +394,29 @@ bool is_name_within_file(const std::string& name) {
 }
 
 void check_local_file(const path& file) {
-    if (is_name_within_file(file.string())) {
+    if (is_subdataset_name(file.string())) {
         return;
     }
     if (is_virtual(file.string())) {
-        error_in(file, "expected a file on this computer, got a virtual path of GDAL");
+        throw_error_in(file, "expected a file on this computer, got a virtual path of GDAL");
     }
     std::error_code code;
     const auto status = std::filesystem::status(file, code);
     if (!std::filesystem::exists(status)) {
         const bool odd = code && code.value() != ENOENT;
-        error_in(file, odd ? code.message() : "expected a file, found none");
+        throw_error_in(file, odd ? code.message() : "expected a file, found none");
     }
     if (std::filesystem::is_directory(status)) {
         return; // some formats are folders
     }
     if (!std::filesystem::is_regular_file(status)) {
-        error_in(file, "expected a regular file, got a device or pipe");
+        throw_error_in(file, "expected a regular file, got a device or pipe");
     }
     if (::access(file.c_str(), R_OK) != 0) {
-        error_in(file, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+        throw_error_in(file, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
     if (std::filesystem::file_size(file, code) == 0) {
-        error_unreadable(file, "a height field", "an empty file");
+        throw_unreadable(file, "a height field", "an empty file");
     }
 }
 
@@ -430,12 +430,12 @@ Dataset open_raster_file(
     if (!dataset) {
         const std::string cut_short = cut_short_tile(file);
         if (!cut_short.empty()) {
-            error_unreadable(file, "a height field", cut_short);
+            throw_unreadable(file, "a height field", cut_short);
         }
-        error_unreadable(
+        throw_unreadable(
             file,
             "a height field",
-            gdal.names_no_format() ? "another kind of file (any raster format of GDAL's is read)"
+            gdal.is_unknown_format() ? "another kind of file (any raster format of GDAL's is read)"
                                    : gdal.reason(file));
     }
     if (GDALGetRasterCount(dataset.get()) == 0) {
@@ -444,7 +444,7 @@ Dataset open_raster_file(
             const std::string chosen = chosen_subdataset(file, names, band, notes);
             dataset = open_named(chosen);
             if (!dataset) {
-                error_unreadable(file, "a height field", gdal.reason(file));
+                throw_unreadable(file, "a height field", gdal.reason(file));
             }
         }
     }
@@ -453,7 +453,7 @@ Dataset open_raster_file(
     return dataset;
 }
 
-std::string cut_short_text(const path& file, void* dataset) {
+std::string truncation_error(const path& file, void* dataset) {
     const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
     std::uintmax_t expected = 0;
     if (driver == "GTiff") {
@@ -471,7 +471,7 @@ std::string cut_short_text(const path& file, void* dataset) {
                : fmt::format("only the first {} of its {} bytes", bytes, expected);
 }
 
-std::vector<path> files_behind(const path& file) {
+std::vector<path> referenced_files(const path& file) {
     std::vector<path> files;
     const GdalSession gdal;
     if (const Dataset dataset = open_named(file.string())) {

@@ -12,7 +12,7 @@ namespace octant::models::heights {
 
 /// Whether a name is one of GDAL's that leads into a file of this computer: an archive (/vsizip/,
 /// /vsitar/, /vsigzip/) or a part of a file (NETCDF:"a.nc":height).
-bool is_name_within_file(const std::string& name);
+bool is_subdataset_name(const std::string& name);
 
 /// Throws Error unless the path is a readable, regular file with content on this computer, or a
 /// name within one.
@@ -30,10 +30,10 @@ Dataset open_raster_file(
 
 /// "only the first N of its M bytes" for a raster whose heights lie beyond the end of its file, as
 /// its own description says: GeoTIFF, and formats that have heights as plain numbers. Empty else.
-std::string cut_short_text(const std::filesystem::path& file, void* dataset);
+std::string truncation_error(const std::filesystem::path& file, void* dataset);
 
 /// The files of this computer that a raster is read from: itself, and those it refers to. Only
 /// itself where it cannot be opened.
-std::vector<std::filesystem::path> files_behind(const std::filesystem::path& file);
+std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file);
 
 } // namespace octant::models::heights

@@ -38,7 +38,7 @@ void Resampler::read(int first_row, std::span<float> heights_m, const GdalSessio
                 static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows),
                 no_height);
             for (const SourceGrid& grid : grids_) {
-                find_places(grid, block);
+                locate_samples(grid, block);
                 const GridWindow window = window_of(grid);
                 if (window.columns > 0 && window.rows > 0) {
                     source_m_.resize(
@@ -61,7 +61,7 @@ void Resampler::read(int first_row, std::span<float> heights_m, const GdalSessio
 }
 
 /// Where a block's samples lie in a grid: exact every place_step samples, linear between.
-void Resampler::find_places(const SourceGrid& grid, const Block& block) {
+void Resampler::locate_samples(const SourceGrid& grid, const Block& block) {
     const int across = (block.columns - 1) / place_step + 2;
     const int up = (block.rows - 1) / place_step + 2;
     std::vector<double> x;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/source_grid.h"
-#include "models/heights/target_lattice.h"
+#include "models/heights/target_grid.h"
 
 #include <span>
 #include <vector>
@@ -14,7 +14,7 @@ namespace octant::models::heights {
 class Resampler {
 public:
     /// The grids look from the lattice's frame. Both must outlive the resampler.
-    Resampler(const std::vector<SourceGrid>& grids, const TargetLattice& lattice)
+    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice)
         : grids_(grids)
         , lattice_(lattice) {}
 
@@ -30,14 +30,14 @@ private:
         int rows = 0;
     };
 
-    void find_places(const SourceGrid& grid, const Block& block);
+    void locate_samples(const SourceGrid& grid, const Block& block);
     GridWindow window_of(const SourceGrid& grid) const;
     void sample(const Block& block, const GridWindow& window);
     float surface_m(const GridWindow& window, double column, double row) const;
     float summit_m(const GridWindow& window, double column, double row) const;
 
     const std::vector<SourceGrid>& grids_;
-    const TargetLattice& lattice_;
+    const TargetGrid& lattice_;
     std::vector<double> x_; ///< for each sample of a block its column in the grid; NaN outside
     std::vector<double> y_;
     std::vector<float> source_m_;

@@ -27,8 +27,8 @@ constexpr double turn_per_m_deg = 15.0;
 constexpr double finest_m = 15.0; ///< samples nearer to each other are not all looked at
 
 bool lies_within(const RunwayStrip& strip, const glm::dvec2& half_extent_m) {
-    const double beside_m = 0.5 * strip.width_m + levelled_beside_m;
-    for (const double along_m : {-levelled_beside_m, strip.length_m + levelled_beside_m}) {
+    const double beside_m = 0.5 * strip.width_m + level_margin_m;
+    for (const double along_m : {-level_margin_m, strip.length_m + level_margin_m}) {
         for (const double left_m : {-beside_m, beside_m}) {
             const glm::dvec2 corner = glm::abs(strip.place({along_m, left_m}));
             if (corner.x > half_extent_m.x || corner.y > half_extent_m.y) {
@@ -44,7 +44,7 @@ bool lies_within(const RunwayStrip& strip, const glm::dvec2& half_extent_m) {
 /// Returns about the earthwork on the runway and beside it.
 double fit(RunwayStrip& strip, const HeightField& field) {
     constexpr int stations = 31;
-    const double beside_m = 0.5 * strip.width_m + levelled_beside_m;
+    const double beside_m = 0.5 * strip.width_m + level_margin_m;
     std::array<std::array<double, 3>, stations> heights_m;
     double mean_m = 0.0;
     double moment = 0.0;
@@ -102,7 +102,7 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
         for (int column = box.first.x; column <= box.last.x; column += stride) {
             const glm::dvec3 at_m = field.sample_m(column, row);
             const glm::dvec2 place_m(at_m);
-            if (at_m.z <= water_m && strip.distance_m(place_m) <= levelled_beside_m) {
+            if (at_m.z <= water_m && strip.distance_m(place_m) <= level_margin_m) {
                 return std::nullopt;
             }
             const double level_m = levelled_m(strip, field.spacing_m(), place_m, at_m.z);
@@ -115,7 +115,7 @@ earthwork_m(const RunwayStrip& strip, const HeightField& field, double water_m) 
 /// The best site so far, and by what it is the best.
 class Search {
 public:
-    Search(const HeightField& field, const RunwayWish& wish)
+    Search(const HeightField& field, const RunwayRequest& wish)
         : field_(field)
         , wish_(wish) {}
 
@@ -145,7 +145,7 @@ private:
     }
 
     const HeightField& field_;
-    const RunwayWish& wish_;
+    const RunwayRequest& wish_;
     double least_ = std::numeric_limits<double>::infinity();
     std::optional<RunwaySite> best_;
 };
@@ -164,8 +164,8 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
         min_m = glm::min(min_m, place_m);
         max_m = glm::max(max_m, place_m);
     }
-    const glm::dvec2 from_m = min_m - looked_for_within_m;
-    const glm::ivec2 steps((max_m + looked_for_within_m - from_m) / place_step_m);
+    const glm::dvec2 from_m = min_m - runway_search_radius_m;
+    const glm::ivec2 steps((max_m + runway_search_radius_m - from_m) / place_step_m);
     std::vector<Middle> middles;
     for (int north = 0; north <= steps.y; ++north) {
         for (int east = 0; east <= steps.x; ++east) {
@@ -174,7 +174,7 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
             for (const glm::dvec2& place_m : path_m) {
                 away_m = std::min(away_m, glm::distance(place_m, at_m));
             }
-            if (away_m <= looked_for_within_m) {
+            if (away_m <= runway_search_radius_m) {
                 const double begin_m = glm::distance(path_m.front(), at_m);
                 middles.push_back({at_m, away_m / from_path_per_m + begin_m / from_begin_per_m});
             }
@@ -184,7 +184,7 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
     return middles;
 }
 
-void look_around(const RunwayWish& wish, Search& search) {
+void look_around(const RunwayRequest& wish, Search& search) {
     for (const Middle& middle : middles_near(wish.path_m)) {
         if (search.ends_at(middle.apart)) {
             return;
@@ -201,7 +201,7 @@ void look_around(const RunwayWish& wish, Search& search) {
 
 } // namespace
 
-std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayWish& wish) {
+std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& wish) {
     assert(!wish.path_m.empty());
     Search search(field, wish);
     RunwayStrip strip;

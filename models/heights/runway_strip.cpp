@@ -19,7 +19,7 @@ glm::dvec2 RunwayStrip::left() const {
     return {-std::cos(heading_rad), std::sin(heading_rad)};
 }
 
-glm::dvec2 RunwayStrip::on_strip(const glm::dvec2& place_m) const {
+glm::dvec2 RunwayStrip::strip_from_world(const glm::dvec2& place_m) const {
     const glm::dvec2 from_begin_m = place_m - begin_m;
     return {glm::dot(from_begin_m, along()), glm::dot(from_begin_m, left())};
 }
@@ -29,7 +29,7 @@ glm::dvec2 RunwayStrip::place(const glm::dvec2& along_left_m) const {
 }
 
 double RunwayStrip::distance_m(const glm::dvec2& place_m) const {
-    const glm::dvec2 at_m = on_strip(place_m);
+    const glm::dvec2 at_m = strip_from_world(place_m);
     const double beyond_m = std::max({-at_m.x, at_m.x - length_m, 0.0});
     const double beside_m = std::max(std::abs(at_m.y) - 0.5 * width_m, 0.0);
     return std::hypot(beyond_m, beside_m);
@@ -64,25 +64,25 @@ namespace {
 /// Up to here from the runway all samples lie in its plane. Of a cell whose nearest point is
 /// levelled the farthest corner is a diagonal away.
 double level_m(double spacing_m) {
-    return levelled_beside_m + std::sqrt(2.0) * spacing_m;
+    return level_margin_m + std::sqrt(2.0) * spacing_m;
 }
 
 } // namespace
 
 double reach_m(const HeightField& field) {
-    return level_m(field.spacing_m()) + sides_end_m;
+    return level_m(field.spacing_m()) + side_slope_end_m;
 }
 
 double
 levelled_m(const RunwayStrip& strip, double spacing_m, const glm::dvec2& place_m, double own_m) {
     const double beyond_m = std::max(strip.distance_m(place_m) - level_m(spacing_m), 0.0);
-    if (beyond_m >= sides_end_m) {
+    if (beyond_m >= side_slope_end_m) {
         return own_m;
     }
     const double plane_m = strip.plane_m(place_m);
     const double side_m = side_slope * beyond_m;
     const double graded_m = std::clamp(own_m, plane_m - side_m, plane_m + side_m);
-    return glm::mix(graded_m, own_m, glm::smoothstep(0.5 * sides_end_m, sides_end_m, beyond_m));
+    return glm::mix(graded_m, own_m, glm::smoothstep(0.5 * side_slope_end_m, side_slope_end_m, beyond_m));
 }
 
 HeightField levelled(const HeightField& field, const RunwayStrip& strip) {

@@ -26,7 +26,7 @@ struct RunwayStrip {
     glm::dvec2 left() const;
 
     /// Metres along the runway from its beginning, and to the left of its middle line.
-    glm::dvec2 on_strip(const glm::dvec2& place_m) const;
+    glm::dvec2 strip_from_world(const glm::dvec2& place_m) const;
 
     /// The place of such metres.
     glm::dvec2 place(const glm::dvec2& along_left_m) const;
@@ -41,7 +41,7 @@ struct RunwayStrip {
 /// Ground up to here from the runway is levelled, too: with the runway's half width a little more
 /// than the 75 m from the middle line that ICAO Annex 14 (volume I, 3.4) asks to be graded, and the
 /// 60 m beyond its ends.
-inline constexpr double levelled_beside_m = 60.0;
+inline constexpr double level_margin_m = 60.0;
 
 /// Slope of cuttings and embankments beyond: that of the transitional surface (Annex 14, volume I,
 /// table 4-1), which no ground beside a runway of this length may rise through.
@@ -49,7 +49,7 @@ inline constexpr double side_slope = 1.0 / 7.0;
 
 /// They end so far from the levelled ground; over the second half of that they go over into the
 /// ground as it is, where they have not met it before.
-inline constexpr double sides_end_m = 400.0;
+inline constexpr double side_slope_end_m = 400.0;
 
 /// Annex 14 (volume I, chapter 3) allows no runway of this length a steeper mean slope.
 inline constexpr double max_rise = 0.01;

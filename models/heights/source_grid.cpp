@@ -17,7 +17,7 @@ constexpr double step_tolerance = 1e-6;
 constexpr double grid_tolerance = 0.01; ///< of a cell: how far off the lattice a file may lie
 constexpr double turn_deg = 360.0;
 
-bool same_system(SystemHandle a, SystemHandle b) {
+bool same_system(SpatialReferenceHandle a, SpatialReferenceHandle b) {
     return a == nullptr || b == nullptr ? a == b : OSRIsSame(a, b) != 0;
 }
 
@@ -36,7 +36,7 @@ SourceGrid::SourceGrid(SourcePiece first)
 }
 
 bool SourceGrid::take(SourcePiece& piece) {
-    const std::optional<MapFromGrid>& other = piece.raster.map;
+    const std::optional<GridTransform>& other = piece.raster.map;
     if (!map_ || !other || !map_->is_upright() || !other->is_upright() ||
         !same_system(piece.raster.system.get(), system())) {
         return false;
@@ -70,12 +70,12 @@ bool SourceGrid::take(SourcePiece& piece) {
     return true;
 }
 
-bool SourceGrid::whole_metres() const {
+bool SourceGrid::has_integer_metres() const {
     return std::ranges::all_of(
-        pieces_, [](const SourcePiece& piece) { return piece.raster.whole_metres; });
+        pieces_, [](const SourcePiece& piece) { return piece.raster.has_integer_metres; });
 }
 
-bool SourceGrid::look_from(SystemHandle frame) {
+bool SourceGrid::set_target_frame(SpatialReferenceHandle frame) {
     from_frame_.reset();
     to_frame_.reset();
     if (frame == nullptr) {
@@ -90,8 +90,8 @@ bool SourceGrid::look_from(SystemHandle frame) {
 }
 
 void SourceGrid::grid_from_frame(std::span<double> x, std::span<double> y) const {
-    move_points(from_frame_, x, y);
-    const MapFromGrid grid = map_->inverse();
+    transform_points(from_frame_, x, y);
+    const GridTransform grid = map_->inverse();
     const double middle = map_->at(0.5 * columns_, 0.5 * rows_).x;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double east = in_degrees_ ? middle + std::remainder(x[i] - middle, turn_deg) : x[i];
@@ -107,7 +107,7 @@ void SourceGrid::frame_from_grid(std::span<double> column, std::span<double> row
         column[i] = at.x;
         row[i] = at.y;
     }
-    move_points(to_frame_, column, row);
+    transform_points(to_frame_, column, row);
 }
 
 template <typename Height, typename ReadPiece>
@@ -171,9 +171,9 @@ void SourceGrid::read(
     read_pieces(
         window,
         heights_m,
-        void_metres,
+        void_height_m,
         [&gdal](const SourcePiece& piece, const GridWindow& part, std::span<std::int16_t> heights) {
-            read_whole_metres(piece.file, piece.raster, part, heights, gdal);
+            read_integer_metres(piece.file, piece.raster, part, heights, gdal);
         });
 }
 

@@ -15,7 +15,7 @@ namespace octant::models::heights {
 /// A file and where its south-west sample lies on the grid it belongs to.
 struct SourcePiece {
     std::filesystem::path file;
-    OpenRaster raster;
+    HeightRaster raster;
     int column = 0;
     int row = 0;
 };
@@ -39,17 +39,17 @@ public:
 
     int rows() const { return rows_; }
 
-    SystemHandle system() const { return pieces_.front().raster.system.get(); }
+    SpatialReferenceHandle system() const { return pieces_.front().raster.system.get(); }
 
     /// Where its samples lie in system(); nothing for a file without georeference.
-    const std::optional<MapFromGrid>& map() const { return map_; }
+    const std::optional<GridTransform>& map() const { return map_; }
 
     /// Whether heights are whole metres that fit 16 bits.
-    bool whole_metres() const;
+    bool has_integer_metres() const;
 
     /// Chooses the frame by which places are told from now on: a system, or its own (null).
     /// Returns whether it can be brought to the grid's.
-    bool look_from(SystemHandle frame);
+    bool set_target_frame(SpatialReferenceHandle frame);
 
     /// Turns places in the frame into columns and rows; NaN where that cannot be.
     void grid_from_frame(std::span<double> x, std::span<double> y) const;
@@ -61,7 +61,7 @@ public:
     /// Throws Error (damaged file, heights not believed).
     void read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const;
 
-    /// The same in whole metres, where whole_metres() (asserted); void_metres without data.
+    /// The same in whole metres, where has_integer_metres() (asserted); void_height_m without data.
     void read(
         const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const;
 
@@ -74,7 +74,7 @@ private:
         const ReadPiece& read_piece) const;
 
     std::vector<SourcePiece> pieces_;
-    std::optional<MapFromGrid> map_;
+    std::optional<GridTransform> map_;
     int columns_;
     int rows_;
     bool in_degrees_ = false;

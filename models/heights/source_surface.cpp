@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t max_places = 250000; ///< of samples, and as many of middles
 
 /// The middle of the lattice, in its frame's units.
-glm::dvec2 middle_of(const TargetLattice& lattice) {
+glm::dvec2 middle_of(const TargetGrid& lattice) {
     return {
         lattice.west + 0.5 * (lattice.columns - 1) * lattice.step,
         lattice.south + 0.5 * (lattice.rows - 1) * lattice.step};
@@ -21,7 +21,7 @@ glm::dvec2 middle_of(const TargetLattice& lattice) {
 /// Takes in the differences between a ground and a row of a grid's places.
 class Differences {
 public:
-    Differences(const SourceGrid& grid, const TargetLattice& lattice, const GroundAt& ground)
+    Differences(const SourceGrid& grid, const TargetGrid& lattice, const GroundAt& ground)
         : grid_(grid)
         , lattice_(lattice)
         , ground_(ground)
@@ -52,11 +52,11 @@ public:
 
     double squares() const { return squares_; }
 
-    Deviation found; ///< its root mean square is left open
+    HeightDeviation found; ///< its root mean square is left open
 
 private:
     const SourceGrid& grid_;
-    const TargetLattice& lattice_;
+    const TargetGrid& lattice_;
     const GroundAt& ground_;
     glm::dvec2 middle_;
     double squares_ = 0.0;
@@ -68,7 +68,7 @@ private:
 
 std::optional<double> source_height_m(
     const std::vector<SourceGrid>& grids,
-    const TargetLattice& lattice,
+    const TargetGrid& lattice,
     double x_m,
     double y_m,
     const GdalSession& gdal) {
@@ -108,9 +108,9 @@ std::optional<double> source_height_m(
     return std::nullopt;
 }
 
-Deviation deviation_from_source(
+HeightDeviation deviation_from_source(
     const std::vector<SourceGrid>& grids,
-    const TargetLattice& lattice,
+    const TargetGrid& lattice,
     const GroundAt& ground,
     const GdalSession& gdal) {
     std::int64_t samples = 0;
@@ -118,7 +118,7 @@ Deviation deviation_from_source(
         samples += std::int64_t{grid.columns()} * grid.rows();
     }
     const auto between = static_cast<int>(samples / max_places + 1);
-    Deviation whole;
+    HeightDeviation whole;
     double squares = 0.0;
     for (const SourceGrid& grid : grids) {
         Differences differences(grid, lattice, ground);

@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/source_grid.h"
-#include "models/heights/target_lattice.h"
+#include "models/heights/target_grid.h"
 
 #include <functional>
 #include <optional>
@@ -15,7 +15,7 @@ namespace octant::models::heights {
 /// Error (damaged file).
 std::optional<double> source_height_m(
     const std::vector<SourceGrid>& grids,
-    const TargetLattice& lattice,
+    const TargetGrid& lattice,
     double x_m,
     double y_m,
     const GdalSession& gdal);
@@ -25,9 +25,9 @@ using GroundAt = std::function<std::optional<double>(double x_m, double y_m)>;
 
 /// How far a ground lies from its source's bilinear surfaces: at the samples of evenly spread rows
 /// of each grid and in the middles of the cells north-east of them, about 500,000 places at most.
-Deviation deviation_from_source(
+HeightDeviation deviation_from_source(
     const std::vector<SourceGrid>& grids,
-    const TargetLattice& lattice,
+    const TargetGrid& lattice,
     const GroundAt& ground,
     const GdalSession& gdal);
 

@@ -47,7 +47,7 @@ public:
         , separators_(separators)
         , stream_(VSIFOpenL(file.c_str(), "rb")) {
         if (stream_ == nullptr) {
-            error_in(file, "cannot be opened for reading");
+            throw_error_in(file, "cannot be opened for reading");
         }
     }
 
@@ -92,7 +92,7 @@ public:
     int line() const { return line_of_word_; }
 
     [[noreturn]] void refuse(std::string_view expected, const std::string& got) const {
-        error_at(file_, line_of_word_, fmt::format("expected {}, got {}", expected, got));
+        throw_error_at(file_, line_of_word_, fmt::format("expected {}, got {}", expected, got));
     }
 
     [[noreturn]] void refuse_word(std::string_view expected, std::string_view word) const {
@@ -421,7 +421,7 @@ Dataset open_grid_that_begins_with_word(const path& file) {
     const std::string sparse = "/vsisparse/" + name.string();
     Dataset dataset(GDALOpenEx(sparse.c_str(), flags, nullptr, nullptr, nullptr));
     if (!dataset) {
-        error_unreadable(file, "a height field", "a header without size, place or cells");
+        throw_unreadable(file, "a height field", "a header without size, place or cells");
     }
     return dataset;
 }

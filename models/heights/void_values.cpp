@@ -29,7 +29,7 @@ std::string samples_text(std::int64_t samples) {
 } // namespace
 
 bool UndeclaredVoids::has(double raw) const {
-    return raw >= wrapped_from || std::abs(raw) >= beyond_heights ||
+    return raw >= wraparound_threshold || std::abs(raw) >= undeclared_void_threshold ||
            std::ranges::find(values, raw) != values.end();
 }
 
@@ -39,7 +39,7 @@ std::string raw_text(double raw) {
     return static_cast<double>(single) == raw ? fmt::format("{}", single) : fmt::format("{}", raw);
 }
 
-bool is_usual_void(double raw) {
+bool is_common_void_value(double raw) {
     constexpr std::array<double, 15> usual = {
         -999.0,
         -9999.0,
@@ -60,11 +60,11 @@ bool is_usual_void(double raw) {
     return !is_common_height && std::ranges::find(usual, raw) != usual.end();
 }
 
-void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
+void VoidDetector::count(std::vector<Mark>& marks, double raw, double height_m) {
     const auto found = std::ranges::find(marks, raw, &Mark::raw);
     if (found != marks.end()) {
         ++found->samples;
-    } else if (marks.size() <= max_absurd || is_usual_void(raw)) {
+    } else if (marks.size() <= max_absurd || is_common_void_value(raw)) {
         marks.push_back({raw, height_m, 1});
     } else {
         ++marks.back().samples;
@@ -72,15 +72,15 @@ void VoidSurvey::count(std::vector<Mark>& marks, double raw, double height_m) {
 }
 
 /// Whether a number is a negative height that was stored unsigned.
-bool VoidSurvey::is_wrapped(double raw) const {
+bool VoidDetector::is_wrapped(double raw) const {
     return raw < modulus_ && raw - modulus_ >= lowest_m_ && raw == std::floor(raw);
 }
 
-void VoidSurvey::add(double raw, double height_m) {
+void VoidDetector::add(double raw, double height_m) {
     const bool is_height = height_m >= lowest_m_ && height_m <= highest_m_;
-    if (is_usual_void(raw)) {
+    if (is_common_void_value(raw)) {
         count(usual_, raw, height_m);
-    } else if (std::abs(raw) >= beyond_heights) {
+    } else if (std::abs(raw) >= undeclared_void_threshold) {
         count(beyond_, raw, height_m);
     } else if (is_height) {
         ++ordinary_;
@@ -95,11 +95,11 @@ void VoidSurvey::add(double raw, double height_m) {
     }
 }
 
-double VoidSurvey::distance_m(double height_m) const {
+double VoidDetector::distance_m(double height_m) const {
     return std::max({min_m_ - height_m, height_m - greatest_m_, 0.0});
 }
 
-UndeclaredVoids VoidSurvey::result() const {
+UndeclaredVoids VoidDetector::result() const {
     const bool has_heights = min_m_ <= greatest_m_;
     const double range_m = has_heights ? greatest_m_ - min_m_ : 0.0;
     const double near_m = std::max(50.0, 0.02 * range_m);
@@ -136,7 +136,7 @@ UndeclaredVoids VoidSurvey::result() const {
         }
     }
     if (has_heights && wrapped_.samples > 0 && absurd_.empty()) {
-        voids.wrapped_from = wrapped_.raw;
+        voids.wraparound_threshold = wrapped_.raw;
         counts += fmt::format(
             "{}{} from {:.15g} to {:.15g} (negative numbers stored as unsigned ones)",
             counts.empty() ? "" : ", ",

@@ -12,31 +12,31 @@ namespace octant::models::heights {
 struct UndeclaredVoids {
     std::vector<double> values;
     /// From here on unsigned numbers are negative ones in disguise, which stand for no data, too.
-    double wrapped_from = std::numeric_limits<double>::infinity();
+    double wraparound_threshold = std::numeric_limits<double>::infinity();
     std::string note; ///< how many samples of which value; empty where there are none
 
     bool has(double raw) const;
 };
 
 /// Numbers of this size and more are no heights in any unit, such as -FLT_MAX.
-inline constexpr double beyond_heights = 1e30;
+inline constexpr double undeclared_void_threshold = 1e30;
 
 /// The shortest text of a stored number that --void takes for this number.
 std::string raw_text(double raw);
 
 /// Whether a number is one that software writes for "no data" by habit, such as -9999.
-bool is_usual_void(double raw);
+bool is_common_void_value(double raw);
 
 /// Decides from all samples of a band which numbers stand for no data though none is declared.
-/// A usual number (is_usual_void) does where it lies apart from all other heights: deep-sea maps
+/// A usual number (is_common_void_value) does where it lies apart from all other heights: deep-sea maps
 /// have true heights of -9999 m. Of other numbers those do that no ground has as a height, where
 /// there is one of them, or up to three of fewer samples than heights have, far from all heights
 /// and whole or a power of ten: more are heights in a unit that is not known. Negative heights
-/// that were stored in unsigned numbers do, too, and all numbers from beyond_heights on.
-class VoidSurvey {
+/// that were stored in unsigned numbers do, too, and all numbers from undeclared_void_threshold on.
+class VoidDetector {
 public:
     /// `modulus`: 2^bits of the unsigned numbers that samples are or were.
-    VoidSurvey(double lowest_m, double highest_m, double modulus)
+    VoidDetector(double lowest_m, double highest_m, double modulus)
         : lowest_m_(lowest_m)
         , highest_m_(highest_m)
         , modulus_(modulus) {}

@@ -41,16 +41,16 @@ std::size_t count_distinct(std::vector<Value>& values) {
 
 /// Counts defects along edges and at vertices of triangles that repeat no vertex.
 void count_along_edges(std::span<const Triangle> faces, std::size_t vertices, MeshDefects& found) {
-    Groups fans(faces.size() * 3); // Corners, numbered 3 * triangle + corner, across edges.
-    Groups shells(faces.size());
+    DisjointSets fans(faces.size() * 3); // Corners, numbered 3 * triangle + corner, across edges.
+    DisjointSets shells(faces.size());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> boundary; // The corners of its edges.
     long edges = 0;
-    const std::vector<Side> sides = sorted_sides(faces);
-    for_each_edge(sides, [&](std::span<const Side> edge) {
-        const Side& first = edge[0];
+    const std::vector<TriangleEdge> sides = sorted_triangle_edges(faces);
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
+        const TriangleEdge& first = edge[0];
         const std::uint32_t min_corner = 3 * first.triangle + first.min_corner();
         const std::uint32_t max_corner = 3 * first.triangle + first.max_corner();
-        for (const Side& side : edge.subspan(1)) {
+        for (const TriangleEdge& side : edge.subspan(1)) {
             fans.join(min_corner, 3 * side.triangle + side.min_corner());
             fans.join(max_corner, 3 * side.triangle + side.max_corner());
             shells.join(first.triangle, side.triangle);
@@ -76,7 +76,7 @@ void count_along_edges(std::span<const Triangle> faces, std::size_t vertices, Me
     found.euler_characteristic = used - edges + static_cast<long>(faces.size());
     found.boundary_edges = boundary.size();
     // Two boundary edges belong to the same loop where they end in the same fan of corners.
-    Groups rims(faces.size() * 3);
+    DisjointSets rims(faces.size() * 3);
     std::vector<std::uint32_t> loops;
     for (const auto& [one, other] : boundary) {
         rims.join(fans.group_of(one), fans.group_of(other));

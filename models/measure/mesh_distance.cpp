@@ -26,7 +26,7 @@
 
 #include "models/measure/sampled_distance.h"
 #include "models/measure/triangle_bvh.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -440,7 +440,7 @@ private:
     /// Calls `work(first, last)` for chunks of 0 to `count`, on several threads.
     template <typename Work>
     void in_chunks(std::size_t count, const Work& work) const {
-        share_out((count + chunk - 1) / chunk, limits_.threads, [&](std::size_t i, std::size_t) {
+        parallel_for((count + chunk - 1) / chunk, limits_.threads, [&](std::size_t i, std::size_t) {
             work(i * chunk, std::min(count, (i + 1) * chunk));
         });
     }
@@ -629,7 +629,7 @@ HausdorffBounds Search::run() {
 HausdorffBounds one_way_hausdorff(
     const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits) {
     assert(!mesh.triangles.empty() && !target.mesh().triangles.empty());
-    const Bounds extent = models::bounds_of(mesh);
+    const BoundingBox extent = models::bounds_of(mesh);
     const glm::dvec3 farthest = glm::max(glm::abs(extent.min_m), glm::abs(extent.max_m));
     const double rounding_m =
         target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
@@ -681,7 +681,7 @@ distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& op
     show(options, 0);
     MeshDistance found;
     found.there = one_way(a, TargetSurface(b), wanted, 0);
-    if (options.larger_alone) {
+    if (options.maximum_only) {
         wanted.negligible_m = std::max(wanted.negligible_m, found.there.min_hausdorff_m);
     }
     found.back = one_way(b, TargetSurface(a, options.tree_of_a), wanted, 2);

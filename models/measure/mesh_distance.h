@@ -80,7 +80,7 @@ struct DistanceOptions {
     std::size_t samples = 400'000;
     int threads = 1; ///< The number of threads; it does not change the result.
     /// Only the larger one of the Hausdorff distances of the two ways need be tight.
-    bool larger_alone = false;
+    bool maximum_only = false;
     /// A tree over the triangles of a, where there is one already.
     std::shared_ptr<const TriangleBvh> tree_of_a{};
     /// Called between the steps of the work with how many of them are done; may be empty.

@@ -20,7 +20,7 @@ namespace detail {
 /// Replaces `found` by the nearest point of the segment from corner i to corner j if that is nearer
 /// to the origin. The nearest point of a segment without length is its first end.
 inline void
-take_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
+update_from_edge(const std::array<glm::dvec3, 3>& corners, int i, int j, NearestOnTriangle& found) {
     const glm::dvec3& start = corners[static_cast<std::size_t>(i)];
     const glm::dvec3& end = corners[static_cast<std::size_t>(j)];
     const glm::dvec3 edge = end - start;
@@ -114,13 +114,13 @@ inline NearestOnTriangle nearest_to_origin(const std::array<glm::dvec3, 3>& corn
         return {c, {0.0, 0.0, 1.0}, glm::dot(c, c)};
     }
     if (plane.uncertain || !(weights.z > 0.0)) {
-        take_from_edge(corners, 0, 1, found);
+        update_from_edge(corners, 0, 1, found);
     }
     if (plane.uncertain || !(weights.x > 0.0)) {
-        take_from_edge(corners, 1, 2, found);
+        update_from_edge(corners, 1, 2, found);
     }
     if (plane.uncertain || !(weights.y > 0.0)) {
-        take_from_edge(corners, 2, 0, found);
+        update_from_edge(corners, 2, 0, found);
     }
     return found;
 }

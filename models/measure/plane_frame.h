@@ -40,7 +40,7 @@ OCTANT_INLINE void make_least(F& value, const F& other) {
 
 /// Clamps to 0..1, lane by lane.
 template <typename F>
-OCTANT_INLINE void clamp_share(F& value) {
+OCTANT_INLINE void clamp_unit(F& value) {
     value = value > 0.0F ? value : F{};
     value = value < 1.0F ? value : F{} + 1.0F;
 }
@@ -79,9 +79,9 @@ nearest_on_edges(EdgeFeet<F>& feet, const F& x, const F& y, const PlaneFrame<Num
     F ab = x * (t.bx * t.per_ab2);
     F bc = (qx * ex + y * t.cy) * t.per_bc2;
     F ca = (x * t.cx + y * t.cy) * t.per_ca2;
-    clamp_share(ab);
-    clamp_share(bc);
-    clamp_share(ca);
+    clamp_unit(ab);
+    clamp_unit(bc);
+    clamp_unit(ca);
     const F ab_x = x - ab * t.bx;
     const F bc_x = qx - bc * ex;
     const F bc_y = y - bc * t.cy;

@@ -12,7 +12,7 @@
 // original nearby that faces its way.
 #include "models/measure/sampled_distance.h"
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -98,7 +98,7 @@ Sums summed(
         return areas.back() * (static_cast<double>(k) + 0.5) / count;
     };
     std::vector<Sums> chunks((options.samples + chunk_size - 1) / chunk_size);
-    share_out(chunks.size(), options.threads, [&](std::size_t chunk, std::size_t) {
+    parallel_for(chunks.size(), options.threads, [&](std::size_t chunk, std::size_t) {
         const std::size_t first = chunk * chunk_size;
         auto triangle = static_cast<std::size_t>(
             std::ranges::upper_bound(areas, area_before(first)) - areas.begin());

@@ -24,7 +24,7 @@ float opacity_of(std::string_view trans) {
 
 } // namespace
 
-std::string taken_ac3d_name(std::string_view& line, const WordScanner& words) {
+std::string read_ac3d_name(std::string_view& line, const WordScanner& words) {
     const bool quoted = line.starts_with('"');
     const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
     if (quoted && end == std::string_view::npos) {
@@ -40,7 +40,7 @@ void Ac3dMaterials::take(std::string_view word, WordScanner& words) {
     if (word == "MATERIAL") {
         take_line(words);
     } else if (word == "MAT") {
-        take_block(words);
+        read_block(words);
     } else {
         words.refuse("MATERIAL or OBJECT", in_quotes(word));
     }
@@ -49,7 +49,7 @@ void Ac3dMaterials::take(std::string_view word, WordScanner& words) {
 /// Reads the rest of a line MATERIAL "name" rgb R G B ...
 void Ac3dMaterials::take_line(WordScanner& words) {
     std::string_view rest = words.rest_of_line();
-    Material material{.name = taken_ac3d_name(rest, words)};
+    Material material{.name = read_ac3d_name(rest, words)};
     const auto parts = split_words(rest);
     if (parts.size() < 4 || parts[0] != "rgb") {
         words.refuse("rgb and three numbers", in_quotes(rest));
@@ -63,9 +63,9 @@ void Ac3dMaterials::take_line(WordScanner& words) {
 }
 
 /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
-void Ac3dMaterials::take_block(WordScanner& words) {
+void Ac3dMaterials::read_block(WordScanner& words) {
     std::string_view rest = words.rest_of_line();
-    Material material{.name = taken_ac3d_name(rest, words)};
+    Material material{.name = read_ac3d_name(rest, words)};
     float opacity = 1.0F;
     for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
         for (int part = 0; word == "rgb" && part < 3; ++part) {
@@ -81,11 +81,11 @@ void Ac3dMaterials::take_block(WordScanner& words) {
 
 std::uint32_t
 Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
-    if (number == no_index) {
-        return no_index;
+    if (number == invalid_index) {
+        return invalid_index;
     }
     FileMaterial& material = materials_[number];
-    const auto [at, is_new] = material.used_as.try_emplace(picture, no_index);
+    const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
     if (is_new) {
         material.material.picture = picture;
         at->second = mesh.add_material(material.material, material.opacity);

@@ -23,13 +23,13 @@ bool is_stand_in(std::string name) {
 } // namespace
 
 Ac3dObject
-object_called(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
+object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
     Ac3dObject object = holder;
-    object.stands_in = !holder.is_left_out && !options.stand_ins && is_stand_in(name);
-    object.is_left_out = holder.is_left_out || object.stands_in || options.left_out.contains(name);
+    object.is_placeholder = !holder.is_excluded && !options.placeholders && is_stand_in(name);
+    object.is_excluded = holder.is_excluded || object.is_placeholder || options.excluded.contains(name);
     const auto group = std::ranges::find_if(
         options.groups, [&](const auto& names) { return names.contains(name); });
-    if (holder.group == no_index && group != options.groups.end()) {
+    if (holder.group == invalid_index && group != options.groups.end()) {
         object.group = static_cast<std::uint32_t>(group - options.groups.begin());
     }
     if (const auto move = options.moved.find(name); move != options.moved.end()) {

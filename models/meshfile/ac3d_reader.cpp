@@ -1,9 +1,9 @@
 #include "models/meshfile/ac3d_materials.h"
 #include "models/meshfile/ac3d_object.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 #include "models/meshfile/word_scanner.h"
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
@@ -56,12 +56,12 @@ public:
 
 private:
     /// Reads what follows OBJECT, its kids included.
-    void take_object(const Placement& parent, int depth) {
+    void take_object(const AffineTransform& parent, int depth) {
         if (depth > max_ac3d_depth) {
             words_.refuse(fmt::format("objects at most {} deep", max_ac3d_depth), "a deeper one");
         }
         words_.word("a kind of object");
-        Placement own;
+        AffineTransform own;
         ObjectPicture picture;
         const Ac3dObject holder = object_;
         const std::size_t first_vertex = mesh_.vertex_count();
@@ -80,9 +80,9 @@ private:
                 take_surfaces(first_vertex, parent.of(own).mirrors(), picture);
             } else if (word == "name") {
                 std::string_view rest = words_.rest_of_line();
-                const std::string name = taken_ac3d_name(rest, words_);
-                object_ = object_called(name, holder, options_);
-                stand_ins_ += static_cast<std::size_t>(object_.stands_in);
+                const std::string name = read_ac3d_name(rest, words_);
+                object_ = object_settings(name, holder, options_);
+                stand_ins_ += static_cast<std::size_t>(object_.is_placeholder);
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -125,9 +125,9 @@ private:
 
     void take_picture(ObjectPicture& picture) {
         std::string_view rest = words_.rest_of_line();
-        const std::string name = taken_ac3d_name(rest, words_);
+        const std::string name = read_ac3d_name(rest, words_);
         picture.is_named = !name.empty() && name != "empty_texture_no_mapping";
-        if (picture.is_named && !mesh_.takes_pictures()) {
+        if (picture.is_named && !mesh_.uses_pictures()) {
             picture.file = picture_file(path_, name);
         } else if (picture.is_named) {
             picture.number = mesh_.pictures().picture(name);
@@ -144,7 +144,7 @@ private:
     std::uint32_t taken_place(const ObjectPicture& picture) {
         const auto words = split_words(words_.rest_of_line());
         if (!picture.is_named || words.size() < 2) {
-            return no_index;
+            return invalid_index;
         }
         const glm::vec2 place(
             static_cast<float>(finite_number(words[0]).value_or(0.0)),
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    void take_vertices(const Placement& placement) {
+    void take_vertices(const AffineTransform& placement) {
         const long count = words_.whole("a number of vertices", 0, max_count);
         const auto most = static_cast<long>(words_.bytes_left() / min_vertex_bytes);
         if (count > most) {
@@ -213,7 +213,7 @@ private:
 
     void take_surface(std::size_t first_vertex, bool mirrored, const ObjectPicture& picture) {
         const unsigned kind = flags();
-        std::uint32_t material = no_index;
+        std::uint32_t material = invalid_index;
         std::string_view word = words_.word("mat or refs");
         if (word == "mat") {
             const auto last = static_cast<long>(materials_.count()) - 1;
@@ -235,7 +235,7 @@ private:
                 corners_.push_back(
                     {.vertex = static_cast<std::uint32_t>(
                          first_vertex + static_cast<std::size_t>(vertex)),
-                     .normal = no_index,
+                     .normal = invalid_index,
                      .texture = texture});
             }
         }
@@ -243,11 +243,11 @@ private:
             ++skipped_;
             return;
         }
-        if (object_.is_left_out) {
+        if (object_.is_excluded) {
             return;
         }
         const bool is_two_sided = (kind & 0x20U) != 0;
-        two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.takes_backs());
+        two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.adds_back_faces());
         mesh_.set_two_sided(is_two_sided);
         mesh_.set_group(object_.group);
         if (mirrored) {
@@ -288,7 +288,7 @@ private:
     WordScanner words_;
     MeshBuilder mesh_;
     Ac3dMaterials materials_;
-    std::vector<Corner> corners_;
+    std::vector<CornerIndices> corners_;
     std::size_t stand_ins_ = 0; ///< objects left out
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
@@ -300,8 +300,8 @@ private:
 MeshBuilder built(const std::filesystem::path& path, ReadOptions options) {
     const std::string text = read_text_file(path, largest_ac3d_bytes);
     MeshBuilder mesh = Ac3dReading(path, text, options).read();
-    if (mesh.is_empty() && !options.stand_ins) {
-        options.stand_ins = true;
+    if (mesh.is_empty() && !options.placeholders) {
+        options.placeholders = true;
         return Ac3dReading(path, text, options).read();
     }
     return mesh;

@@ -1,6 +1,6 @@
 #include "models/meshfile/material_names.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/no_index.h"
+#include "models/invalid_index.h"
 #include "sim/base/format_once.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 namespace octant::models::meshfile {
 
-std::string only_picture(const TriangleMesh& mesh) {
+std::string single_picture(const TriangleMesh& mesh) {
     std::string found;
     for (const Material& material : mesh.materials) {
         if (!found.empty() && !material.picture.empty() && material.picture != found) {
@@ -22,7 +22,7 @@ std::string only_picture(const TriangleMesh& mesh) {
 std::string ac3d_text(const TriangleMesh& mesh) {
     std::string text = "AC3Db\n";
     auto out = std::back_inserter(text);
-    const std::vector<std::string> names = writable_names(mesh.materials);
+    const std::vector<std::string> names = unique_material_names(mesh.materials);
     for (std::size_t m = 0; m < names.size(); ++m) {
         const glm::vec3& colour = mesh.materials[m].colour;
         fmt::format_to(
@@ -34,7 +34,7 @@ std::string ac3d_text(const TriangleMesh& mesh) {
             colour.z);
     }
     text += "OBJECT world\nkids 1\nOBJECT poly\nname \"mesh\"\n";
-    if (const std::string picture = only_picture(mesh); !picture.empty()) {
+    if (const std::string picture = single_picture(mesh); !picture.empty()) {
         fmt::format_to(out, "texture \"{}\"\n", picture);
     }
     fmt::format_to(out, "numvert {}\n", mesh.vertices_m.size());
@@ -50,10 +50,10 @@ std::string ac3d_text(const TriangleMesh& mesh) {
         text += "refs 3\n";
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t texture = mesh.corner_texture_coordinates.empty()
-                                              ? no_index
+                                              ? invalid_index
                                               : mesh.corner_texture_coordinates[t][k];
             const glm::vec2 place =
-                texture == no_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
+                texture == invalid_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
             fmt::format_to(out, "{} {} {}\n", mesh.triangles[t][k], place.x, place.y);
         }
     }

@@ -1,6 +1,6 @@
 #include "models/meshfile/baked_pictures.h"
 
-#include "models/repair/vertex_twins.h"
+#include "models/repair/vertex_welding.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -133,7 +133,7 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     if (is_new) {
         try {
             pictures_.push_back(std::make_shared<const heights::Image>(read()));
-            hide_all_.push_back(hides_all(*pictures_.back()));
+            is_opaque_.push_back(hides_all(*pictures_.back()));
             at->second = static_cast<std::uint32_t>(pictures_.size() - 1);
         } catch (const Error& fault) {
             notes_.push_back(
@@ -149,7 +149,7 @@ std::uint32_t BakedPictures::picture(const std::string& name) {
         if (std::error_code ignored; fs::is_regular_file(file, ignored)) {
             return heights::read_image(file);
         }
-        error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
+        throw_error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
     });
 }
 
@@ -164,9 +164,9 @@ void BakedPictures::add_triangle(std::uint32_t picture, const std::array<glm::ve
 std::vector<BakedPictures::Cover> BakedPictures::covers() const {
     constexpr double about = 0.15;
     std::vector<Cover> found;
-    for (const Pictured& triangle : triangles_) {
+    for (const TexturedTriangle& triangle : triangles_) {
         Cover& cover = found.emplace_back();
-        if (triangle.picture == none || hide_all_[triangle.picture]) {
+        if (triangle.picture == none || is_opaque_[triangle.picture]) {
             continue;
         }
         double sum = 0.0;
@@ -181,20 +181,20 @@ std::vector<BakedPictures::Cover> BakedPictures::covers() const {
                 most = std::max(most, there);
             });
         cover.opacity = static_cast<float>(sum / samples);
-        cover.is_even = most - least <= 2.0 * about;
+        cover.is_uniform = most - least <= 2.0 * about;
     }
     return found;
 }
 
 void BakedPictures::take_out(const std::vector<bool>& gone) {
     std::size_t t = 0;
-    std::erase_if(triangles_, [&](const Pictured&) { return gone[t++]; });
+    std::erase_if(triangles_, [&](const TexturedTriangle&) { return gone[t++]; });
 }
 
 void BakedPictures::bake(TriangleMesh& mesh) const {
     assert(triangles_.size() == mesh.triangles.size());
     const std::vector<bool> all(mesh.vertices_m.size(), true);
-    const std::vector<std::uint32_t> firsts = repair::first_twins(mesh.vertices_m, {}, all);
+    const std::vector<std::uint32_t> firsts = repair::first_duplicates(mesh.vertices_m, {}, all);
     std::vector<Sum> sums(mesh.vertices_m.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& corners = mesh.triangles[t];

@@ -49,7 +49,7 @@ public:
     /// How a picture hides what lies behind a triangle.
     struct Cover {
         float opacity = 1.0F; ///< mean
-        bool is_even = true;  ///< about the same all over it
+        bool is_uniform = true;  ///< about the same all over it
     };
 
     /// One for each triangle added.
@@ -69,7 +69,7 @@ public:
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
-    struct Pictured {
+    struct TexturedTriangle {
         std::uint32_t picture = none;
         std::array<glm::vec2, 3> places{};
     };
@@ -80,9 +80,9 @@ private:
     std::filesystem::path mesh_file_;
     std::filesystem::path folder_;
     std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
-    std::vector<bool> hide_all_; ///< one a picture: nothing is seen through it
+    std::vector<bool> is_opaque_; ///< one a picture: nothing is seen through it
     std::map<std::string, std::uint32_t> known_;
-    std::vector<Pictured> triangles_;
+    std::vector<TexturedTriangle> triangles_;
     std::vector<std::string> notes_;
 };
 

@@ -18,7 +18,7 @@ std::string_view ByteReader::take(std::size_t count, const char* what) {
 
 void ByteReader::refuse_at(
     std::size_t at, const std::string& expected, const std::string& got) const {
-    error_in(path_, fmt::format("at byte {}: expected {}, got {}", at, expected, got));
+    throw_error_in(path_, fmt::format("at byte {}: expected {}, got {}", at, expected, got));
 }
 
 } // namespace octant::models::meshfile

@@ -71,8 +71,8 @@ void add_shadows(const XmlElement& animation, Names& hidden) {
 }
 
 /// Turns of objects about the same axis become one: each costs a reading of the mesh.
-void add_turn(FlightGearTurn turn, std::vector<FlightGearTurn>& turns) {
-    const auto found = std::ranges::find_if(turns, [&](const FlightGearTurn& other) {
+void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
+    const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& other) {
         return other.objects.empty() == turn.objects.empty() &&
                other.about.point_m == turn.about.point_m &&
                other.about.direction == turn.about.direction &&
@@ -124,16 +124,16 @@ bool hides(
 
 } // namespace
 
-const TurningAxis* FlightGearAnimations::axis_of(const std::string& object) const {
-    const auto found = std::ranges::find_if(turns, [&](const FlightGearTurn& turn) {
+const RotationAxis* FlightGearAnimations::axis_of(const std::string& object) const {
+    const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& turn) {
         return object.empty() ? turn.objects.empty() : turn.objects.contains(object);
     });
     return found == turns.end() ? nullptr : &found->about;
 }
 
-Placement FlightGearAnimations::place_of(const std::string& object) const {
-    Placement place;
-    for (const FlightGearMove& move : moves) {
+AffineTransform FlightGearAnimations::place_of(const std::string& object) const {
+    AffineTransform place;
+    for (const FlightGearRestPlacement& move : moves) {
         if (move.objects.contains(object) && axis_of(object) == nullptr) {
             place = place.of(move.placement);
         }
@@ -154,7 +154,7 @@ flightgear_animations(const std::filesystem::path& file, const XmlElement& root)
             if (hides(file, child, animated.notes)) {
                 add_names(child, animated.hidden);
             }
-        } else if (auto turn = unless_faulty(turn_in_flight, file, child, animated.notes)) {
+        } else if (auto turn = unless_faulty(rotation_in_flight, file, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else {
@@ -162,7 +162,7 @@ flightgear_animations(const std::filesystem::path& file, const XmlElement& root)
             if (kind == "translate" || kind == "rotate") {
                 add_shadows(child, animated.hidden);
             }
-            if (auto move = unless_faulty(move_at_rest, file, child, animated.notes)) {
+            if (auto move = unless_faulty(placement_at_rest, file, child, animated.notes)) {
                 expand(move->objects, groups);
                 animated.moves.push_back(std::move(*move));
             }

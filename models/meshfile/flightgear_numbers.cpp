@@ -42,7 +42,7 @@ double number_in(
     }
     const auto value = finite_number(found->text);
     if (!value || std::abs(*value) > max_coordinate) {
-        error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
+        throw_error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
     }
     return *value;
 }
@@ -67,8 +67,8 @@ double interpolated(const std::filesystem::path& file, const XmlElement& animati
     return start + (value - from) / (next->first - from) * (next->second - start);
 }
 
-TurningAxis axis_in(const std::filesystem::path& file, const XmlElement& animation) {
-    TurningAxis about;
+RotationAxis axis_in(const std::filesystem::path& file, const XmlElement& animation) {
+    RotationAxis about;
     about.direction = glm::dvec3(0.0);
     if (const XmlElement* axis = animation.find("axis")) {
         if (axis->find("x1-m") != nullptr || axis->find("x2-m") != nullptr) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/turning_model.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/meshfile/xml_tree.h"
 
 #include <filesystem>
@@ -21,6 +21,6 @@ double interpolated(const std::filesystem::path& file, const XmlElement& animati
 
 /// A point of an animation's axis and its direction, as long as the file has it: without a length
 /// where it gives none. It does not turn.
-TurningAxis axis_in(const std::filesystem::path& file, const XmlElement& animation);
+RotationAxis axis_in(const std::filesystem::path& file, const XmlElement& animation);
 
 } // namespace octant::models::meshfile

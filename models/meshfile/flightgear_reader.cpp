@@ -8,10 +8,10 @@
 #include "models/meshfile/flightgear_tree.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/mesh_join.h"
+#include "models/meshfile/mesh_append.h"
 #include "models/meshfile/mesh_parts.h"
-#include "models/meshfile/placement.h"
-#include "models/meshfile/turning_model.h"
+#include "models/meshfile/affine_transform.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/meshfile/word_scanner.h"
 #include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
@@ -60,10 +60,10 @@ public:
         : path_(path)
         , options_(options) {}
 
-    TurningModel read() {
+    RotatingModel read() {
         take_model(model_file(), {}, nullptr, 0);
         if (model_.body.triangles.empty()) { // all of it turns: then none of it does
-            for (TurningPart& part : std::exchange(model_.parts, {})) {
+            for (RotatingPart& part : std::exchange(model_.parts, {})) {
                 join_mesh(model_.body, std::move(part.mesh), {});
             }
         }
@@ -71,7 +71,7 @@ public:
             join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {});
         }
         if (model_.body.triangles.empty()) {
-            error_in(path_, "expected a model with a mesh, got none");
+            throw_error_in(path_, "expected a model with a mesh, got none");
         }
         if (const std::size_t all = model_.body.notes.size(); all > max_notes) {
             model_.body.notes.resize(max_notes);
@@ -105,16 +105,16 @@ private:
             }
             fs::path file = flightgear_file(path_, name);
             if (file.empty()) {
-                error_in(
+                throw_error_in(
                     path_,
                     "expected a file of its sim/model/path, got none called " + in_quotes(name));
             }
             return file;
         }
-        error_in(path_, "expected a model's path in sim/model, got none");
+        throw_error_in(path_, "expected a model's path in sim/model, got none");
     }
 
-    Placement offsets(const fs::path& file, const XmlElement& parent) const {
+    AffineTransform offsets(const fs::path& file, const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
         if (found == nullptr) {
             return {};
@@ -134,17 +134,17 @@ private:
 
     /// `about`: what turns all of it; null for what does not turn as a whole.
     void
-    take_model(const fs::path& file, const Placement& parent, const TurningAxis* about, int depth) {
-        if (ending_of(file) != ".xml") {
+    take_model(const fs::path& file, const AffineTransform& parent, const RotationAxis* about, int depth) {
+        if (extension_of(file) != ".xml") {
             add_mesh(file, parent, {}, about);
             return;
         }
         if (depth > max_model_depth || ++models_ > max_models) {
-            error_in(
+            throw_error_in(
                 file, fmt::format("expected models at most {} deep, got more", max_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
-        Placement own = parent.of(offsets(file, root));
+        AffineTransform own = parent.of(offsets(file, root));
         const FlightGearAnimations animated = animations_of(file, root, own);
         if (animated.hidden.contains("") && depth > 0) {
             return;
@@ -153,7 +153,7 @@ private:
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
             if (depth == 0 && flightgear_file(file, name).empty()) {
-                error_in(file, "expected a file of its path, got none called " + in_quotes(name));
+                throw_error_in(file, "expected a file of its path, got none called " + in_quotes(name));
             }
             take_named(file, name, own, animated, about, depth);
         }
@@ -163,9 +163,9 @@ private:
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
-                const TurningAxis* turned =
+                const RotationAxis* turned =
                     about == nullptr && !name.empty() ? animated.axis_of(name) : about;
-                const Placement moved = name.empty() ? own : own.of(animated.place_of(name));
+                const AffineTransform moved = name.empty() ? own : own.of(animated.place_of(name));
                 take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
             }
         }
@@ -173,10 +173,10 @@ private:
 
     /// Also moves `own`, the model, to where it stands at rest.
     FlightGearAnimations
-    animations_of(const fs::path& file, const XmlElement& root, Placement& own) {
+    animations_of(const fs::path& file, const XmlElement& root, AffineTransform& own) {
         FlightGearAnimations animated = flightgear_animations(file, root);
         own = own.of(animated.place_of(""));
-        for (FlightGearTurn& turn : animated.turns) {
+        for (FlightGearRotation& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
             turn.about.direction = own.turn * turn.about.direction;
         }
@@ -190,14 +190,14 @@ private:
     void take_named(
         const fs::path& from,
         const std::string& name,
-        const Placement& placement,
+        const AffineTransform& placement,
         const FlightGearAnimations& animated,
-        const TurningAxis* about,
+        const RotationAxis* about,
         int depth) {
         const fs::path file = flightgear_file(from, name);
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
-        } else if (ending_of(file) == ".xml") {
+        } else if (extension_of(file) == ".xml") {
             take_sub_model(file, placement, about, depth + 1);
         } else if (is_mesh_file(file)) {
             add_mesh(file, placement, animated, about);
@@ -208,7 +208,7 @@ private:
 
     /// A faulty file below the first one costs itself alone.
     void take_sub_model(
-        const fs::path& file, const Placement& placement, const TurningAxis* about, int depth) {
+        const fs::path& file, const AffineTransform& placement, const RotationAxis* about, int depth) {
         try {
             take_model(file, placement, about, depth);
         } catch (const Error& fault) {
@@ -218,27 +218,27 @@ private:
 
     void add_mesh(
         const fs::path& file,
-        const Placement& placement,
+        const AffineTransform& placement,
         const FlightGearAnimations& animated,
-        const TurningAxis* about) {
-        if (!animated.turns.empty() && ending_of(file) != ".ac") {
+        const RotationAxis* about) {
+        if (!animated.turns.empty() && extension_of(file) != ".ac") {
             note_once(file.string() + ": its objects are not told apart, so none of them turns");
         }
         ReadOptions options = options_;
-        options.left_out = animated.hidden;
-        for (const FlightGearMove& move : animated.moves) {
+        options.excluded = animated.hidden;
+        for (const FlightGearRestPlacement& move : animated.moves) {
             for (const std::string& object : move.objects) {
                 options.moved[object] = in_ac3d(animated.place_of(object));
             }
         }
-        for (const FlightGearTurn& turn : animated.turns) {
+        for (const FlightGearRotation& turn : animated.turns) {
             if (about == nullptr) {
                 options.groups.push_back(turn.objects);
             }
         }
         try {
             MeshParts parts = read_parts(file, options);
-            const Placement placed = in_model(file, placement);
+            const AffineTransform placed = in_model(file, placement);
             join_mesh(
                 about == nullptr ? model_.body : part_about(*about), std::move(parts.body), placed);
             for (std::size_t i = 0; i < parts.groups.size(); ++i) {
@@ -253,12 +253,12 @@ private:
         }
     }
 
-    void join_clear(ClearSurfaces more, const Placement& placed) {
+    void join_clear(TransparentSurfaces more, const AffineTransform& placed) {
         const std::size_t count = more.mesh.triangles.size();
         if (count == 0) {
             return;
         }
-        ClearSurfaces& all = model_.clear;
+        TransparentSurfaces& all = model_.clear;
         join_mesh(all.mesh, std::move(more.mesh), placed);
         const float share =
             static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
@@ -268,20 +268,20 @@ private:
     }
 
     /// A move within a model, within an AC3D file.
-    static Placement in_ac3d(const Placement& in_model) {
+    static AffineTransform in_ac3d(const AffineTransform& in_model) {
         return {
             glm::transpose(from_ac3d) * in_model.turn * from_ac3d,
             glm::transpose(from_ac3d) * in_model.shift_m};
     }
 
-    static Placement in_model(const fs::path& file, const Placement& placement) {
-        return placement.of({ending_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
+    static AffineTransform in_model(const fs::path& file, const AffineTransform& placement) {
+        return placement.of({extension_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
     }
 
     /// The mesh of what turns about an axis: of several blades it is the same.
-    TriangleMesh& part_about(const TurningAxis& about) {
+    TriangleMesh& part_about(const RotationAxis& about) {
         constexpr double near_m = 0.01;
-        for (TurningPart& part : model_.parts) {
+        for (RotatingPart& part : model_.parts) {
             const glm::dvec3 across_m =
                 glm::cross(part.about.direction, about.point_m - part.about.point_m);
             if (glm::dot(part.about.direction, about.direction) > 1.0 - 1e-6 &&
@@ -290,7 +290,7 @@ private:
                 return part.mesh;
             }
         }
-        return model_.parts.emplace_back(TurningPart{{}, about}).mesh;
+        return model_.parts.emplace_back(RotatingPart{{}, about}).mesh;
     }
 
     void note_once(const std::string& note) {
@@ -301,7 +301,7 @@ private:
 
     fs::path path_;
     ReadOptions options_;
-    TurningModel model_;
+    RotatingModel model_;
     std::size_t models_ = 0;
     std::map<std::string, int> at_rest_; ///< animations, by their types
     std::set<std::string> told_;
@@ -309,12 +309,12 @@ private:
 
 } // namespace
 
-TurningModel read_turning_model(const fs::path& path, const ReadOptions& options) {
-    if (ending_of(path) == ".xml") {
+RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& options) {
+    if (extension_of(path) == ".xml") {
         return FlightGearReading(path, options).read();
     }
     ReadOptions alone = options;
-    alone.stand_ins = false;
+    alone.placeholders = false;
     MeshParts parts = read_parts(path, alone);
     if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
         return {read_mesh(path, options), {}, {}};
@@ -323,8 +323,8 @@ TurningModel read_turning_model(const fs::path& path, const ReadOptions& options
 }
 
 TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
-    TurningModel model = read_turning_model(path, options);
-    for (TurningPart& part : model.parts) {
+    RotatingModel model = read_rotating_model(path, options);
+    for (RotatingPart& part : model.parts) {
         join_mesh(model.body, std::move(part.mesh), {});
     }
     join_mesh(model.body, std::move(model.clear.mesh), {});

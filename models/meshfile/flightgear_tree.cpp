@@ -29,11 +29,11 @@ void include_into(XmlElement& element, const fs::path& file, int depth, int& fil
         return;
     }
     if (depth == max_include_depth) {
-        error_at(
+        throw_error_at(
             file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
     }
     if (++files > max_files) {
-        error_at(
+        throw_error_at(
             file, element.line, fmt::format("expected at most {} includes, got more", max_files));
     }
     XmlElement other = tree_of(included, depth + 1, files);

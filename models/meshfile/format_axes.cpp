@@ -9,7 +9,7 @@
 namespace octant::models::meshfile {
 
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file) {
-    const std::string ending = ending_of(file);
+    const std::string ending = extension_of(file);
     if (ending == ".ac") {
         return polygons::FileAxes::from_text("back,up,left");
     }
@@ -22,9 +22,9 @@ std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& fi
     return std::nullopt;
 }
 
-std::optional<polygons::FileAxes> usual_axes(const std::filesystem::path& file) {
+std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file) {
     constexpr std::array<std::string_view, 5> scenes{".flt", ".ive", ".osg", ".osgb", ".osgt"};
-    return std::ranges::find(scenes, ending_of(file)) == scenes.end()
+    return std::ranges::find(scenes, extension_of(file)) == scenes.end()
                ? std::nullopt
                : std::optional(polygons::FileAxes::from_text("right,forward,up"));
 }

@@ -14,6 +14,6 @@ std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& fi
 
 /// How scenes of a format that says which way is up mostly lie: in OpenFlight's and
 /// OpenSceneGraph's files x right, y forward, z up. Nothing for others.
-std::optional<polygons::FileAxes> usual_axes(const std::filesystem::path& file);
+std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file);
 
 } // namespace octant::models::meshfile

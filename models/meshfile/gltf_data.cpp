@@ -70,20 +70,20 @@ bool stays_inside(const std::filesystem::path& path) {
 
 } // namespace
 
-double GltfNumbers::at(std::size_t entry, int part) const {
+double GltfAccessor::at(std::size_t entry, int part) const {
     const std::size_t byte =
         entry * stride_ + static_cast<std::size_t>(part) * bytes_of(component_);
     switch (component_) {
     case 5120:
-        return is_share_ ? std::max(little_endian<std::int8_t>(bytes_, byte) / 127.0, -1.0)
+        return is_normalized_ ? std::max(little_endian<std::int8_t>(bytes_, byte) / 127.0, -1.0)
                          : little_endian<std::int8_t>(bytes_, byte);
     case 5121:
-        return little_endian<std::uint8_t>(bytes_, byte) / (is_share_ ? 255.0 : 1.0);
+        return little_endian<std::uint8_t>(bytes_, byte) / (is_normalized_ ? 255.0 : 1.0);
     case 5122:
-        return is_share_ ? std::max(little_endian<std::int16_t>(bytes_, byte) / 32767.0, -1.0)
+        return is_normalized_ ? std::max(little_endian<std::int16_t>(bytes_, byte) / 32767.0, -1.0)
                          : little_endian<std::int16_t>(bytes_, byte);
     case 5123:
-        return little_endian<std::uint16_t>(bytes_, byte) / (is_share_ ? 65535.0 : 1.0);
+        return little_endian<std::uint16_t>(bytes_, byte) / (is_normalized_ ? 65535.0 : 1.0);
     case 5125:
         return little_endian<std::uint32_t>(bytes_, byte);
     default:
@@ -91,7 +91,7 @@ double GltfNumbers::at(std::size_t entry, int part) const {
     }
 }
 
-std::uint32_t GltfNumbers::whole_at(std::size_t entry) const {
+std::uint32_t GltfAccessor::unsigned_at(std::size_t entry) const {
     return static_cast<std::uint32_t>(at(entry, 0));
 }
 
@@ -104,7 +104,7 @@ GltfData::GltfData(const std::filesystem::path& path)
         read_json(file_, 0);
     }
     if (!root_.is_object()) {
-        error_in(path_, "expected a JSON object, got " + shown(root_));
+        throw_error_in(path_, "expected a JSON object, got " + shown(root_));
     }
     const Json& asset = root_.contains("asset") ? root_["asset"] : root_;
     const Json version = asset.is_object() ? asset.value("version", Json()) : Json();
@@ -146,7 +146,7 @@ void GltfData::read_binary(std::string_view bytes) {
 void GltfData::read_json(std::string_view text, std::size_t first_byte) {
     const auto shallow = [&](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
         if (depth > max_json_depth) {
-            error_in(
+            throw_error_in(
                 path_, fmt::format("expected JSON at most {} deep, got more", max_json_depth));
         }
         return true;
@@ -159,17 +159,17 @@ void GltfData::read_json(std::string_view text, std::size_t first_byte) {
         const std::string what =
             "expected JSON, got " + (got.empty() ? "the end of the text" : in_quotes(got));
         if (first_byte > 0) {
-            error_in(path_, fmt::format("at byte {}: {}", first_byte + byte, what));
+            throw_error_in(path_, fmt::format("at byte {}: {}", first_byte + byte, what));
         }
-        error_at(path_, static_cast<int>(std::ranges::count(text.substr(0, byte), '\n')) + 1, what);
+        throw_error_at(path_, static_cast<int>(std::ranges::count(text.substr(0, byte), '\n')) + 1, what);
     } catch (const Json::exception&) { // a number that no type holds
-        error_in(path_, "expected JSON, got a value out of range");
+        throw_error_in(path_, "expected JSON, got a value out of range");
     }
 }
 
 void GltfData::refuse(
     const std::string& where, const std::string& expected, const std::string& got) const {
-    error_in(path_, fmt::format("{}: expected {}, got {}", where, expected, got));
+    throw_error_in(path_, fmt::format("{}: expected {}, got {}", where, expected, got));
 }
 
 std::size_t GltfData::count_of(const char* name) const {
@@ -224,14 +224,14 @@ std::vector<double> GltfData::numbers(
     return found.get<std::vector<double>>();
 }
 
-GltfNumbers GltfData::accessor(std::size_t index) {
+GltfAccessor GltfData::accessor(std::size_t index) {
     const std::string where = fmt::format("accessors[{}]", index);
     const Json& json = entry("accessors", index);
     if (json.contains("sparse")) {
         refuse(where, "an accessor that is not sparse", "a sparse one");
     }
     constexpr std::size_t any = std::size_t{1} << 40U;
-    GltfNumbers made;
+    GltfAccessor made;
     const auto component = this->index(json, "componentType", 5127, where).value_or(0);
     if (component < 5120 || component == 5124) {
         refuse(where, "a componentType of 5120 to 5126", std::to_string(component));
@@ -243,7 +243,7 @@ GltfNumbers GltfData::accessor(std::size_t index) {
     if (made.parts_ == 4 && kind != "VEC4") {
         refuse(where + ".type", "SCALAR, VEC2, VEC3 or VEC4", shown(type));
     }
-    made.is_share_ = json.contains("normalized") && json["normalized"] == Json(true);
+    made.is_normalized_ = json.contains("normalized") && json["normalized"] == Json(true);
     made.count_ = this->index(json, "count", any, where).value_or(0);
     const auto view_index = this->index(json, "bufferView", count_of("bufferViews"), where);
     if (!view_index) {

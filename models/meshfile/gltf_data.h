@@ -14,9 +14,9 @@ namespace octant::models::meshfile {
 using Json = nlohmann::json;
 
 /// Numbers of a glTF accessor, in their file.
-class GltfNumbers {
+class GltfAccessor {
 public:
-    GltfNumbers() = default;
+    GltfAccessor() = default;
 
     std::size_t count() const { return count_; }
 
@@ -28,7 +28,7 @@ public:
     double at(std::size_t entry, int part) const;
 
     /// An entry as a whole number.
-    std::uint32_t whole_at(std::size_t entry) const;
+    std::uint32_t unsigned_at(std::size_t entry) const;
 
 private:
     friend class GltfData;
@@ -38,7 +38,7 @@ private:
     std::size_t count_ = 0;
     int parts_ = 1;
     int component_ = 5126; ///< glTF's number of the type
-    bool is_share_ = false;
+    bool is_normalized_ = false;
 };
 
 /// The JSON part of a .gltf or .glb file and what its buffers hold. Every access is checked; faults
@@ -72,7 +72,7 @@ public:
         const std::string& where) const;
 
     /// The accessor of that number, all of which lies in its buffer.
-    GltfNumbers accessor(std::size_t index);
+    GltfAccessor accessor(std::size_t index);
 
     /// The bytes of an image's file, from a view or its own address.
     std::string image_bytes(std::size_t index);

@@ -1,10 +1,10 @@
-#include "models/display_colour.h"
+#include "models/srgb.h"
 #include "models/meshfile/gltf_data.h"
 #include "models/meshfile/gltf_pictures.h"
 #include "models/meshfile/gltf_scene.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ public:
         : path_(path)
         , data_(path)
         , mesh_(path, options)
-        , materials_(data_.count_of("materials"), no_index) {}
+        , materials_(data_.count_of("materials"), invalid_index) {}
 
     /// What the file holds, to be finished.
     MeshBuilder read() {
@@ -64,7 +64,7 @@ private:
         }
     }
 
-    void take_mesh(std::size_t index, const Placement& placement) {
+    void take_mesh(std::size_t index, const AffineTransform& placement) {
         const std::string where = fmt::format("meshes[{}].primitives", index);
         vertices_.clear();
         normals_.clear();
@@ -79,7 +79,7 @@ private:
     }
 
     void
-    take_primitive(const Json& primitive, const Placement& placement, const std::string& where) {
+    take_primitive(const Json& primitive, const AffineTransform& placement, const std::string& where) {
         const std::size_t mode = data_.index(primitive, "mode", 7, where).value_or(4);
         if (mode < 4) {
             ++skipped_;
@@ -98,14 +98,14 @@ private:
         const auto normal = data_.index(*attributes, "NORMAL", accessors, where);
         const auto [first_vertex, count] =
             vertices(*position, colour.value_or(accessors), placement, where);
-        std::uint32_t first_normal = no_index;
+        std::uint32_t first_normal = invalid_index;
         if (normal) {
             first_normal = normals(*normal, count, placement, where);
         }
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);
-        const std::uint32_t used = material ? used_material(*material) : no_index;
-        const std::uint32_t picture = material && mesh_.takes_pictures()
+        const std::uint32_t used = material ? used_material(*material) : invalid_index;
+        const std::uint32_t picture = material && mesh_.uses_pictures()
                                           ? baked_picture(data_, *material, mesh_.pictures())
                                           : BakedPictures::none;
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
@@ -118,17 +118,17 @@ private:
         const auto add = [&,
                           first = first_vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const auto corner = [&](std::uint32_t vertex) {
-                return Corner{
+                return CornerIndices{
                     first + vertex,
-                    first_normal == no_index ? no_index : first_normal + vertex,
-                    first_texture == no_index ? no_index : first_texture + vertex};
+                    first_normal == invalid_index ? invalid_index : first_normal + vertex,
+                    first_texture == invalid_index ? invalid_index : first_texture + vertex};
             };
-            std::array<Corner, 3> triangle{corner(a), corner(b), corner(c)};
+            std::array<CornerIndices, 3> triangle{corner(a), corner(b), corner(c)};
             if (placement.mirrors()) {
                 std::swap(triangle[1], triangle[2]);
             }
             mesh_.add_polygon(
-                triangle, used, first_texture == no_index ? BakedPictures::none : picture);
+                triangle, used, first_texture == invalid_index ? BakedPictures::none : picture);
         };
         add_triangles(mode, corners, add, where);
     }
@@ -167,13 +167,13 @@ private:
     std::pair<std::uint32_t, std::size_t> vertices(
         std::size_t position,
         std::size_t colour,
-        const Placement& placement,
+        const AffineTransform& placement,
         const std::string& where) {
         const auto known = vertices_.find({position, colour});
         if (known != vertices_.end()) {
             return known->second;
         }
-        const GltfNumbers places = data_.accessor(position);
+        const GltfAccessor places = data_.accessor(position);
         if (places.parts() != 3 ||
             std::ranges::find(place_components, places.component()) == place_components.end()) {
             data_.refuse(where, "a POSITION of three floats or short numbers", "another type");
@@ -200,7 +200,7 @@ private:
     }
 
     void take_colours(
-        const GltfNumbers& colours,
+        const GltfAccessor& colours,
         std::uint32_t first,
         std::size_t count,
         const std::string& where) {
@@ -220,20 +220,20 @@ private:
                 colour[part] = value;
             }
             mesh_.set_colour(
-                first + static_cast<std::uint32_t>(i), glm::vec3(display_from_linear(colour)));
+                first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
         }
     }
 
     std::uint32_t normals(
         std::size_t index,
         std::size_t count,
-        const Placement& placement,
+        const AffineTransform& placement,
         const std::string& where) {
         const auto known = normals_.find(index);
         if (known != normals_.end() && known->second.second == count) {
             return known->second.first;
         }
-        const GltfNumbers list = data_.accessor(index);
+        const GltfAccessor list = data_.accessor(index);
         if (list.parts() != 3 || list.count() != count) {
             data_.refuse(
                 where,
@@ -249,20 +249,20 @@ private:
         return first;
     }
 
-    /// The first of the texture coordinates of a primitive's vertices; no_index where it has none.
+    /// The first of the texture coordinates of a primitive's vertices; invalid_index where it has none.
     std::uint32_t texture_coordinates(
         std::optional<std::size_t> material, const Json& attributes, std::size_t count) {
         const auto index = texture_accessor(data_, material, attributes);
         if (!index) {
-            return no_index;
+            return invalid_index;
         }
         const auto known = texture_coordinates_.find(*index);
         if (known != texture_coordinates_.end() && known->second.second == count) {
             return known->second.first;
         }
-        const GltfNumbers list = data_.accessor(*index);
+        const GltfAccessor list = data_.accessor(*index);
         if (list.parts() != 2 || list.count() != count) {
-            return no_index;
+            return invalid_index;
         }
         const auto first = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
         for (std::size_t i = 0; i < count; ++i) { // glTF counts v downwards
@@ -284,14 +284,14 @@ private:
             }
             return corners;
         }
-        const GltfNumbers indices = data_.accessor(*index);
+        const GltfAccessor indices = data_.accessor(*index);
         const int type = indices.component();
         if (indices.parts() != 1 || (type != 5121 && type != 5123 && type != 5125)) {
             data_.refuse(where, "indices of whole numbers", "another type");
         }
         count_numbers(indices.count(), where);
         for (std::size_t i = 0; i < indices.count(); ++i) {
-            corners.push_back(indices.whole_at(i));
+            corners.push_back(indices.unsigned_at(i));
             if (corners.back() >= count) {
                 data_.refuse(
                     where, fmt::format("indices below {}", count), std::to_string(corners.back()));
@@ -302,7 +302,7 @@ private:
 
     /// Materials come in the order of their first primitive.
     std::uint32_t used_material(std::size_t index) {
-        if (materials_[index] != no_index) {
+        if (materials_[index] != invalid_index) {
             return materials_[index];
         }
         const std::string where = fmt::format("materials[{}]", index);
@@ -320,7 +320,7 @@ private:
                     data_.refuse(where, "a colour of 0 to 1", fmt::format("{}", c[part]));
                 }
             }
-            made.colour = glm::vec3(display_from_linear({c[0], c[1], c[2]}));
+            made.colour = glm::vec3(srgb_from_linear({c[0], c[1], c[2]}));
             if (json.value("alphaMode", Json()) == "BLEND") {
                 opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
             }

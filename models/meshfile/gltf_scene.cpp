@@ -71,7 +71,7 @@ private:
         return node_list(data_.entry("nodes", node), "children", fmt::format("nodes[{}]", node));
     }
 
-    void take_node(std::size_t index, const Placement& parent, int depth) {
+    void take_node(std::size_t index, const AffineTransform& parent, int depth) {
         const std::string where = fmt::format("nodes[{}]", index);
         if (met_[index]) {
             data_.refuse(where, "a node with one parent", "one that is met again");
@@ -82,7 +82,7 @@ private:
         }
         met_[index] = true;
         const Json& node = data_.entry("nodes", index);
-        const Placement placement = parent.of(own(node, where));
+        const AffineTransform placement = parent.of(own(node, where));
         if (const auto mesh = data_.index(node, "mesh", data_.count_of("meshes"), where)) {
             placed_.push_back({*mesh, placement});
         }
@@ -91,8 +91,8 @@ private:
         }
     }
 
-    Placement own(const Json& node, const std::string& where) const {
-        Placement made;
+    AffineTransform own(const Json& node, const std::string& where) const {
+        AffineTransform made;
         if (node.contains("matrix")) {
             const auto m = data_.numbers(node, "matrix", std::vector<double>(16), where);
             made.turn = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};

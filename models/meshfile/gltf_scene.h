@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/meshfile/gltf_data.h"
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 
 #include <cstddef>
 #include <vector>
@@ -11,7 +11,7 @@ namespace octant::models::meshfile {
 /// A mesh of a glTF file, by its number, where a node shows it.
 struct PlacedMesh {
     std::size_t mesh = 0;
-    Placement placement;
+    AffineTransform placement;
 };
 
 /// What the default scene shows, else the first one, else the nodes that are nobody's child, else

@@ -1,4 +1,4 @@
-#include "models/display_colour.h"
+#include "models/srgb.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/byte_writer.h"
 #include "models/meshfile/mesh_builder.h"
@@ -41,20 +41,20 @@ Split split_by_corners(const TriangleMesh& mesh) {
     if (!has_normals && !has_textures) {
         return split;
     }
-    split.normals.assign(has_normals ? mesh.vertices_m.size() : 0, no_index);
-    split.textures.assign(has_textures ? mesh.vertices_m.size() : 0, no_index);
+    split.normals.assign(has_normals ? mesh.vertices_m.size() : 0, invalid_index);
+    split.textures.assign(has_textures ? mesh.vertices_m.size() : 0, invalid_index);
     std::vector<bool> is_taken(mesh.vertices_m.size(), false);
     using Key = std::tuple<std::uint32_t, float, float, float, float, float>;
     std::map<Key, std::uint32_t> known;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[t][k];
-            const std::uint32_t normal = has_normals ? mesh.corner_normals[t][k] : no_index;
+            const std::uint32_t normal = has_normals ? mesh.corner_normals[t][k] : invalid_index;
             const std::uint32_t texture =
-                has_textures ? mesh.corner_texture_coordinates[t][k] : no_index;
-            const glm::vec3 n = normal == no_index ? glm::vec3(0.0F) : mesh.normals[normal];
+                has_textures ? mesh.corner_texture_coordinates[t][k] : invalid_index;
+            const glm::vec3 n = normal == invalid_index ? glm::vec3(0.0F) : mesh.normals[normal];
             const glm::vec2 place =
-                texture == no_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
+                texture == invalid_index ? glm::vec2(0.0F) : mesh.texture_coordinates[texture];
             const auto [at, is_new] =
                 known.try_emplace({vertex, n.x, n.y, n.z, place.x, place.y}, vertex);
             if (is_new && is_taken[vertex]) {
@@ -91,7 +91,7 @@ public:
         }
         add_vertices();
         if (mesh.materials.empty()) {
-            add_primitive(no_index);
+            add_primitive(invalid_index);
         }
         for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
             add_primitive(material);
@@ -107,7 +107,7 @@ public:
 
 private:
     void add_material(const Material& material) {
-        const glm::dvec3 c = linear_from_display(glm::dvec3(material.colour));
+        const glm::dvec3 c = linear_from_srgb(glm::dvec3(material.colour));
         json_["materials"].push_back(
             {{"name", material.name},
              {"pbrMetallicRoughness",
@@ -172,14 +172,14 @@ private:
             const std::size_t first = bytes_.size();
             for (const std::uint32_t normal : split_.normals) {
                 append_vector(
-                    normal == no_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
+                    normal == invalid_index ? glm::vec3(0.0F, 0.0F, 1.0F) : mesh_.normals[normal]);
             }
             attributes_["NORMAL"] = add_accessor(first, count, float_type, "VEC3");
         }
         if (!split_.textures.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t texture : split_.textures) { // glTF counts v downwards
-                const glm::vec2 place = texture == no_index ? glm::vec2(0.0F, 1.0F)
+                const glm::vec2 place = texture == invalid_index ? glm::vec2(0.0F, 1.0F)
                                                             : mesh_.texture_coordinates[texture];
                 append_number(bytes_, place.x);
                 append_number(bytes_, 1.0F - place.y);
@@ -189,7 +189,7 @@ private:
         if (!mesh_.colours.empty()) {
             const std::size_t first = bytes_.size();
             for (const std::uint32_t vertex : split_.vertices) {
-                append_vector(glm::vec3(linear_from_display(glm::dvec3(mesh_.colours[vertex]))));
+                append_vector(glm::vec3(linear_from_srgb(glm::dvec3(mesh_.colours[vertex]))));
             }
             attributes_["COLOR_0"] = add_accessor(first, count, float_type, "VEC3");
         }
@@ -198,7 +198,7 @@ private:
     void add_primitive(std::uint32_t material) {
         const std::size_t first = bytes_.size();
         for (std::size_t t = 0; t < split_.triangles.size(); ++t) {
-            if (material == no_index || mesh_.triangle_materials[t] == material) {
+            if (material == invalid_index || mesh_.triangle_materials[t] == material) {
                 for (const std::uint32_t vertex : split_.triangles[t]) {
                     append_number(bytes_, vertex);
                 }
@@ -210,7 +210,7 @@ private:
         Json primitive{{"attributes", attributes_}};
         primitive["indices"] =
             add_accessor(first, (bytes_.size() - first) / 4, index_type, "SCALAR");
-        if (material != no_index) {
+        if (material != invalid_index) {
             primitive["material"] = material;
         }
         primitives_.push_back(primitive);
@@ -232,7 +232,7 @@ std::string text_of(const Json& json) {
 
 } // namespace
 
-glm::dvec3 gltf_origin_m(const Bounds& bounds) {
+glm::dvec3 gltf_origin_m(const BoundingBox& bounds) {
     constexpr double far = 2.0; // times its own size
     const glm::dvec3 size_m = bounds.max_m - bounds.min_m;
     const glm::dvec3 middle_m = 0.5 * (bounds.min_m + bounds.max_m);

@@ -67,7 +67,7 @@ void check_head(ByteReader& reader, std::string_view bytes) {
 } // namespace
 
 bool is_chain_file(const std::filesystem::path& path) {
-    return ending_of(path) == ".chain";
+    return extension_of(path) == ".chain";
 }
 
 LevelChain read_chain(const std::filesystem::path& path) {

@@ -22,7 +22,7 @@ std::string without_marks(std::string_view name) {
 
 } // namespace
 
-std::vector<std::string> writable_names(std::span<const Material> materials) {
+std::vector<std::string> unique_material_names(std::span<const Material> materials) {
     std::vector<std::string> names;
     std::set<std::string> taken;
     for (const Material& material : materials) {

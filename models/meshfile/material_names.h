@@ -9,6 +9,6 @@
 namespace octant::models::meshfile {
 
 /// Names of materials as text formats can hold them: not empty, one line, no quotes, none twice.
-std::vector<std::string> writable_names(std::span<const Material> materials);
+std::vector<std::string> unique_material_names(std::span<const Material> materials);
 
 } // namespace octant::models::meshfile

@@ -1,7 +1,7 @@
 #include "models/meshfile/mesh_builder.h"
 
-#include "models/polygons/polygon_cut.h"
-#include "models/repair/sheet_backs.h"
+#include "models/polygons/polygon_triangulation.h"
+#include "models/repair/back_faces.h"
 #include "sim/base/error.h"
 
 #include <glm/geometric.hpp>
@@ -30,12 +30,12 @@ constexpr float glass_from = 0.05F;
 constexpr float mostly_there = 0.5F;
 
 bool is_glass(const BakedPictures::Cover& cover) {
-    return cover.is_even && cover.opacity >= glass_from && cover.opacity < mostly_there;
+    return cover.is_uniform && cover.opacity >= glass_from && cover.opacity < mostly_there;
 }
 
 /// Takes out the vertices that no triangle uses.
 void drop_unused_vertices(TriangleMesh& mesh) {
-    std::vector<std::uint32_t> places(mesh.vertices_m.size(), no_index);
+    std::vector<std::uint32_t> places(mesh.vertices_m.size(), invalid_index);
     std::uint32_t count = 0;
     for (const Triangle& triangle : mesh.triangles) {
         for (const std::uint32_t vertex : triangle) {
@@ -43,7 +43,7 @@ void drop_unused_vertices(TriangleMesh& mesh) {
         }
     }
     for (std::size_t v = 0; v < places.size(); ++v) {
-        if (places[v] != no_index) {
+        if (places[v] != invalid_index) {
             mesh.vertices_m[count] = mesh.vertices_m[v];
             if (!mesh.colours.empty()) {
                 mesh.colours[count] = mesh.colours[v];
@@ -96,8 +96,8 @@ std::uint32_t MeshBuilder::add_texture_coordinates(const glm::vec2& coordinates)
 }
 
 /// Where a corner lies on its picture, in shares from the upper left corner.
-glm::vec2 MeshBuilder::on_picture(const Corner& corner) const {
-    if (corner.texture == no_index) {
+glm::vec2 MeshBuilder::on_picture(const CornerIndices& corner) const {
+    if (corner.texture == invalid_index) {
         return glm::vec2(0.0F);
     }
     const glm::vec2& coordinates = mesh_.texture_coordinates[corner.texture];
@@ -111,9 +111,9 @@ std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
 }
 
 void MeshBuilder::add_polygon(
-    std::span<const Corner> corners, std::uint32_t material, std::uint32_t picture) {
+    std::span<const CornerIndices> corners, std::uint32_t material, std::uint32_t picture) {
     assert(corners.size() >= 3 && corners.size() <= max_polygon_corners);
-    const auto add = [&](const std::array<Corner, 3>& triangle) {
+    const auto add = [&](const std::array<CornerIndices, 3>& triangle) {
         add_triangle(triangle, material);
         if (options_.pictures) {
             pictures_.add_triangle(
@@ -126,15 +126,15 @@ void MeshBuilder::add_polygon(
         return;
     }
     places_m_.clear();
-    for (const Corner& corner : corners) {
+    for (const CornerIndices& corner : corners) {
         places_m_.push_back(mesh_.vertices_m[corner.vertex]);
     }
-    for (const auto& piece : polygons::cut_polygon(places_m_)) {
+    for (const auto& piece : polygons::triangulate_polygon(places_m_)) {
         add({corners[piece[0]], corners[piece[1]], corners[piece[2]]});
     }
 }
 
-void MeshBuilder::add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material) {
+void MeshBuilder::add_triangle(const std::array<CornerIndices, 3>& corners, std::uint32_t material) {
     const auto& [a, b, c] = corners;
     mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
     mesh_.corner_normals.push_back({a.normal, b.normal, c.normal});
@@ -143,14 +143,14 @@ void MeshBuilder::add_triangle(const std::array<Corner, 3>& corners, std::uint32
     two_sided_.push_back(is_two_sided_);
     groups_.push_back(group_);
     has_normals_ =
-        has_normals_ || a.normal != no_index || b.normal != no_index || c.normal != no_index;
-    has_texture_coordinates_ = has_texture_coordinates_ || a.texture != no_index;
-    has_materials_ = has_materials_ || material != no_index;
+        has_normals_ || a.normal != invalid_index || b.normal != invalid_index || c.normal != invalid_index;
+    has_texture_coordinates_ = has_texture_coordinates_ || a.texture != invalid_index;
+    has_materials_ = has_materials_ || material != invalid_index;
 }
 
 TriangleMesh MeshBuilder::finish() {
     if (mesh_.triangles.empty()) {
-        error_in(path_, "expected at least one triangle, got none");
+        throw_error_in(path_, "expected at least one triangle, got none");
     }
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
@@ -171,17 +171,17 @@ void MeshBuilder::finish_part() {
 float MeshBuilder::opacity_of(std::size_t triangle) const {
     const std::uint32_t material = mesh_.triangle_materials[triangle];
     const bool has_glass = !covers_.empty() && is_glass(covers_[triangle]);
-    return (material == no_index ? 1.0F : opacities_[material]) *
+    return (material == invalid_index ? 1.0F : opacities_[material]) *
            (has_glass ? covers_[triangle].opacity : 1.0F);
 }
 
-void MeshBuilder::find_covers() {
+void MeshBuilder::find_opacities() {
     if (!pictures_.is_empty() && mesh_.colours.empty() && covers_.empty()) {
         covers_ = pictures_.covers();
     }
 }
 
-bool MeshBuilder::is_clear(std::size_t triangle) const {
+bool MeshBuilder::is_transparent(std::size_t triangle) const {
     return opacity_of(triangle) < opaque_from;
 }
 
@@ -219,9 +219,9 @@ TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>&
 
 MeshParts MeshBuilder::finish_parts() {
     if (mesh_.triangles.empty()) {
-        error_in(path_, "expected at least one triangle, got none");
+        throw_error_in(path_, "expected at least one triangle, got none");
     }
-    find_covers();
+    find_opacities();
     drop_invisible();
     if (!mesh_.colours.empty()) {
         mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F));
@@ -229,16 +229,16 @@ MeshParts MeshBuilder::finish_parts() {
     MeshParts parts;
     std::vector<std::string> notes = mesh_.notes;
     parts.body =
-        part_of([&](std::size_t t) { return groups_[t] == no_index && !is_clear(t); }, notes);
+        part_of([&](std::size_t t) { return groups_[t] == invalid_index && !is_transparent(t); }, notes);
     for (std::uint32_t group = 0; group < options_.groups.size(); ++group) {
         parts.groups.push_back(
-            part_of([&](std::size_t t) { return groups_[t] == group && !is_clear(t); }, notes));
+            part_of([&](std::size_t t) { return groups_[t] == group && !is_transparent(t); }, notes));
     }
-    parts.clear.mesh = part_of([&](std::size_t t) { return is_clear(t); }, notes);
+    parts.clear.mesh = part_of([&](std::size_t t) { return is_transparent(t); }, notes);
     double sum = 0.0;
     std::size_t count = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (is_clear(t)) {
+        if (is_transparent(t)) {
             sum += static_cast<double>(opacity_of(t));
             ++count;
         }
@@ -276,7 +276,7 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
 
 void MeshBuilder::finish_backs() {
     const bool any = std::ranges::find(two_sided_, true) != two_sided_.end();
-    const std::size_t added = options_.backs && any ? repair::add_backs(mesh_, two_sided_) : 0;
+    const std::size_t added = options_.backs && any ? repair::add_back_faces(mesh_, two_sided_) : 0;
     if (added > 0) {
         mesh_.notes.push_back(
             fmt::format("{}: {} triangles of two-sided sheets got a back", path_.string(), added));
@@ -287,7 +287,7 @@ void MeshBuilder::leave_out_transparent() {
     if (pictures_.is_empty() || !mesh_.colours.empty()) {
         return;
     }
-    find_covers();
+    find_opacities();
     std::vector<bool> gone;
     for (const BakedPictures::Cover& cover : covers_) {
         gone.push_back(cover.opacity < mostly_there && !(is_part_ && is_glass(cover)));
@@ -320,7 +320,7 @@ void MeshBuilder::finish_normals() {
         return;
     }
     const auto is_faulty = [&](std::uint32_t normal) {
-        return normal == no_index || (normal < faulty_normals_.size() && faulty_normals_[normal]);
+        return normal == invalid_index || (normal < faulty_normals_.size() && faulty_normals_[normal]);
     };
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         Triangle& corners = mesh_.corner_normals[t];
@@ -346,13 +346,13 @@ void MeshBuilder::finish_texture_coordinates() {
         return;
     }
     const auto is_missing = [&](std::uint32_t index) {
-        return index == no_index || !std::isfinite(mesh_.texture_coordinates[index].x) ||
+        return index == invalid_index || !std::isfinite(mesh_.texture_coordinates[index].x) ||
                !std::isfinite(mesh_.texture_coordinates[index].y);
     };
     std::vector<bool> used(mesh_.texture_coordinates.size(), false);
     for (Triangle& corners : mesh_.corner_texture_coordinates) {
         if (std::ranges::any_of(corners, is_missing)) {
-            corners = {no_index, no_index, no_index};
+            corners = {invalid_index, invalid_index, invalid_index};
             continue;
         }
         for (const std::uint32_t corner : corners) {
@@ -372,10 +372,10 @@ void MeshBuilder::finish_materials() {
         mesh_.triangle_materials = std::vector<std::uint32_t>();
         return;
     }
-    std::uint32_t fallback = no_index;
+    std::uint32_t fallback = invalid_index;
     for (std::uint32_t& material : mesh_.triangle_materials) {
-        if (material == no_index) {
-            fallback = fallback == no_index ? add_material({.name = "default"}) : fallback;
+        if (material == invalid_index) {
+            fallback = fallback == invalid_index ? add_material({.name = "default"}) : fallback;
             material = fallback;
         }
     }

@@ -4,7 +4,7 @@
 #include "models/meshfile/mesh_limits.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/read_options.h"
-#include "models/no_index.h"
+#include "models/invalid_index.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>
@@ -22,10 +22,10 @@
 namespace octant::models::meshfile {
 
 /// One corner of a polygon as a file names it.
-struct Corner {
-    std::uint32_t vertex = no_index;
-    std::uint32_t normal = no_index;
-    std::uint32_t texture = no_index; ///< of add_texture_coordinates
+struct CornerIndices {
+    std::uint32_t vertex = invalid_index;
+    std::uint32_t normal = invalid_index;
+    std::uint32_t texture = invalid_index; ///< of add_texture_coordinates
 };
 
 /// What all mesh readers do alike: polygons into triangles, faulty normals, missing materials. Its
@@ -36,9 +36,9 @@ public:
     /// The mesh is called after the file.
     explicit MeshBuilder(const std::filesystem::path& path, const ReadOptions& options = {});
 
-    bool takes_pictures() const { return options_.pictures; }
+    bool uses_pictures() const { return options_.pictures; }
 
-    bool takes_backs() const { return options_.backs; }
+    bool adds_back_faces() const { return options_.backs; }
 
     /// Whether polygons from now on are two-sided.
     void set_two_sided(bool two_sided) { is_two_sided_ = two_sided; }
@@ -71,14 +71,14 @@ public:
     /// `opacity`: how much it hides of what lies behind, 0..1.
     std::uint32_t add_material(Material material, float opacity = 1.0F);
 
-    /// The group of the options that polygons from now on belong to; no_index: none.
+    /// The group of the options that polygons from now on belong to; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
-    /// Adds a polygon, cut into triangles by polygons::cut_polygon.
+    /// Adds a polygon, cut into triangles by polygons::triangulate_polygon.
     /// `picture`: a number of pictures().
     void add_polygon(
-        std::span<const Corner> corners,
-        std::uint32_t material = no_index,
+        std::span<const CornerIndices> corners,
+        std::uint32_t material = invalid_index,
         std::uint32_t picture = BakedPictures::none);
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
@@ -90,21 +90,21 @@ public:
     MeshParts finish_parts();
 
 private:
-    bool is_clear(std::size_t triangle) const;
+    bool is_transparent(std::size_t triangle) const;
     float opacity_of(std::size_t triangle) const;
     void drop_invisible();
-    void find_covers();
+    void find_opacities();
     template <typename Kept>
     TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes) const;
     void finish_part();
     void take_out(const std::vector<bool>& gone);
-    void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
+    void add_triangle(const std::array<CornerIndices, 3>& corners, std::uint32_t material);
     void leave_out_transparent();
     void bake_pictures();
     void finish_backs();
     void finish_normals();
     void finish_texture_coordinates();
-    glm::vec2 on_picture(const Corner& corner) const;
+    glm::vec2 on_picture(const CornerIndices& corner) const;
     void finish_materials();
 
     std::filesystem::path path_;
@@ -117,7 +117,7 @@ private:
     std::vector<bool> two_sided_;              ///< one a triangle
     std::vector<std::uint32_t> groups_;        ///< one a triangle
     std::vector<BakedPictures::Cover> covers_; ///< one a triangle, once they are looked for
-    std::uint32_t group_ = no_index;
+    std::uint32_t group_ = invalid_index;
     bool is_two_sided_ = false;
     bool is_part_ = false; ///< of a larger mesh
     bool has_normals_ = false;

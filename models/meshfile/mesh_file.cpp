@@ -107,7 +107,7 @@ struct Format {
     void (*write)(const std::filesystem::path&, const TriangleMesh&); ///< null: it is only read
     /// What a written file leaves out, of "normals", "colours of vertices", "materials" and
     /// "texture coordinates".
-    std::string_view left_out = {};
+    std::string_view excluded = {};
     bool places_in_float = false; ///< As written.
     bool has_origin = false;      ///< Written places count from gltf_origin_m.
 };
@@ -135,7 +135,7 @@ constexpr std::array formats{
     Format{".xml", read_flightgear_model, nullptr, nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = extension_of(path);
     const auto* const found = std::ranges::find(formats, ending, &Format::ending);
     return found == formats.end() ? nullptr : found;
 }
@@ -148,7 +148,7 @@ const Format& format_of(const std::filesystem::path& path) {
             known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending);
         }
         const std::string ending = printable(path.extension().string());
-        error_in(
+        throw_error_in(
             path,
             fmt::format(
                 "expected a mesh file ({}), got {}",
@@ -175,18 +175,18 @@ MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& optio
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     const Format& format = format_of(path);
     if (format.write == nullptr) {
-        error_in(path, fmt::format("expected a format that is written, got {}", format.ending));
+        throw_error_in(path, fmt::format("expected a format that is written, got {}", format.ending));
     }
     format.write(path, mesh);
 }
 
 std::vector<std::string>
-notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
+write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh) {
     const Format& format = format_of(path);
-    std::string left_out;
+    std::string excluded;
     const auto look_at = [&](std::string_view what, bool is_there) {
-        if (is_there && format.left_out.find(what) != format.left_out.npos) {
-            left_out += fmt::format("{}{}", left_out.empty() ? "" : ", ", what);
+        if (is_there && format.excluded.find(what) != format.excluded.npos) {
+            excluded += fmt::format("{}{}", excluded.empty() ? "" : ", ", what);
         }
     };
     look_at("normals", !mesh.corner_normals.empty());
@@ -194,9 +194,9 @@ notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
     look_at("materials", !mesh.materials.empty());
     look_at("texture coordinates", !mesh.corner_texture_coordinates.empty());
     std::vector<std::string> notes;
-    if (!left_out.empty()) {
+    if (!excluded.empty()) {
         notes.push_back(
-            fmt::format("{}: the format holds no {}; they are left out", path.string(), left_out));
+            fmt::format("{}: the format holds no {}; they are left out", path.string(), excluded));
     }
     if (format.ending == ".ply" && !mesh.corner_normals.empty() && !has_vertex_normals(mesh)) {
         notes.push_back(fmt::format(
@@ -204,7 +204,7 @@ notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
             path.string()));
     }
     const bool has_textures = !mesh.corner_texture_coordinates.empty();
-    if (has_textures && format.ending == ".ac" && only_picture(mesh).empty()) {
+    if (has_textures && format.ending == ".ac" && single_picture(mesh).empty()) {
         notes.push_back(fmt::format(
             "{}: texture coordinates are written without a picture, as the materials do not have "
             "one in common",
@@ -222,7 +222,7 @@ notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh) {
     return notes;
 }
 
-double rounding_m(const std::filesystem::path& path, const Bounds& bounds) {
+double rounding_m(const std::filesystem::path& path, const BoundingBox& bounds) {
     const Format& format = format_of(path);
     if (!format.places_in_float) {
         return 0.0;
@@ -245,7 +245,7 @@ bool is_mesh_file(const std::filesystem::path& path) {
     return find_format(path) != nullptr;
 }
 
-bool is_written_mesh_file(const std::filesystem::path& path) {
+bool is_writable_mesh_file(const std::filesystem::path& path) {
     const Format* format = find_format(path);
     return format != nullptr && format->write != nullptr;
 }

@@ -15,7 +15,7 @@ namespace octant::models::meshfile {
 /// -set.xml, which names its model; read only). Polygons are cut into triangles; nothing else is
 /// changed: see repair.h. Scenes are read as they stand (nodes placed, mirrored ones turned round
 /// again), axes and units as the file has them.
-/// Whole-number colours stand for 0..1. Colours are display values (models/display_colour.h); those
+/// Whole-number colours stand for 0..1. Colours are display values (models/srgb.h); those
 /// of glTF, linear in its files, are converted.
 ///
 /// Texture coordinates and the names of materials' pictures are read from .obj, .ac and
@@ -51,16 +51,16 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 /// What write_mesh leaves out of a mesh in the format that the ending says, a line each: "FILE: the
 /// format holds no ..., which are left out". Empty where the file holds all.
 std::vector<std::string>
-notes_on_writing(const std::filesystem::path& path, const TriangleMesh& mesh);
+write_warnings(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 /// No coordinate within `bounds` moves farther than this when write_mesh rounds it, metres: 0 where
 /// the format keeps double precision.
-double rounding_m(const std::filesystem::path& path, const Bounds& bounds);
+double rounding_m(const std::filesystem::path& path, const BoundingBox& bounds);
 
 /// Whether read_mesh knows the ending.
 bool is_mesh_file(const std::filesystem::path& path);
 
 /// Whether write_mesh knows it, too.
-bool is_written_mesh_file(const std::filesystem::path& path);
+bool is_writable_mesh_file(const std::filesystem::path& path);
 
 } // namespace octant::models::meshfile

@@ -52,7 +52,7 @@ std::string stl_bytes(const TriangleMesh& mesh);
 /// the translation of the node. PNG and JPEG pictures are written into the file.
 /// Where coordinates of a glTF file count from: 0 where the bounding box is near it, else a point
 /// in its middle with coordinates in float, so that less of their digits is lost.
-glm::dvec3 gltf_origin_m(const Bounds& bounds);
+glm::dvec3 gltf_origin_m(const BoundingBox& bounds);
 
 /// Whether the bytes are of a picture that glTF files may hold: PNG or JPEG.
 bool is_gltf_picture(std::string_view bytes);
@@ -65,7 +65,7 @@ std::string glb_bytes(const TriangleMesh& mesh);
 std::string ac3d_text(const TriangleMesh& mesh);
 
 /// The picture that all materials with a picture have; empty where they have several or none.
-std::string only_picture(const TriangleMesh& mesh);
+std::string single_picture(const TriangleMesh& mesh);
 
 /// VRML 2.0, without texture coordinates: an IndexedFaceSet a material, triangles therefore in the
 /// order of their materials.

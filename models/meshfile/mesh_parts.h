@@ -9,7 +9,7 @@
 namespace octant::models::meshfile {
 
 /// Surfaces of materials or pictures through which what lies behind is seen: the glass of canopies.
-struct ClearSurfaces {
+struct TransparentSurfaces {
     TriangleMesh mesh;    ///< often without a triangle
     float opacity = 1.0F; ///< mean of their materials: how much they hide, above 0 and below 1
 };
@@ -18,7 +18,7 @@ struct ClearSurfaces {
 struct MeshParts {
     TriangleMesh body;                ///< has the notes on all of them
     std::vector<TriangleMesh> groups; ///< those of the options
-    ClearSurfaces clear;
+    TransparentSurfaces clear;
 };
 
 /// As read_mesh, in one reading of the file, with what is clear (of .ac, .obj and glTF files) and

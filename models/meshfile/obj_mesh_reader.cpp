@@ -2,7 +2,7 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/word_scanner.h"
 #include "models/polygons/mtl_reader.h"
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -29,7 +29,7 @@ public:
     /// What the file holds, to be finished.
     MeshBuilder read() {
         const std::string text = read_text_file(path_, largest_obj_bytes);
-        polygons::ObjLines lines(text);
+        polygons::ObjLineReader lines(text);
         while (lines.next()) {
             line_ = lines.number();
             take(lines.text());
@@ -40,7 +40,7 @@ public:
 
 private:
     [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
     }
 
     /// Lines of other keywords say nothing about triangles.
@@ -59,7 +59,7 @@ private:
             take_polygon(words);
         } else if (words[0] == "usemtl") {
             material_name_ = std::string(polygons::after_first_word(line));
-            material_ = no_index;
+            material_ = invalid_index;
             picture_ = BakedPictures::none;
         } else if (words[0] == "mtllib") {
             take_material_files(std::string(polygons::after_first_word(line)), words);
@@ -120,10 +120,10 @@ private:
     }
 
     /// A corner written as 7, 7/1, 7//3 or 7/1/3.
-    Corner corner(std::string_view word) const {
+    CornerIndices corner(std::string_view word) const {
         const std::size_t slash = word.find('/');
         const std::size_t second = word.find('/', std::min(slash, word.size() - 1) + 1);
-        Corner found;
+        CornerIndices found;
         found.vertex = index(word.substr(0, slash), mesh_.vertex_count(), "vertex");
         if (second != std::string_view::npos && second + 1 < word.size()) {
             found.normal = index(word.substr(second + 1), mesh_.normal_count(), "normal");
@@ -154,14 +154,14 @@ private:
     /// Of the materials that have one; BakedPictures::none for the others.
     std::uint32_t picture_of(const std::string& material) {
         const auto named = picture_names_.find(material);
-        return named == picture_names_.end() || !mesh_.takes_pictures()
+        return named == picture_names_.end() || !mesh_.uses_pictures()
                    ? BakedPictures::none
                    : mesh_.pictures().picture(named->second);
     }
 
     /// Of the polygons from here on; materials come in the order of their first polygon.
     std::uint32_t material() {
-        if (!material_name_ || material_ != no_index) {
+        if (!material_name_ || material_ != invalid_index) {
             return material_;
         }
         picture_ = picture_of(*material_name_);
@@ -230,14 +230,14 @@ private:
     std::filesystem::path path_;
     MeshBuilder mesh_;
     std::optional<std::string> material_name_;
-    std::uint32_t material_ = no_index; ///< of material_name_, once a polygon has it
+    std::uint32_t material_ = invalid_index; ///< of material_name_, once a polygon has it
     std::map<std::string, std::uint32_t> materials_;
     std::map<std::string, glm::vec3> colours_;
     std::map<std::string, float> opacities_;           ///< of materials that are not opaque
     std::map<std::string, std::string> picture_names_; ///< of materials
     std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
     std::map<std::string, int> missing_;               ///< with the line that names them first
-    std::vector<Corner> corners_;
+    std::vector<CornerIndices> corners_;
     int line_ = 0;
 };
 

@@ -44,7 +44,7 @@ void append_vertices(std::string& text, const TriangleMesh& mesh) {
 } // namespace
 
 ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
-    const std::vector<std::string> names = writable_names(mesh.materials);
+    const std::vector<std::string> names = unique_material_names(mesh.materials);
     ObjMeshText text;
     text.mtl = mtl_text(mesh, names);
     text.obj =
@@ -54,7 +54,7 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
     }
     append_vertices(text.obj, mesh);
     const auto out = std::back_inserter(text.obj);
-    std::uint32_t material = no_index;
+    std::uint32_t material = invalid_index;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!mesh.triangle_materials.empty() && mesh.triangle_materials[t] != material) {
             material = mesh.triangle_materials[t];
@@ -64,7 +64,7 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
         for (std::size_t k = 0; k < 3; ++k) {
             fmt::format_to(out, " {}", mesh.triangles[t][k] + 1);
             const bool has_texture = !mesh.corner_texture_coordinates.empty() &&
-                                     mesh.corner_texture_coordinates[t][k] != no_index;
+                                     mesh.corner_texture_coordinates[t][k] != invalid_index;
             if (has_texture) {
                 fmt::format_to(out, "/{}", mesh.corner_texture_coordinates[t][k] + 1);
             }

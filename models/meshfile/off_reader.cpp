@@ -48,7 +48,7 @@ OffHeader read_header(const std::filesystem::path& path, std::string_view text) 
     header.has_normals = take(rest, "N");
     if (!take(rest, "OFF") || rest.substr(rest.find_first_not_of(" \t")).starts_with("BINARY")) {
         const std::string_view word = text.substr(first, text.find_first_of("\r\n", first) - first);
-        error_at(
+        throw_error_at(
             path,
             line,
             fmt::format(
@@ -137,13 +137,13 @@ private:
                 "the number of a vertex", 0, static_cast<long>(mesh_.vertex_count()) - 1));
             corners_.push_back(
                 {vertex,
-                 header_.has_normals ? vertex : no_index,
-                 header_.has_textures ? vertex : no_index});
+                 header_.has_normals ? vertex : invalid_index,
+                 header_.has_textures ? vertex : invalid_index});
         }
         const int line = words_.line();
         const std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         has_map_colours_ = has_map_colours_ || rest.size() == 1;
-        const std::uint32_t material = rest.size() < 2 ? no_index : material_of(colour(rest, line));
+        const std::uint32_t material = rest.size() < 2 ? invalid_index : material_of(colour(rest, line));
         if (count < 3) {
             ++small_faces_;
         } else {
@@ -172,7 +172,7 @@ private:
     }
 
     std::uint32_t material_of(const glm::vec3& colour) {
-        const auto [at, is_new] = materials_.try_emplace({colour.x, colour.y, colour.z}, no_index);
+        const auto [at, is_new] = materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
         if (is_new) {
             at->second =
                 mesh_.add_material({fmt::format("face colour {}", materials_.size()), colour});
@@ -187,7 +187,7 @@ private:
 
     [[noreturn]] void refuse(
         int line, const std::string& expected, const std::vector<std::string_view>& words) const {
-        error_at(
+        throw_error_at(
             path_,
             line,
             fmt::format(
@@ -200,7 +200,7 @@ private:
     WordScanner words_;
     MeshBuilder mesh_;
     std::filesystem::path path_;
-    std::vector<Corner> corners_;
+    std::vector<CornerIndices> corners_;
     std::map<std::array<float, 3>, std::uint32_t> materials_; ///< by colours of faces
     std::size_t small_faces_ = 0;
     bool has_map_colours_ = false;

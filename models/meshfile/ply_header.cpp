@@ -41,10 +41,10 @@ constexpr std::array<TypeName, 16> type_names{
      {"float64", PlyType::f64}}};
 
 /// The least that one element takes in the body: what a count is held against.
-std::size_t min_element_bytes(const PlyElement& element, PlyForm form) {
+std::size_t min_element_bytes(const PlyElement& element, PlyEncoding form) {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) {
-        bytes += form == PlyForm::ascii ? 2
+        bytes += form == PlyEncoding::ascii ? 2
                  : property.is_list     ? bytes_of(property.count_type)
                                         : bytes_of(property.type);
     }
@@ -89,7 +89,7 @@ public:
 
 private:
     [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+        throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
     }
 
     std::string_view next_line() {
@@ -112,11 +112,11 @@ private:
             refuse("'format FORM 1.0'", in_quotes(text_));
         }
         if (form == "ascii") {
-            header_.form = PlyForm::ascii;
+            header_.form = PlyEncoding::ascii;
         } else if (form == "binary_little_endian") {
-            header_.form = PlyForm::little_endian;
+            header_.form = PlyEncoding::little_endian;
         } else if (form == "binary_big_endian") {
-            header_.form = PlyForm::big_endian;
+            header_.form = PlyEncoding::big_endian;
         } else {
             refuse("ascii, binary_little_endian or binary_big_endian", in_quotes(form));
         }
@@ -157,7 +157,7 @@ private:
         property.type = type_of(words[words.size() - 2]);
         if (is_list) {
             property.count_type = type_of(words[2]);
-            if (largest_share(property.count_type) == 1.0) {
+            if (normalization_divisor(property.count_type) == 1.0) {
                 refuse("a whole number as the count of a list", in_quotes(text_));
             }
         }
@@ -167,7 +167,7 @@ private:
     void check_counts() {
         const std::size_t room = bytes_.size() - header_.body_at;
         // The last number of an ascii body may stand without a blank behind it.
-        const std::size_t spare = header_.form == PlyForm::ascii ? 1 : 0;
+        const std::size_t spare = header_.form == PlyEncoding::ascii ? 1 : 0;
         for (std::size_t i = 0; i < header_.elements.size(); ++i) {
             const PlyElement& element = header_.elements[i];
             const std::size_t least = min_element_bytes(element, header_.form);
@@ -213,7 +213,7 @@ std::size_t bytes_of(PlyType type) {
     return 8;
 }
 
-double largest_share(PlyType type) {
+double normalization_divisor(PlyType type) {
     switch (type) {
     case PlyType::i8:
         return 127.0;

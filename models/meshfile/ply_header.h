@@ -14,7 +14,7 @@ enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
 std::size_t bytes_of(PlyType type);
 
 /// What stands for a colour part of 1: the largest of a whole-number type; 1 for float and double.
-double largest_share(PlyType type);
+double normalization_divisor(PlyType type);
 
 struct PlyProperty {
     std::string name;
@@ -29,10 +29,10 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
 };
 
-enum class PlyForm : std::uint8_t { ascii, little_endian, big_endian };
+enum class PlyEncoding : std::uint8_t { ascii, little_endian, big_endian };
 
 struct PlyHeader {
-    PlyForm form = PlyForm::ascii;
+    PlyEncoding form = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
     std::size_t body_at = 0; ///< byte behind the header
     int body_line = 1;

@@ -55,7 +55,7 @@ public:
               path,
               bytes,
               header.body_at,
-              header.form == PlyForm::big_endian ? std::endian::big : std::endian::little) {}
+              header.form == PlyEncoding::big_endian ? std::endian::big : std::endian::little) {}
 
     double number(PlyType type, const char* what) {
         const double value = raw(type, what);
@@ -238,7 +238,7 @@ private:
     }
 
     double colour_part(const PlyProperty& property) {
-        const double largest = largest_share(property.type);
+        const double largest = normalization_divisor(property.type);
         const double value = source_.number(property.type, "a part of a colour");
         if (value < 0.0 || value > largest) {
             source_.refuse(
@@ -316,14 +316,14 @@ private:
         }
     }
 
-    Corner corner(double number) const {
+    CornerIndices corner(double number) const {
         if (!(number >= 0.0 && number < static_cast<double>(mesh_.vertex_count())) ||
             number != std::floor(number)) {
             source_.refuse(
                 fmt::format("a vertex below {}", mesh_.vertex_count()), fmt::format("{}", number));
         }
         const auto vertex = static_cast<std::uint32_t>(number);
-        return {vertex, has_normals_ ? vertex : no_index, has_textures_ ? vertex : no_index};
+        return {vertex, has_normals_ ? vertex : invalid_index, has_textures_ ? vertex : invalid_index};
     }
 
     /// Strips of triangles, one behind the other, -1 between them. Every second triangle of a strip
@@ -346,8 +346,8 @@ private:
     }
 
     /// Of two corners and the last one of the strip at hand.
-    void add_triangle(const Corner& a, const Corner& b) {
-        const Corner& c = corners_.back();
+    void add_triangle(const CornerIndices& a, const CornerIndices& b) {
+        const CornerIndices& c = corners_.back();
         if (a.vertex != b.vertex && b.vertex != c.vertex && c.vertex != a.vertex) {
             mesh_.add_polygon(std::array{a, b, c});
         }
@@ -366,7 +366,7 @@ private:
     bool has_normals_ = false;
     bool has_colours_ = false;
     bool has_textures_ = false;
-    std::vector<Corner> corners_;
+    std::vector<CornerIndices> corners_;
     std::vector<double> places_; ///< of the face at hand on its picture
 };
 
@@ -375,7 +375,7 @@ private:
 TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
     const std::string bytes = read_file(path, largest_ply_bytes);
     const PlyHeader header = read_ply_header(path, bytes);
-    return header.form == PlyForm::ascii ? BodyReading<WordSource>(path, bytes, header).read()
+    return header.form == PlyEncoding::ascii ? BodyReading<WordSource>(path, bytes, header).read()
                                          : BodyReading<ByteSource>(path, bytes, header).read();
 }
 

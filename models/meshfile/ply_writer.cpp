@@ -41,12 +41,12 @@ std::vector<Value> of_vertices(
     if (corners.empty()) {
         return {};
     }
-    std::vector<std::uint32_t> of_vertex(mesh.vertices_m.size(), no_index);
+    std::vector<std::uint32_t> of_vertex(mesh.vertices_m.size(), invalid_index);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint32_t& known = of_vertex[mesh.triangles[t][k]];
             const std::uint32_t value = corners[t][k];
-            if (known != no_index && (value == no_index || values[known] != values[value])) {
+            if (known != invalid_index && (value == invalid_index || values[known] != values[value])) {
                 return {};
             }
             known = value;
@@ -55,7 +55,7 @@ std::vector<Value> of_vertices(
     std::vector<Value> found;
     found.reserve(of_vertex.size());
     for (const std::uint32_t value : of_vertex) {
-        found.push_back(value == no_index ? without : values[value]);
+        found.push_back(value == invalid_index ? without : values[value]);
     }
     return found;
 }
@@ -80,9 +80,9 @@ void append_face(std::string& bytes, const TriangleMesh& mesh, std::size_t t, bo
         return;
     }
     const Triangle& corners = mesh.corner_texture_coordinates[t];
-    append_number(bytes, std::uint8_t{static_cast<std::uint8_t>(corners[0] == no_index ? 0 : 6)});
+    append_number(bytes, std::uint8_t{static_cast<std::uint8_t>(corners[0] == invalid_index ? 0 : 6)});
     for (const std::uint32_t corner : corners) {
-        if (corner != no_index) {
+        if (corner != invalid_index) {
             append_number(bytes, mesh.texture_coordinates[corner].x);
             append_number(bytes, mesh.texture_coordinates[corner].y);
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 
 #include <filesystem>
 #include <map>
@@ -24,12 +24,12 @@ struct ReadOptions {
     /// Objects of .ac files that by their names stand for what is no surface (discs of turning
     /// blades, cones of light, shadows on the ground) are read like others. They are in any case if
     /// there is nothing else.
-    bool stand_ins = true;
+    bool placeholders = true;
     /// Objects of .ac files that are left out, by their names, with what hangs on them.
-    std::set<std::string> left_out = {};
+    std::set<std::string> excluded = {};
     /// Where objects of .ac files are moved to, by their names, with what hangs on them; axes of
     /// the file. What moves an object moves those that hang on it after they were moved themselves.
-    std::map<std::string, Placement> moved = {};
+    std::map<std::string, AffineTransform> moved = {};
     /// Objects of .ac files that read_parts gives apart, by their names, with what hangs on them:
     /// of nested ones the outermost counts, of several groups the first.
     std::vector<std::set<std::string>> groups = {};

@@ -2,7 +2,7 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/word_scanner.h"
-#include "models/repair/vertex_twins.h"
+#include "models/repair/vertex_welding.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
@@ -26,17 +26,17 @@ public:
 
     TriangleMesh welded(MeshBuilder& mesh) const {
         const std::vector<std::uint32_t> firsts =
-            repair::first_twins(places_m_, {}, std::vector<bool>(places_m_.size(), true));
-        std::vector<std::uint32_t> vertices(places_m_.size(), no_index);
+            repair::first_duplicates(places_m_, {}, std::vector<bool>(places_m_.size(), true));
+        std::vector<std::uint32_t> vertices(places_m_.size(), invalid_index);
         for (std::uint32_t corner = 0; corner < firsts.size(); ++corner) {
             vertices[corner] = firsts[corner] == corner ? mesh.add_vertex(places_m_[corner])
                                                         : vertices[firsts[corner]];
         }
         for (std::size_t corner = 0; corner + 2 < vertices.size(); corner += 3) {
-            mesh.add_polygon(std::array<Corner, 3>{
-                Corner{vertices[corner]},
-                Corner{vertices[corner + 1]},
-                Corner{vertices[corner + 2]}});
+            mesh.add_polygon(std::array<CornerIndices, 3>{
+                CornerIndices{vertices[corner]},
+                CornerIndices{vertices[corner + 1]},
+                CornerIndices{vertices[corner + 2]}});
         }
         return mesh.finish();
     }

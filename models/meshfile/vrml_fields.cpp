@@ -1,6 +1,6 @@
 #include "models/meshfile/vrml_fields.h"
 
-#include "models/meshfile/vrml_words.h"
+#include "models/meshfile/vrml_tokenizer.h"
 #include "models/meshfile/word_scanner.h"
 #include "sim/base/error.h"
 
@@ -39,7 +39,7 @@ std::vector<double> VrmlFields::numbers(
     if (field == nullptr) {
         return otherwise;
     }
-    VrmlWords words(path_, field->text, field->line);
+    VrmlTokenizer words(path_, field->text, field->line);
     for (double& value : otherwise) {
         value = words.number(name);
     }
@@ -55,13 +55,13 @@ VrmlFields::vector(const VrmlNode& node, std::string_view name, const glm::dvec3
 glm::dmat3 VrmlFields::turn(const VrmlNode& node, std::string_view name) const {
     const auto v = numbers(node, name, {0.0, 0.0, 1.0, 0.0});
     if (std::abs(v[3]) > max_rad) {
-        error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
+        throw_error_at(path_, node.line, fmt::format("expected an angle in radians, got {}", v[3]));
     }
     return turned_about({v[0], v[1], v[2]}, v[3]);
 }
 
 /// translation * center * rotation * scaleOrientation * scale * -scaleOrientation * -center.
-Placement VrmlFields::placement(const VrmlNode& node) const {
+AffineTransform VrmlFields::placement(const VrmlNode& node) const {
     const glm::dvec3 centre_m = vector(node, "center", glm::dvec3(0.0));
     const glm::dvec3 scale = vector(node, "scale", glm::dvec3(1.0));
     const glm::dmat3 slant = turn(node, "scaleOrientation");
@@ -69,7 +69,7 @@ Placement VrmlFields::placement(const VrmlNode& node) const {
     for (int part = 0; part < 3; ++part) {
         scaled[part][part] = scale[part];
     }
-    Placement made;
+    AffineTransform made;
     made.turn = turn(node, "rotation");
     if (scale != glm::dvec3(1.0)) {
         made.turn = made.turn * slant * scaled * glm::transpose(slant);
@@ -93,7 +93,7 @@ bool VrmlFields::flag(const VrmlNode& node, std::string_view name) const {
         return true;
     }
     if (field->text != "FALSE") {
-        error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
+        throw_error_at(path_, field->line, "expected TRUE or FALSE, got " + in_quotes(field->text));
     }
     return false;
 }
@@ -101,7 +101,7 @@ bool VrmlFields::flag(const VrmlNode& node, std::string_view name) const {
 std::vector<long> VrmlFields::indices(const VrmlNode& node, std::string_view name) const {
     std::vector<long> found;
     if (const VrmlField* field = node.field(name)) {
-        VrmlWords words(path_, field->text, field->line);
+        VrmlTokenizer words(path_, field->text, field->line);
         while (!words.peek().empty()) {
             found.push_back(words.whole("a whole number"));
         }
@@ -117,7 +117,7 @@ VrmlFields::triples(const VrmlNode& set, std::string_view field_name, std::strin
     if (field == nullptr) {
         return found;
     }
-    VrmlWords words(path_, field->text, field->line);
+    VrmlTokenizer words(path_, field->text, field->line);
     while (!words.peek().empty()) {
         const double x = words.number("a number");
         const double y = words.number("a number");

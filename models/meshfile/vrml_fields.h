@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 #include "models/meshfile/vrml_nodes.h"
 
 #include <glm/vec3.hpp>
@@ -38,7 +38,7 @@ public:
     const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const;
 
     /// How a Transform places the nodes that it holds.
-    Placement placement(const VrmlNode& transform) const;
+    AffineTransform placement(const VrmlNode& transform) const;
 
     /// Place of a node in VrmlFile::nodes.
     std::uint32_t place_of(const VrmlNode& node) const;

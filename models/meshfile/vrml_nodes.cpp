@@ -1,6 +1,6 @@
 #include "models/meshfile/vrml_nodes.h"
 
-#include "models/meshfile/vrml_words.h"
+#include "models/meshfile/vrml_tokenizer.h"
 #include "models/meshfile/word_scanner.h"
 #include "sim/base/error.h"
 
@@ -56,7 +56,7 @@ private:
         if (!is_name(word)) {
             return false;
         }
-        VrmlWords ahead = words_;
+        VrmlTokenizer ahead = words_;
         ahead.take("a node");
         return ahead.peek() == "{";
     }
@@ -164,7 +164,7 @@ private:
             if (is_list ? word == "]" : word == "}" || is_name(word)) {
                 break;
             }
-            if (VrmlWords::is_mark(word)) {
+            if (VrmlTokenizer::is_punctuation(word)) {
                 words_.refuse("a value of a field", in_quotes(word));
             }
             words_.take("a value");
@@ -179,7 +179,7 @@ private:
         return field;
     }
 
-    VrmlWords words_;
+    VrmlTokenizer words_;
     VrmlFile file_;
     std::map<std::string_view, std::uint32_t> named_;
 };

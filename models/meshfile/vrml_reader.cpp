@@ -1,9 +1,9 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/placement.h"
+#include "models/meshfile/affine_transform.h"
 #include "models/meshfile/vrml_fields.h"
 #include "models/meshfile/vrml_nodes.h"
-#include "models/meshfile/vrml_words.h"
+#include "models/meshfile/vrml_tokenizer.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -53,7 +53,7 @@ public:
         , file_(read_vrml_nodes(path_, text))
         , fields_(path_, file_)
         , mesh_(path)
-        , used_materials_(file_.nodes.size(), no_index) {}
+        , used_materials_(file_.nodes.size(), invalid_index) {}
 
     TriangleMesh read() {
         for (const std::uint32_t root : file_.roots) {
@@ -71,11 +71,11 @@ public:
 
 private:
     [[noreturn]] void refuse(int line, std::string_view expected, std::string_view got) const {
-        error_at(path_, line, fmt::format("expected {}, got {}", expected, got));
+        throw_error_at(path_, line, fmt::format("expected {}, got {}", expected, got));
     }
 
     /// `group` tells apart the places at which a node is met.
-    void visit(std::uint32_t at, const Placement& placement, std::size_t group, int depth) {
+    void visit(std::uint32_t at, const AffineTransform& placement, std::size_t group, int depth) {
         const VrmlNode& node = file_.nodes[at];
         if (depth > max_vrml_depth || ++visits_ > max_visits) {
             refuse(
@@ -98,7 +98,7 @@ private:
             return;
         }
         const bool first_only = node.type == "LOD";
-        const Placement inner =
+        const AffineTransform inner =
             node.type == "Transform" ? placement.of(fields_.placement(node)) : placement;
         const std::size_t inner_group = visits_;
         for (const std::uint32_t child : children->nodes) {
@@ -109,19 +109,19 @@ private:
         }
     }
 
-    void take_switch(const VrmlNode& node, const Placement& placement, int depth) {
+    void take_switch(const VrmlNode& node, const AffineTransform& placement, int depth) {
         const VrmlField* which = node.field("whichChoice");
         const VrmlField* choices = node.field("choice");
         if (which == nullptr || choices == nullptr) {
             return;
         }
-        const long chosen = VrmlWords(path_, which->text, which->line).whole("a choice");
+        const long chosen = VrmlTokenizer(path_, which->text, which->line).whole("a choice");
         if (chosen >= 0 && std::cmp_less(chosen, choices->nodes.size())) {
             visit(choices->nodes[static_cast<std::size_t>(chosen)], placement, visits_, depth + 1);
         }
     }
 
-    void take_shape(const VrmlNode& shape, const Placement& placement, std::size_t group) {
+    void take_shape(const VrmlNode& shape, const AffineTransform& placement, std::size_t group) {
         const VrmlNode* set = fields_.only_node(shape, "geometry");
         const VrmlNode* coord = set == nullptr ? nullptr : fields_.only_node(*set, "coord");
         if (coord == nullptr || set->type != "IndexedFaceSet") {
@@ -159,7 +159,7 @@ private:
 
     /// Shapes of one group that have the same points share their vertices.
     void take_points(
-        const VrmlNode& set, const VrmlNode& coord, const Placement& placement, std::size_t group) {
+        const VrmlNode& set, const VrmlNode& coord, const AffineTransform& placement, std::size_t group) {
         const auto key = std::pair(group, fields_.place_of(coord));
         const auto known = points_.find(key);
         if (known != points_.end()) {
@@ -193,10 +193,10 @@ private:
         const VrmlNode* node =
             appearance == nullptr ? nullptr : fields_.only_node(*appearance, "material");
         if (node == nullptr || node->type != "Material") {
-            return no_index;
+            return invalid_index;
         }
         std::uint32_t& used = used_materials_[fields_.place_of(*node)];
-        if (used == no_index) {
+        if (used == invalid_index) {
             const glm::dvec3 colour = fields_.vector(*node, "diffuseColor", glm::dvec3(0.8));
             check_colour(colour, node->line);
             const std::string name(node->name.empty() ? "material" : node->name);
@@ -256,7 +256,7 @@ private:
         for (std::size_t corner = first; corner < first + count; ++corner) {
             const std::size_t point =
                 checked(faces.corners[corner], point_count_, faces, "a point");
-            Corner made{static_cast<std::uint32_t>(first_point_ + point)};
+            CornerIndices made{static_cast<std::uint32_t>(first_point_ + point)};
             if (!faces.colours.empty() && faces.colour_per_vertex) {
                 made.vertex = coloured(
                     made.vertex,
@@ -306,7 +306,7 @@ private:
             return vertex;
         }
         const auto [at, is_new] =
-            copies_.try_emplace({vertex, colour.x, colour.y, colour.z}, no_index);
+            copies_.try_emplace({vertex, colour.x, colour.y, colour.z}, invalid_index);
         if (is_new) {
             at->second = mesh_.add_vertex(mesh_.vertex_m(vertex));
             mesh_.set_colour(at->second, colour);
@@ -318,7 +318,7 @@ private:
     /// The material that stands for a colour of whole faces.
     std::uint32_t face_material(const glm::dvec3& colour) {
         const auto [at, is_new] =
-            face_materials_.try_emplace({colour.x, colour.y, colour.z}, no_index);
+            face_materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
         if (is_new) {
             at->second = mesh_.add_material(
                 {fmt::format("face colour {}", face_materials_.size()), glm::vec3(colour)});
@@ -337,7 +337,7 @@ private:
     std::vector<bool> coloured_; ///< vertices that have a colour
     std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> copies_;
     std::map<std::tuple<double, double, double>, std::uint32_t> face_materials_;
-    std::vector<Corner> polygon_;
+    std::vector<CornerIndices> polygon_;
     std::size_t visits_ = 0;
     std::size_t numbers_ = 0; ///< met so far
     bool has_textures_ = false;

@@ -32,7 +32,7 @@ class ShapeWriting {
 public:
     explicit ShapeWriting(const TriangleMesh& mesh)
         : mesh_(mesh)
-        , names_(writable_names(mesh.materials)) {}
+        , names_(unique_material_names(mesh.materials)) {}
 
     std::string text() {
         text_ = "#VRML V2.0 utf8\nGroup { children [\n";

@@ -82,7 +82,7 @@ long WordScanner::whole(std::string_view what, long least, long most) {
 }
 
 void WordScanner::refuse(std::string_view expected, std::string_view got) const {
-    error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+    throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
 }
 
 std::string in_quotes(std::string_view text) {

@@ -33,7 +33,7 @@ public:
 
 private:
     [[noreturn]] void refuse(std::string_view expected, std::string_view got) const {
-        error_at(file_, line_, fmt::format("expected {}, got {}", expected, got));
+        throw_error_at(file_, line_, fmt::format("expected {}, got {}", expected, got));
     }
 
     void take(std::size_t count) {

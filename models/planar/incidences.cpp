@@ -1,7 +1,7 @@
 #include "models/planar/incidences.h"
 
-#include "models/planar/near_vertices.h"
-#include "models/polygons/edge_parts.h"
+#include "models/planar/vertex_grid.h"
+#include "models/polygons/separating_edge.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -99,7 +99,7 @@ private:
         const auto place = [&](std::uint32_t corner) -> const glm::dvec3& {
             return vertices_[corner];
         };
-        return polygons::edge_parts(corners_, normal_, other.corners_, reach, place);
+        return polygons::has_separating_edge(corners_, normal_, other.corners_, reach, place);
     }
 
     std::span<const glm::dvec3> vertices_;
@@ -114,7 +114,7 @@ private:
 void add_touching(
     Incidence& incidence,
     const ClosedOutline& outline,
-    const NearVertices& near,
+    const VertexGrid& near,
     std::span<const glm::dvec3> vertices,
     double reach,
     const std::function<bool(std::uint32_t)>& may_touch) {
@@ -178,7 +178,7 @@ std::vector<Incidence> incidences_of(
     std::span<const std::uint32_t> places,
     std::span<const std::uint32_t> kind,
     double reach) {
-    const NearVertices near(vertices);
+    const VertexGrid near(vertices);
     std::vector<bool> used(vertices.size());
     for (const std::uint32_t vertex : model.corner_vertices) {
         used[places[vertex]] = true;

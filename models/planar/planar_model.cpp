@@ -2,7 +2,7 @@
 
 #include "models/planar/decimal_grid.h"
 #include "models/planar/incidences.h"
-#include "models/planar/near_vertices.h"
+#include "models/planar/vertex_grid.h"
 #include "models/planar/own_axes.h"
 #include "models/planar/planarize.h"
 #include "models/polygons/convex_pieces.h"
@@ -182,7 +182,7 @@ std::vector<Outline> pieces_of(const PolygonModel& model, const Outline& outline
 }
 
 /// Replaces bent and dented polygons by pieces and leaves those without an area out.
-void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
+void triangulated_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
     PolygonModel& model = planar.model;
     PolygonModel out;
     std::vector<std::uint32_t> parents;
@@ -197,8 +197,8 @@ void cut_polygons(PlanarModel& planar, const std::vector<bool>& bent) {
             pieces, [&](const Outline& piece) { return has_no_area(places_of(model, piece)); });
         const bool is_faulty =
             pieces.size() > 1 && polygons::corners_fault(places_of(model, whole), touching_reach);
-        planar.cut_polygons += is_faulty ? 1 : 0;
-        planar.lost_polygons += pieces.empty() ? 1 : 0;
+        planar.triangulated_polygons += is_faulty ? 1 : 0;
+        planar.dropped_polygons += pieces.empty() ? 1 : 0;
         is_changed = is_changed || pieces.size() != 1;
         for (const Outline& piece : pieces) {
             polygons::Polygon polygon = model.polygons[i];
@@ -233,16 +233,16 @@ PlanarModel planar_model(const PolygonModel& model, Attitude attitude) {
         pivot.point_m = (point_steps * planar.axes - planar.centre_steps) / planar.radius_steps;
         pivot.axis = pivot.axis * planar.axes;
     }
-    cut_polygons(planar, move_vertices(planar.model));
+    triangulated_polygons(planar, move_vertices(planar.model));
     return planar;
 }
 
-PolygonModel as_given(PolygonModel changed, const PlanarModel& planar, const PolygonModel& given) {
+PolygonModel in_model_frame(PolygonModel changed, const PlanarModel& planar, const PolygonModel& given) {
     for (std::size_t i = 0; i < changed.vertices_m.size(); ++i) {
         glm::dvec3& vertex = changed.vertices_m[i];
         const bool is_still =
             i < given.vertices_m.size() && vertex == in_radii(planar, given.vertices_m[i]);
-        vertex = is_still ? given.vertices_m[i] : planar.in_given(vertex);
+        vertex = is_still ? given.vertices_m[i] : planar.to_model_frame(vertex);
     }
     changed.pivots = given.pivots;
     return changed;

@@ -40,19 +40,19 @@ struct PlanarModel {
     double step_m() const { return grid_m > 0.0 ? grid_m : 1.0; }
 
     /// From radii to the place, size, attitude and unit of the model as given.
-    glm::dvec3 in_given(const glm::dvec3& point) const {
+    glm::dvec3 to_model_frame(const glm::dvec3& point) const {
         return (base_steps + axes * (centre_steps + point * radius_steps)) * step_m();
     }
 
-    Plane in_given(const Plane& plane) const {
+    Plane to_model_frame(const Plane& plane) const {
         const glm::dvec3 normal = axes * plane.normal;
-        return {normal, plane.offset_m * radius_m - glm::dot(normal, in_given(glm::dvec3(0.0)))};
+        return {normal, plane.offset_m * radius_m - glm::dot(normal, to_model_frame(glm::dvec3(0.0)))};
     }
 
     /// How many polygons were bent or dented by more than touching_reach and are cut into pieces.
     /// Smaller faults come from the decimals of a file; their polygons are cut, but not counted.
-    int cut_polygons = 0;
-    int lost_polygons = 0; ///< How many had no area and are left out.
+    int triangulated_polygons = 0;
+    int dropped_polygons = 0; ///< How many had no area and are left out.
 };
 
 /// Which axes a planar model has: its own (own_axes.h), so that a model that is turned becomes the
@@ -65,7 +65,7 @@ PlanarModel planar_model(const polygons::PolygonModel& model, Attitude attitude 
 /// Back to the place, size, attitude and unit of the model as given: vertices that planar_model()
 /// did not move have the same bits as there. `changed` is the model of `planar`, or what was made
 /// of it by adding vertices and polygons.
-polygons::PolygonModel as_given(
+polygons::PolygonModel in_model_frame(
     polygons::PolygonModel changed, const PlanarModel& planar, const polygons::PolygonModel& given);
 
 } // namespace octant::models::planar

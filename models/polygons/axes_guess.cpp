@@ -31,7 +31,7 @@ constexpr double clear_lead = 1.12;
 class Cells {
 public:
     explicit Cells(const TriangleMesh& mesh) {
-        const Bounds bounds = bounds_of(mesh);
+        const BoundingBox bounds = bounds_of(mesh);
         const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
         size_m_ = std::max({extent_m.x, extent_m.y, extent_m.z}) / (cells_along - 2);
         for (int k = 0; k < 3; ++k) {
@@ -169,7 +169,7 @@ glm::dvec3 along(int axis, int sign) {
 
 } // namespace
 
-std::optional<FileAxes> guessed_axes(const TriangleMesh& mesh) {
+std::optional<FileAxes> guess_axes(const TriangleMesh& mesh) {
     if (mesh.triangles.empty() || !(diagonal_m(mesh) > 0.0)) {
         return std::nullopt;
     }

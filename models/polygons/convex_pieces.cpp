@@ -13,7 +13,7 @@
 
 #include "models/polygons/convex_pieces.h"
 
-#include "models/polygons/flat_outline.h"
+#include "models/polygons/projected_outline.h"
 #include "models/polygons/polygon_check.h"
 
 #include <glm/geometric.hpp>
@@ -289,9 +289,9 @@ ConvexPieces convex_pieces(std::span<const glm::dvec3> corners_m, double toleran
     if (const auto fault = outline_fault(corners_m)) {
         return {{}, *fault};
     }
-    const Outline outline = flat_outline(corners_m);
+    const Outline outline = projected_outline(corners_m);
     const std::size_t count = corners_m.size();
-    if (const auto sides = meeting_sides(outline)) {
+    if (const auto sides = intersecting_sides(outline)) {
         return {
             {},
             fmt::format(

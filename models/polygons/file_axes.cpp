@@ -25,7 +25,7 @@ const std::array<Direction, 6> directions{
     Direction{"back", glm::dvec3(-1, 0, 0)}};
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
-    error_in(
+    throw_error_in(
         "axes",
         fmt::format(
             "expected where x, y and z point, such as right,up,back (of right, left, up, down, "

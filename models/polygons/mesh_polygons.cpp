@@ -19,7 +19,7 @@ std::array<int, 3> step_of(const glm::vec3& colour) {
 
 } // namespace
 
-PolygonModel as_polygons(const TriangleMesh& mesh) {
+PolygonModel polygons_from_mesh(const TriangleMesh& mesh) {
     PolygonModel model;
     model.name = mesh.name;
     model.vertices_m = mesh.vertices_m;
@@ -40,7 +40,7 @@ PolygonModel as_polygons(const TriangleMesh& mesh) {
     return model;
 }
 
-TriangleMesh as_triangles(const PolygonModel& polygons) {
+TriangleMesh mesh_from_polygons(const PolygonModel& polygons) {
     TriangleMesh mesh;
     mesh.name = polygons.name;
     mesh.vertices_m = polygons.vertices_m;

@@ -7,9 +7,9 @@ namespace octant::models::polygons {
 
 /// A mesh's triangles as polygons: one part, and one material for all colours that differ by less
 /// than 1/31.
-PolygonModel as_polygons(const TriangleMesh& mesh);
+PolygonModel polygons_from_mesh(const TriangleMesh& mesh);
 
 /// The polygons cut into fans, without colours: what their distance is measured by.
-TriangleMesh as_triangles(const PolygonModel& polygons);
+TriangleMesh mesh_from_polygons(const PolygonModel& polygons);
 
 } // namespace octant::models::polygons

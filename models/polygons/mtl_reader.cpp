@@ -1,6 +1,6 @@
 #include "models/polygons/mtl_reader.h"
 
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -38,10 +38,10 @@ public:
 private:
     void add_material(const std::string& name) {
         if (name.empty()) {
-            error_at(path_, line_, "expected a material name after newmtl, got none");
+            throw_error_at(path_, line_, "expected a material name after newmtl, got none");
         }
         if (!names_.insert(name).second) {
-            error_at(
+            throw_error_at(
                 path_,
                 line_,
                 fmt::format("expected a new material name, got '{}' again", printable(name)));
@@ -51,7 +51,7 @@ private:
 
     void set_colour(const std::vector<std::string_view>& words, std::string_view line) {
         if (materials_.empty()) {
-            error_at(path_, line_, "expected newmtl before Kd, got Kd");
+            throw_error_at(path_, line_, "expected newmtl before Kd, got Kd");
         }
         glm::vec3 colour(0.0F);
         bool good = words.size() == 4;
@@ -61,7 +61,7 @@ private:
             colour[part] = good ? static_cast<float>(*value) : 0.0F;
         }
         if (!good) {
-            error_at(
+            throw_error_at(
                 path_,
                 line_,
                 fmt::format(

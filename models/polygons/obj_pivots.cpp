@@ -1,6 +1,6 @@
 #include "models/polygons/obj_pivots.h"
 
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -42,7 +42,7 @@ std::optional<PivotLine> pivot_line(
         return std::nullopt;
     }
     const auto refuse = [&](std::string_view expected) {
-        error_at(
+        throw_error_at(
             path,
             line,
             fmt::format("expected {}, got '{}'", expected, printable(std::string(comment))));

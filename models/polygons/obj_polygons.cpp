@@ -2,7 +2,7 @@
 
 #include "models/polygons/convex_pieces.h"
 #include "models/polygons/polygon_check.h"
-#include "models/polygons/polygon_cut.h"
+#include "models/polygons/polygon_triangulation.h"
 #include "sim/base/error.h"
 
 #include <array>
@@ -49,7 +49,7 @@ public:
                 changed_polygons_ - max_notes_of_cuts));
         }
         if (model_.polygons.empty()) {
-            error_in(path_, "expected at least one polygon with an area, got none");
+            throw_error_in(path_, "expected at least one polygon with an area, got none");
         }
     }
 
@@ -113,7 +113,7 @@ private:
     /// triangles that have an area.
     std::vector<CornerVertices> triangles_of(const CornerVertices& outline) {
         std::vector<CornerVertices> triangles;
-        for (const auto& [a, b, c] : cut_polygon(places_m_)) {
+        for (const auto& [a, b, c] : triangulate_polygon(places_m_)) {
             if (!is_line(std::array{places_m_[a], places_m_[b], places_m_[c]})) {
                 triangles.push_back({outline[a], outline[b], outline[c]});
             }
@@ -145,7 +145,7 @@ private:
 
 } // namespace
 
-void cut_faulty_polygons(
+void triangulate_faulty_polygons(
     PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines) {
     assert(lines.size() == model.polygons.size());
     PolygonCutting(model, path, lines).cut();

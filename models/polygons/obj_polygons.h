@@ -15,11 +15,11 @@ inline constexpr std::size_t max_notes_of_cuts = 10;
 /// flatness_tolerance_m. A dented or bent one is replaced, where it stands, by its convex_pieces;
 /// then model.parents is filled and model.notes says "file:line: polygon of N corners is
 /// dented|bent: cut into K". One that meets itself, as around a hole, becomes triangles by
-/// cut_polygon, one without an area is left out; corners in the place of the one before do not
+/// triangulate_polygon, one without an area is left out; corners in the place of the one before do not
 /// count. Notes say so. `lines` are the polygons' lines in the file.
 ///
 /// Throws Error "file: expected ..., got ..." when no polygon is left.
-void cut_faulty_polygons(
+void triangulate_faulty_polygons(
     PolygonModel& model, const std::filesystem::path& path, std::span<const int> lines);
 
 } // namespace octant::models::polygons

@@ -2,7 +2,7 @@
 
 #include "models/polygons/mtl_reader.h"
 #include "models/polygons/obj_limits.h"
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "models/polygons/obj_pivots.h"
 #include "models/polygons/obj_polygons.h"
 #include "sim/base/error.h"
@@ -76,15 +76,15 @@ public:
 
     PolygonModel read() {
         const std::string text = read_text_file(path_, largest_file_bytes);
-        ObjLines lines(text);
+        ObjLineReader lines(text);
         while (lines.next()) {
             line_ = lines.number();
             take(lines.text());
         }
         if (model_.polygons.empty()) {
-            error_in(path_, "expected at least one polygon (f), got none");
+            throw_error_in(path_, "expected at least one polygon (f), got none");
         }
-        cut_faulty_polygons(model_, path_, polygon_lines_);
+        triangulate_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
         resolve_materials();
         resolve_pivots();
@@ -92,7 +92,7 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& what) const { error_at(path_, line_, what); }
+    [[noreturn]] void refuse(const std::string& what) const { throw_error_at(path_, line_, what); }
 
     void take(std::string_view line) {
         const Words words = split_words(line);
@@ -258,7 +258,7 @@ private:
             if (known != colours_.end()) {
                 material.colour = known->second;
             } else if (has_material_file_ && missing_files_.empty() && materials_.line_of(i) > 0) {
-                error_at(
+                throw_error_at(
                     path_,
                     materials_.line_of(i),
                     fmt::format(
@@ -273,14 +273,14 @@ private:
         for (const PivotLine& read : pivots_) {
             const auto part = parts_.find(read.part);
             if (!part) {
-                error_at(
+                throw_error_at(
                     path_,
                     read.line,
                     fmt::format("expected a group with polygons, got {}", in_quotes(read.part)));
             }
             for (const Pivot& known : model_.pivots) {
                 if (known.part == *part) {
-                    error_at(
+                    throw_error_at(
                         path_,
                         read.line,
                         fmt::format(

@@ -15,15 +15,15 @@ namespace octant::models::repair {
 /// it by the same vertices in `named` (the triangles before vertices were welded), and one for the
 /// rest. So shells that touch along an edge stay whole.
 template <typename Take>
-void for_each_joint(std::span<const Side> sides, std::span<const Triangle> named, Take&& take) {
-    const auto name_of = [&](const Side& side) {
+void for_each_joint(std::span<const TriangleEdge> sides, std::span<const Triangle> named, Take&& take) {
+    const auto name_of = [&](const TriangleEdge& side) {
         const Triangle& triangle = named[side.triangle];
         return std::pair<std::uint32_t, std::uint32_t>(
             std::minmax(triangle[side.corner], triangle[(side.corner + 1U) % 3U]));
     };
-    std::vector<Side> sorted;
-    std::vector<Side> rest;
-    for_each_edge(sides, [&](std::span<const Side> edge) {
+    std::vector<TriangleEdge> sorted;
+    std::vector<TriangleEdge> rest;
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
         if (edge.size() <= 2) {
             take(edge);
             return;
@@ -36,7 +36,7 @@ void for_each_joint(std::span<const Side> sides, std::span<const Triangle> named
             while (last < sorted.size() && name_of(sorted[last]) == name_of(sorted[first])) {
                 ++last;
             }
-            const std::span<const Side> alike(sorted.data() + first, last - first);
+            const std::span<const TriangleEdge> alike(sorted.data() + first, last - first);
             if (alike.size() == 2) {
                 take(alike);
             } else {
@@ -45,7 +45,7 @@ void for_each_joint(std::span<const Side> sides, std::span<const Triangle> named
             first = last;
         }
         if (!rest.empty()) {
-            take(std::span<const Side>(rest));
+            take(std::span<const TriangleEdge>(rest));
         }
     });
 }

@@ -1,11 +1,11 @@
 #include "models/repair/repair.h"
 
 #include "models/mesh_edges.h"
-#include "models/no_index.h"
-#include "models/repair/agreeing_turns.h"
+#include "models/invalid_index.h"
+#include "models/repair/consistent_orientation.h"
 #include "models/repair/edge_joints.h"
-#include "models/repair/near_rims.h"
-#include "models/repair/vertex_twins.h"
+#include "models/repair/close_boundaries.h"
+#include "models/repair/vertex_welding.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -51,12 +51,12 @@ public:
         if (seams_ == Seams::Welded) {
             take_corner_colours();
         }
-        weld(first_twins(
+        weld(first_duplicates(
             mesh_.vertices_m,
             seams_ == Seams::Welded ? std::vector<glm::vec3>() : mesh_.colours,
             referenced()));
         if (seams_ == Seams::Welded) {
-            weld(near_rims(mesh_));
+            weld(close_boundaries(mesh_));
         }
         split_at_junctions();
         take_out_triangles();
@@ -104,10 +104,10 @@ private:
 
     /// Puts the vertex that each is to become in its place, none or itself for one that stays.
     void weld(const std::vector<std::uint32_t>& welded) {
-        mix_colours(mesh_.colours, welded);
+        average_colours(mesh_.colours, welded);
         for (std::uint32_t v = 0; v < welded.size(); ++v) {
             counts_.duplicate_vertices +=
-                static_cast<std::size_t>(welded[v] != v && welded[v] != no_index);
+                static_cast<std::size_t>(welded[v] != v && welded[v] != invalid_index);
         }
         for (Triangle& triangle : mesh_.triangles) {
             for (std::uint32_t& vertex : triangle) {
@@ -190,8 +190,8 @@ private:
         }
         if (!mesh_.corner_texture_coordinates.empty()) {
             const Triangle corners = mesh_.corner_texture_coordinates[triangle];
-            auto at_middle = no_index;
-            if (corners[from] != no_index && corners[to] != no_index) {
+            auto at_middle = invalid_index;
+            if (corners[from] != invalid_index && corners[to] != invalid_index) {
                 at_middle = static_cast<std::uint32_t>(mesh_.texture_coordinates.size());
                 mesh_.texture_coordinates.push_back(glm::mix(
                     mesh_.texture_coordinates[corners[from]],
@@ -272,16 +272,16 @@ private:
 
     /// By the group of their triangles.
     std::vector<WrittenShell>
-    written_shells(std::span<const Doubles> doubles, Groups& groups) const {
+    written_shells(std::span<const Doubles> doubles, DisjointSets& groups) const {
         std::vector<WrittenShell> shells(mesh_.triangles.size());
-        const std::vector<Side> sides = sorted_sides(mesh_.triangles);
-        for_each_edge(sides, [&](std::span<const Side> edge) {
-            for (const Side& side : edge) {
+        const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh_.triangles);
+        for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
+            for (const TriangleEdge& side : edge) {
                 groups.join(edge[0].triangle, side.triangle);
             }
         });
-        for_each_edge(sides, [&](std::span<const Side> edge) {
-            const auto rising = std::ranges::count_if(edge, &Side::rises);
+        for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
+            const auto rising = std::ranges::count_if(edge, &TriangleEdge::rises);
             if (2 * rising != std::ranges::ssize(edge)) {
                 shells[groups.group_of(edge[0].triangle)].is_closed = false;
             }
@@ -299,7 +299,7 @@ private:
     /// stays.
     void take_out_doubles(std::span<const Doubles> found) {
         std::vector<bool> stays(mesh_.triangles.size(), true);
-        Groups groups(mesh_.triangles.size());
+        DisjointSets groups(mesh_.triangles.size());
         const std::vector<WrittenShell> shells = written_shells(found, groups);
         for (const auto& [all, rising] : found) {
             if (all.size() == 1) {
@@ -315,7 +315,7 @@ private:
             }
             for (const auto& one : all) {
                 stays[one.second] = wanted[turns(one) ? 1 : 0]-- > 0;
-                counts_.doubled_triangles += static_cast<std::size_t>(!stays[one.second]);
+                counts_.duplicate_triangles += static_cast<std::size_t>(!stays[one.second]);
             }
         }
         keep_triangles(stays);
@@ -373,11 +373,11 @@ private:
     }
 
     void orient() {
-        const std::vector<Side> sides = sorted_sides(mesh_.triangles);
-        AgreeingTurns turns = agreeing_turns(mesh_.triangles, sides, named_);
+        const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh_.triangles);
+        ConsistentOrientation turns = consistent_orientation(mesh_.triangles, sides, named_);
         turned_ = std::move(turns.turned);
-        counts_.turned_triangles += turns.count;
-        counts_.split_edges += turns.crowded_edges;
+        counts_.flipped_triangles += turns.count;
+        counts_.split_edges += turns.non_manifold_edges;
         join_fans();
         turn_triangles();
     }
@@ -390,19 +390,19 @@ private:
         const std::size_t split_before = counts_.split_edges;
         do {
             counts_.split_edges = split_before;
-            join_but_apart(sorted_sides(mesh_.triangles));
+            join_but_apart(sorted_triangle_edges(mesh_.triangles));
         } while (part_repeated_sides());
     }
 
     /// Whether a side runs from its smaller vertex to its larger one once its triangle is turned.
-    bool rises(const Side& side) const { return side.rises != (turned_[side.triangle] != 0); }
+    bool rises(const TriangleEdge& side) const { return side.rises != (turned_[side.triangle] != 0); }
 
     /// Joins the corners of two triangles at both ends of the edge they share and agree about. A
     /// corner's number is three times its triangle's plus its place.
-    void join_but_apart(const std::vector<Side>& sides) {
-        fans_ = Groups(mesh_.triangles.size() * 3);
-        mates_.assign(mesh_.triangles.size(), {no_index, no_index, no_index});
-        for_each_joint(sides, named_, [&](std::span<const Side> edge) {
+    void join_but_apart(const std::vector<TriangleEdge>& sides) {
+        fans_ = DisjointSets(mesh_.triangles.size() * 3);
+        mates_.assign(mesh_.triangles.size(), {invalid_index, invalid_index, invalid_index});
+        for_each_joint(sides, named_, [&](std::span<const TriangleEdge> edge) {
             if (edge.size() > 2) {
                 join_bodies(edge);
             } else if (edge.size() == 2 && !join(edge[0], edge[1])) {
@@ -411,7 +411,7 @@ private:
         });
     }
 
-    bool join(const Side& one, const Side& other) {
+    bool join(const TriangleEdge& one, const TriangleEdge& other) {
         if (rises(one) == rises(other) || is_apart_[one.triangle] || is_apart_[other.triangle]) {
             return false;
         }
@@ -424,10 +424,10 @@ private:
 
     /// Joins two triangles each at an edge where bodies touch: those with the inside of one body
     /// between them. Nothing where the triangles at the edge bound no bodies.
-    void join_bodies(std::span<const Side> edge) {
+    void join_bodies(std::span<const TriangleEdge> edge) {
         const glm::dvec3& from_m = mesh_.vertices_m[edge[0].least];
         const glm::dvec3 along_m = mesh_.vertices_m[edge[0].most] - from_m;
-        const auto outwards_m = [&](const Side& side) {
+        const auto outwards_m = [&](const TriangleEdge& side) {
             return mesh_.vertices_m[mesh_.triangles[side.triangle][(side.corner + 2U) % 3U]] -
                    from_m;
         };
@@ -437,11 +437,11 @@ private:
         struct Turn {
             double turn; ///< around the edge from its first triangle on, rises from 0 to 4
             bool enters; ///< the body lies behind it
-            Side side;
+            TriangleEdge side;
         };
 
         std::vector<Turn> around;
-        for (const Side& side : edge) {
+        for (const TriangleEdge& side : edge) {
             const glm::dvec3 out_m = outwards_m(side);
             const double x = glm::dot(out_m, right);
             const double y = glm::dot(out_m, up);
@@ -456,14 +456,14 @@ private:
         if (2 * std::ranges::count_if(around, &Turn::enters) != std::ranges::ssize(around)) {
             return;
         }
-        std::vector<Side> entered;
+        std::vector<TriangleEdge> entered;
         for (int round = 0; round < 2; ++round) {
             for (const Turn& one : around) {
                 if (one.enters && round == 0) {
                     entered.push_back(one.side);
                 } else if (
                     !one.enters && !entered.empty() &&
-                    mates_[one.side.triangle][one.side.corner] == no_index) {
+                    mates_[one.side.triangle][one.side.corner] == invalid_index) {
                     join(entered.back(), one.side);
                     entered.pop_back();
                 }
@@ -495,9 +495,9 @@ private:
             };
             const std::uint32_t triangle = ends[i][2] / 3;
             const std::uint32_t mate = mate_of(ends[i]);
-            if (mate == no_index) {
+            if (mate == invalid_index) {
                 is_apart_[triangle] = true;
-            } else if (mate_of(ends[i - 1]) == no_index) {
+            } else if (mate_of(ends[i - 1]) == invalid_index) {
                 is_apart_[ends[i - 1][2] / 3] = true;
             } else if (ends[i][0] < ends[i][1] && !touched[triangle] && !touched[mate]) {
                 touched[triangle] = touched[mate] = true;
@@ -537,23 +537,23 @@ private:
     }
 
     /// At the smaller or the larger vertex of a side.
-    static std::uint32_t corner_of(const Side& side, bool at_least) {
+    static std::uint32_t corner_of(const TriangleEdge& side, bool at_least) {
         const std::uint32_t place = side.rises == at_least ? side.corner : (side.corner + 1U) % 3U;
         return side.triangle * 3 + place;
     }
 
     /// One vertex a fan: the first fan keeps the vertex, each other one gets a copy at the end.
     void split_vertices() {
-        std::vector<std::uint32_t> fan_at(mesh_.vertices_m.size(), no_index);
-        std::vector<std::uint32_t> vertex_of(mesh_.triangles.size() * 3, no_index);
+        std::vector<std::uint32_t> fan_at(mesh_.vertices_m.size(), invalid_index);
+        std::vector<std::uint32_t> vertex_of(mesh_.triangles.size() * 3, invalid_index);
         std::vector<bool> is_split(mesh_.vertices_m.size(), false);
         for (std::uint32_t corner = 0; corner < vertex_of.size(); ++corner) {
             std::uint32_t& vertex = mesh_.triangles[corner / 3][place_of(corner)];
             const std::uint32_t fan = fans_.group_of(corner);
-            if (vertex_of[fan] == no_index && fan_at[vertex] == no_index) {
+            if (vertex_of[fan] == invalid_index && fan_at[vertex] == invalid_index) {
                 fan_at[vertex] = fan;
                 vertex_of[fan] = vertex;
-            } else if (vertex_of[fan] == no_index) {
+            } else if (vertex_of[fan] == invalid_index) {
                 counts_.split_vertices += static_cast<std::size_t>(!is_split[vertex]);
                 is_split[vertex] = true;
                 vertex_of[fan] = copy_of(vertex);
@@ -614,12 +614,12 @@ private:
     /// Also those that only the triangles taken out had.
     void take_out_vertices() {
         const std::vector<bool> stays = referenced();
-        std::vector<std::uint32_t> places(stays.size(), no_index);
+        std::vector<std::uint32_t> places(stays.size(), invalid_index);
         std::uint32_t kept = 0;
         std::size_t gone = 0;
         for (std::size_t v = 0; v < stays.size(); ++v) {
             gone += static_cast<std::size_t>(!stays[v]);
-            places[v] = stays[v] ? kept++ : no_index;
+            places[v] = stays[v] ? kept++ : invalid_index;
         }
         counts_.unreferenced_vertices = gone - counts_.duplicate_vertices;
         keep(mesh_.vertices_m, stays);
@@ -639,9 +639,9 @@ private:
     std::vector<std::uint8_t> turned_; ///< 1 for triangles that are to be turned
     std::vector<bool> is_apart_;       ///< triangles that share no vertex with others
     std::vector<Triangle>
-        mates_; ///< the triangle joined at each side that a corner begins, or no_index
+        mates_; ///< the triangle joined at each side that a corner begins, or invalid_index
     std::unordered_map<std::uint32_t, std::uint32_t> turned_normals_;
-    Groups fans_{0}; ///< of corners
+    DisjointSets fans_{0}; ///< of corners
 };
 
 } // namespace

@@ -5,7 +5,7 @@
 
 namespace octant::models::repair {
 
-std::vector<std::string> in_words(const RepairCounts& counts) {
+std::vector<std::string> describe_counts(const RepairCounts& counts) {
     std::vector<std::string> lines;
     const auto add = [&](std::size_t count, std::string_view one, std::string_view many) {
         if (count > 0) {
@@ -19,8 +19,8 @@ std::vector<std::string> in_words(const RepairCounts& counts) {
     add(counts.degenerate_triangles,
         "triangle without an area taken out",
         "triangles without an area taken out");
-    add(counts.doubled_triangles, "doubled triangle taken out", "doubled triangles taken out");
-    add(counts.turned_triangles,
+    add(counts.duplicate_triangles, "doubled triangle taken out", "doubled triangles taken out");
+    add(counts.flipped_triangles,
         "triangle turned to agree with its neighbours",
         "triangles turned to agree with their neighbours");
     add(counts.split_edges,

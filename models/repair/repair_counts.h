@@ -12,8 +12,8 @@ struct RepairCounts {
     std::size_t duplicate_vertices = 0; ///< welded: one place (-0 is 0), or rims that nearly touch
     std::size_t degenerate_triangles = 0; ///< two corners in one vertex, or no area: taken out
     /// Taken out: the same three vertices again, where no closed shell needs them.
-    std::size_t doubled_triangles = 0;
-    std::size_t turned_triangles = 0; ///< turned to agree with their neighbours
+    std::size_t duplicate_triangles = 0;
+    std::size_t flipped_triangles = 0; ///< turned to agree with their neighbours
     std::size_t split_edges = 0;    ///< shared by more than two triangles, or by two that disagree
     std::size_t split_vertices = 0; ///< where several fans met: each got a vertex of its own
     std::size_t boundary_loops = 0; ///< holes; carried through
@@ -23,6 +23,6 @@ struct RepairCounts {
 };
 
 /// One line each for what was found, in words a user reads; empty for a closed mesh without faults.
-std::vector<std::string> in_words(const RepairCounts& counts);
+std::vector<std::string> describe_counts(const RepairCounts& counts);
 
 } // namespace octant::models::repair

@@ -10,7 +10,7 @@
 #include "models/simplify/attribute_seams.h"
 
 #include "models/mesh_edges.h"
-#include "models/no_index.h"
+#include "models/invalid_index.h"
 
 #include <glm/geometric.hpp>
 
@@ -64,7 +64,7 @@ struct Attributes {
         }
         const std::uint32_t a = corner_textures[t][k];
         const std::uint32_t b = corner_textures[other][j];
-        return a == b || (a != no_index && b != no_index &&
+        return a == b || (a != invalid_index && b != invalid_index &&
                           is_alike(textures[a], textures[b], textures_alike));
     }
 };
@@ -77,12 +77,12 @@ struct Neighbours {
 };
 
 std::vector<Neighbours> neighbours_of(const TriangleMesh& mesh, const Attributes& attributes) {
-    const std::vector<Side> sides = sorted_sides(mesh.triangles);
+    const std::vector<TriangleEdge> sides = sorted_triangle_edges(mesh.triangles);
     std::vector<Neighbours> neighbours;
-    for_each_edge(sides, [&](std::span<const Side> edge) {
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) {
         for (std::size_t i = 1; i < edge.size(); ++i) {
-            const Side& one = edge[i - 1];
-            const Side& other = edge[i];
+            const TriangleEdge& one = edge[i - 1];
+            const TriangleEdge& other = edge[i];
             const std::uint32_t first = one.triangle;
             const std::uint32_t second = other.triangle;
             const bool agree =
@@ -100,7 +100,7 @@ public:
     ChartCuts(std::span<const Neighbours> neighbours, std::size_t triangles)
         : neighbours_(neighbours)
         , sets_(triangles)
-        , cells_(triangles, no_index) {
+        , cells_(triangles, invalid_index) {
         for (const Neighbours& pair : neighbours) {
             if (pair.agree) {
                 sets_.join(pair.first, pair.second);
@@ -120,7 +120,7 @@ public:
         grow_cells();
         join_cells();
         for (std::uint32_t t = 0; t < whole.size(); ++t) {
-            whole[t] = cells_[t] == no_index ? whole[t] : sets_.group_of(cells_[t]);
+            whole[t] = cells_[t] == invalid_index ? whole[t] : sets_.group_of(cells_[t]);
         }
         return whole;
     }
@@ -156,7 +156,7 @@ private:
             const std::uint32_t triangle = waiting.front();
             waiting.pop_front();
             for (const std::uint32_t other : next_to[triangle]) {
-                if (cells_[other] == no_index) {
+                if (cells_[other] == invalid_index) {
                     cells_[other] = cells_[triangle];
                     waiting.push_back(other);
                 }
@@ -175,7 +175,7 @@ private:
         using Border = std::pair<std::pair<std::uint32_t, std::uint32_t>, std::size_t>;
         std::vector<Border> sorted(borders.begin(), borders.end());
         std::ranges::stable_sort(sorted, std::ranges::greater(), &Border::second);
-        sets_ = Groups(cells_.size());
+        sets_ = DisjointSets(cells_.size());
         for (const Border& border : sorted) {
             join(sets_.group_of(border.first.first), sets_.group_of(border.first.second));
         }
@@ -196,7 +196,7 @@ private:
     }
 
     std::span<const Neighbours> neighbours_;
-    Groups sets_;
+    DisjointSets sets_;
     std::vector<std::uint32_t> cells_; ///< of triangles in charts that meet themselves
     /// For each cell, by the first number of its set, those that it meets at seams.
     std::map<std::uint32_t, std::set<std::uint32_t>> meetings_;
@@ -204,11 +204,11 @@ private:
 
 /// Vertices where charts meet, and those next to them: their colours were fitted to a mean.
 std::vector<bool> near_seams(const TriangleMesh& made) {
-    std::vector<std::uint32_t> mark_at(made.vertices_m.size(), no_index);
+    std::vector<std::uint32_t> mark_at(made.vertices_m.size(), invalid_index);
     std::vector<bool> on_seam(made.vertices_m.size(), false);
     for (std::size_t t = 0; t < made.triangles.size(); ++t) {
         for (const std::uint32_t vertex : made.triangles[t]) {
-            on_seam[vertex] = on_seam[vertex] || (mark_at[vertex] != no_index &&
+            on_seam[vertex] = on_seam[vertex] || (mark_at[vertex] != invalid_index &&
                                                   mark_at[vertex] != made.triangle_materials[t]);
             mark_at[vertex] = made.triangle_materials[t];
         }
@@ -332,11 +332,11 @@ AttributeSeams::AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> cor
         const std::vector<std::uint32_t> charts =
             ChartCuts(neighbours, marked_.triangles.size()).charts();
         mark(charts);
-        next_to_.assign(marked_.triangles.size(), {no_index, no_index, no_index});
+        next_to_.assign(marked_.triangles.size(), {invalid_index, invalid_index, invalid_index});
         for (const Neighbours& pair : neighbours) {
             if (charts[pair.first] == charts[pair.second]) {
-                *std::ranges::find(next_to_[pair.first], no_index) = pair.second;
-                *std::ranges::find(next_to_[pair.second], no_index) = pair.first;
+                *std::ranges::find(next_to_[pair.first], invalid_index) = pair.second;
+                *std::ranges::find(next_to_[pair.second], invalid_index) = pair.first;
             }
         }
     } else if (has_normals() || has_colours()) {
@@ -348,14 +348,14 @@ AttributeSeams::AttributeSeams(TriangleMesh mesh, std::vector<CornerColours> cor
 void AttributeSeams::mark(const std::vector<std::uint32_t>& charts) {
     materials_ = std::exchange(marked_.materials, {});
     std::vector<std::uint32_t> materials = std::exchange(marked_.triangle_materials, {});
-    materials.resize(charts.size(), no_index);
+    materials.resize(charts.size(), invalid_index);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> marks;
     std::vector<std::vector<std::uint32_t>> triangles;
     for (std::uint32_t t = 0; t < charts.size(); ++t) {
         const auto next = static_cast<std::uint32_t>(marked_.materials.size());
         const auto [at, is_new] = marks.try_emplace({charts[t], materials[t]}, next);
         if (is_new) {
-            materials_of_marks_.push_back(materials[t]);
+            material_of_mark_.push_back(materials[t]);
             marked_.materials.emplace_back();
             triangles.emplace_back();
         }
@@ -383,7 +383,7 @@ AttributeSeams::Chart AttributeSeams::chart_of(std::vector<std::uint32_t> triang
 /// Where a triangle has moved off its chart a little, its corners may be nearest to another end of
 /// the chart. Texture coordinates then change more within the triangle than between its corners.
 std::optional<AttributeSeams::Chart>
-AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) const {
+AttributeSeams::discontinuous_part(const TriangleMesh& made, std::size_t triangle) const {
     constexpr double jump2 = 0.0625; // of the squared difference between corners
     const Chart& chart = charts_[chart_at(made, triangle)];
     const auto at = [&](const glm::dvec3& at_m) {
@@ -420,7 +420,7 @@ AttributeSeams::jumping_part(const TriangleMesh& made, std::size_t triangle) con
     for (std::size_t i = 0; i < part.size(); ++i) {
         for (const std::uint32_t other : next_to_[part[i]]) {
             const bool is_near =
-                other != no_index &&
+                other != invalid_index &&
                 std::ranges::any_of(marked_.triangles[other], [&](std::uint32_t vertex) {
                     return glm::distance(marked_.vertices_m[vertex], centre_m) <= reach_m;
                 });
@@ -437,7 +437,7 @@ std::uint32_t AttributeSeams::chart_at(const TriangleMesh& made, std::size_t tri
 }
 
 bool AttributeSeams::is_textured(const Chart& chart) const {
-    return has_texture_coordinates() && corner_textures_[chart.triangles.front()][0] != no_index;
+    return has_texture_coordinates() && corner_textures_[chart.triangles.front()][0] != invalid_index;
 }
 
 AttributeSeams::Lookup
@@ -446,7 +446,7 @@ AttributeSeams::lookup(const TriangleMesh& made, std::size_t triangle) const {
     found.chart = &charts_[chart_at(made, triangle)];
     found.is_textured = is_textured(*found.chart);
     if (found.is_textured) {
-        found.part = jumping_part(made, triangle);
+        found.part = discontinuous_part(made, triangle);
     }
     found.facing = normal_of(made, made.triangles[triangle]);
     found.middle_m = place_m(made, made.triangles[triangle], glm::dvec3(1.0 / 3.0));
@@ -578,7 +578,7 @@ void AttributeSeams::take_corners(TriangleMesh& made) const {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedges;
     std::map<std::array<float, 3>, std::uint32_t> known_normals;
     made.corner_texture_coordinates.assign(
-        has_texture_coordinates() ? made.triangles.size() : 0, {no_index, no_index, no_index});
+        has_texture_coordinates() ? made.triangles.size() : 0, {invalid_index, invalid_index, invalid_index});
     made.corner_normals.resize(has_normals() ? made.triangles.size() : 0);
     const bool has_corners = has_texture_coordinates() || has_normals();
     for (std::size_t t = 0; t < made.triangles.size() && has_corners; ++t) {
@@ -614,14 +614,14 @@ void AttributeSeams::take_corners(TriangleMesh& made) const {
 void AttributeSeams::take_materials(TriangleMesh& made) const {
     made.materials = materials_;
     for (std::uint32_t& mark : made.triangle_materials) {
-        mark = materials_of_marks_[mark];
+        mark = material_of_mark_[mark];
     }
     if (materials_.empty()) {
         made.triangle_materials.clear();
     }
 }
 
-std::array<AttributeSeams::Squares, 3> AttributeSeams::squares(
+std::array<AttributeSeams::SquaredErrors, 3> AttributeSeams::squares(
     const TriangleMesh& made,
     std::size_t triangle,
     const std::vector<std::optional<glm::dvec3>>& vertex_colours) const {
@@ -635,7 +635,7 @@ std::array<AttributeSeams::Squares, 3> AttributeSeams::squares(
             at_corners.at(k).colour = *vertex_colours[corners[k]];
         }
     }
-    std::array<Squares, 3> squares;
+    std::array<SquaredErrors, 3> squares;
     for (const glm::dvec3& weights : samples) {
         Values off = values_at(from, place_m(made, corners, weights));
         const glm::dvec3 right_normal = off.normal;
@@ -682,7 +682,7 @@ AttributeErrors AttributeSeams::errors(const TriangleMesh& made, LookAt which) c
         &errors.texture, &errors.normal_deg, &errors.colour};
     std::array<double, 3> areas{};
     for (std::size_t t = 0; t < made.triangles.size(); t += stride) {
-        const std::array<Squares, 3> found = squares(made, t, colours);
+        const std::array<SquaredErrors, 3> found = squares(made, t, colours);
         const double area = glm::length(area_vector(made, made.triangles[t]));
         for (std::size_t kind = 0; kind < 3; ++kind) {
             if (kind == 0 && !is_textured(charts_[chart_at(made, t)])) {
@@ -715,7 +715,7 @@ TriangleMesh AttributeSeams::divided(
                smallest2 * longest_side(marked_, marked_.triangles[original]).second;
     };
     const auto is_off = [&](std::size_t t) {
-        const std::array<Squares, 3> found = squares(made, t, {});
+        const std::array<SquaredErrors, 3> found = squares(made, t, {});
         return found[0].max > bounds.texture * bounds.texture ||
                found[1].max > bounds.normal_deg * bounds.normal_deg ||
                (std::isfinite(bounds.colour) && found[2].max > bounds.colour * bounds.colour);

@@ -102,7 +102,7 @@ private:
     };
 
     /// The squared error at samples of a triangle, the largest one and their mean.
-    struct Squares {
+    struct SquaredErrors {
         double max = 0.0;
         double mean = 0.0;
     };
@@ -123,11 +123,11 @@ private:
     Chart chart_of(std::vector<std::uint32_t> triangles) const;
     /// The part of its chart that a triangle of a result lies on, where nearest points in the chart
     /// jump from one end of it to another.
-    std::optional<Chart> jumping_part(const TriangleMesh& made, std::size_t triangle) const;
+    std::optional<Chart> discontinuous_part(const TriangleMesh& made, std::size_t triangle) const;
 
     /// Of texture coordinates, normals and colours. Corners take the colours of vertices in
     /// `vertex_colours`, or of the mesh where it is empty.
-    std::array<Squares, 3> squares(
+    std::array<SquaredErrors, 3> squares(
         const TriangleMesh& made,
         std::size_t triangle,
         const std::vector<std::optional<glm::dvec3>>& vertex_colours) const;
@@ -139,9 +139,9 @@ private:
     std::vector<glm::vec3> normals_;                ///< the mesh's
     std::vector<Triangle> corner_normals_;          ///< one a triangle of marked(), or none
     std::vector<Material> materials_;               ///< the mesh's own
-    std::vector<std::uint32_t> materials_of_marks_; ///< for each material of marked()
+    std::vector<std::uint32_t> material_of_mark_; ///< for each material of marked()
     std::vector<Chart> charts_;                     ///< likewise; empty without attributes
-    /// For each triangle of marked() those of its chart across its sides, no_index where there are
+    /// For each triangle of marked() those of its chart across its sides, invalid_index where there are
     /// fewer; empty without texture coordinates.
     std::vector<Triangle> next_to_;
 };

@@ -12,7 +12,7 @@ namespace octant::models::simplify {
 
 CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle> triangles)
     : twins_(triangles.size() * 3, none)
-    , outs_(vertices, none)
+    , outgoing_(vertices, none)
     , face_count_(triangles.size())
     , marks_(vertices, 0) {
     origins_.reserve(triangles.size() * 3);
@@ -49,23 +49,23 @@ CollapsibleMesh::CollapsibleMesh(std::size_t vertices, std::span<const Triangle>
         }
     }
     for (HalfEdge h = 0; h < origins_.size(); ++h) {
-        if (outs_[origin(h)] == none || twins_[h] == none) {
-            outs_[origin(h)] = h;
+        if (outgoing_[origin(h)] == none || twins_[h] == none) {
+            outgoing_[origin(h)] = h;
         }
     }
-    assert(has_one_fan_a_vertex());
+    assert(is_vertex_manifold());
     vertex_count_ = static_cast<std::size_t>(
-        std::ranges::count_if(outs_, [](HalfEdge h) { return h != none; }));
+        std::ranges::count_if(outgoing_, [](HalfEdge h) { return h != none; }));
 }
 
 /// Whether walking around each vertex visits all triangles there.
-bool CollapsibleMesh::has_one_fan_a_vertex() const {
-    std::vector<std::size_t> corners(outs_.size(), 0);
+bool CollapsibleMesh::is_vertex_manifold() const {
+    std::vector<std::size_t> corners(outgoing_.size(), 0);
     for (const std::uint32_t vertex : origins_) {
         ++corners[vertex];
     }
-    for (std::uint32_t vertex = 0; vertex < outs_.size(); ++vertex) {
-        if (outs_[vertex] != none) {
+    for (std::uint32_t vertex = 0; vertex < outgoing_.size(); ++vertex) {
+        if (outgoing_[vertex] != none) {
             around(vertex, [&](HalfEdge) { --corners[vertex]; });
         }
     }
@@ -134,8 +134,8 @@ CollapseEffect CollapsibleMesh::effect_on_cycle(HalfEdge h, std::uint32_t c) con
     const std::uint32_t u = origin(h);
     const std::uint32_t w = target(h);
     if (twins_[h] == none) {
-        const HalfEdge second = outs_[w];
-        const HalfEdge third = outs_[c];
+        const HalfEdge second = outgoing_[w];
+        const HalfEdge third = outgoing_[c];
         const bool goes_around = twins_[third] == none && target(second) == c && target(third) == u;
         return goes_around ? CollapseEffect{CollapseEffect::Kind::ClosesHole, second, third}
                            : CollapseEffect{};
@@ -145,7 +145,7 @@ CollapseEffect CollapsibleMesh::effect_on_cycle(HalfEdge h, std::uint32_t c) con
         effect.second = target(e) == w ? twins_[e] : effect.second;
         effect.third = target(e) == u ? e : effect.third;
     });
-    if (emptied_vertex_ == none || vertex_is_there(emptied_vertex_) || effect.second == none ||
+    if (free_vertex_slot_ == none || has_vertex(free_vertex_slot_) || effect.second == none ||
         effect.third == none || twins_[effect.third] == none ||
         !is_connected_without({h, effect.second, effect.third})) {
         return {};
@@ -227,7 +227,7 @@ void CollapsibleMesh::join(HalfEdge a, HalfEdge b) {
 
 /// Sets the half-edge by which walks around origin(h) start: `h`, turned clockwise as far as the
 /// boundary if there is one.
-void CollapsibleMesh::set_out(HalfEdge h) {
+void CollapsibleMesh::set_outgoing(HalfEdge h) {
     const HalfEdge first = h;
     while (twins_[h] != none) {
         h = next_of(twins_[h]);
@@ -235,7 +235,7 @@ void CollapsibleMesh::set_out(HalfEdge h) {
             break;
         }
     }
-    outs_[origins_[first]] = h;
+    outgoing_[origins_[first]] = h;
 }
 
 /// Removes the triangle of `h` and joins its two other edges.
@@ -252,11 +252,11 @@ void CollapsibleMesh::take_out(HalfEdge h) {
 }
 
 /// Gives the fan of triangles in which `h` starts to another vertex.
-void CollapsibleMesh::give_fan(HalfEdge h, std::uint32_t vertex) {
+void CollapsibleMesh::set_fan_vertex(HalfEdge h, std::uint32_t vertex) {
     const std::uint32_t before = origin(h);
-    set_out(h);
+    set_outgoing(h);
     around(before, [&](HalfEdge e) { origins_[e] = vertex; });
-    outs_[vertex] = outs_[before];
+    outgoing_[vertex] = outgoing_[before];
 }
 
 CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
@@ -277,32 +277,32 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
     if (other != none) {
         take_out(other);
     }
-    outs_[w] = none;
+    outgoing_[w] = none;
     --vertex_count_;
     if (effect.kind == CollapseEffect::Kind::ClosesHole) {
         join(effect.second, effect.third);
-        set_out(effect.third);
+        set_outgoing(effect.third);
     } else if (effect.kind == CollapseEffect::Kind::CutsHandle) {
         const HalfEdge right_second = twins_[effect.second]; // c -> w
         const HalfEdge right_third = twins_[effect.third];   // u -> c
         join(effect.second, effect.third);
         join(right_second, right_third);
-        effect.made = emptied_vertex_;
-        give_fan(right_third, w);
-        give_fan(right_second, effect.made);
-        set_out(effect.second);
-        set_out(effect.third);
+        effect.made = free_vertex_slot_;
+        set_fan_vertex(right_third, w);
+        set_fan_vertex(right_second, effect.made);
+        set_outgoing(effect.second);
+        set_outgoing(effect.third);
         vertex_count_ += 2;
     }
-    if (outs_[w] == none) {
-        emptied_vertex_ = w;
+    if (outgoing_[w] == none) {
+        free_vertex_slot_ = w;
     }
-    set_out(xu != none ? xu : next_of(wx));
-    set_out(wx != none ? wx : next_of(xu));
+    set_outgoing(xu != none ? xu : next_of(wx));
+    set_outgoing(wx != none ? wx : next_of(xu));
     assert(origins_[xu != none ? xu : next_of(wx)] == u);
     assert(origins_[wx != none ? wx : next_of(xu)] == x);
     if (y != none) {
-        set_out(uy != none ? uy : next_of(yw));
+        set_outgoing(uy != none ? uy : next_of(yw));
         assert(origins_[uy != none ? uy : next_of(yw)] == y);
     }
     return effect;
@@ -310,7 +310,7 @@ CollapseEffect CollapsibleMesh::collapse(HalfEdge h) {
 
 void CollapsibleMesh::split(
     HalfEdge h, std::uint32_t vertex, const std::array<std::uint32_t, 2>& faces) {
-    assert(!vertex_is_there(vertex) && !face_is_there(faces[0]) && !face_is_there(faces[1]));
+    assert(!has_vertex(vertex) && !has_face(faces[0]) && !has_face(faces[1]));
     const HalfEdge other = twins_[h];
     const std::uint32_t w = target(h);
     const HalfEdge a = 3 * faces[0]; // From the new vertex to w.
@@ -334,14 +334,14 @@ void CollapsibleMesh::split(
     face_count_ += 2;
     ++vertex_count_;
     for (const HalfEdge start : {a, a + 1, previous_of(h), h, yw}) {
-        set_out(start);
+        set_outgoing(start);
     }
 }
 
 void CollapsibleMesh::remove(std::uint32_t face) {
     for (HalfEdge h = 3 * face; h < 3 * face + 3; ++h) {
-        if (outs_[origins_[h]] != none) {
-            outs_[origins_[h]] = none;
+        if (outgoing_[origins_[h]] != none) {
+            outgoing_[origins_[h]] = none;
             --vertex_count_;
         }
         origins_[h] = none;
@@ -350,18 +350,18 @@ void CollapsibleMesh::remove(std::uint32_t face) {
     --face_count_;
 }
 
-KeptSlots CollapsibleMesh::compact() {
-    KeptSlots kept;
+SlotMap CollapsibleMesh::compact() {
+    SlotMap kept;
     std::vector<std::uint32_t> new_vertices(vertex_slots(), none);
     for (std::uint32_t vertex = 0; vertex < vertex_slots(); ++vertex) {
-        if (vertex_is_there(vertex)) {
+        if (has_vertex(vertex)) {
             new_vertices[vertex] = static_cast<std::uint32_t>(kept.vertices.size());
             kept.vertices.push_back(vertex);
         }
     }
     std::vector<std::uint32_t> new_faces(face_slots(), none);
     for (std::uint32_t face = 0; face < face_slots(); ++face) {
-        if (face_is_there(face)) {
+        if (has_face(face)) {
             new_faces[face] = static_cast<std::uint32_t>(kept.faces.size());
             kept.faces.push_back(face);
         }
@@ -378,8 +378,8 @@ KeptSlots CollapsibleMesh::compact() {
         list->resize(3 * kept.faces.size());
         list->shrink_to_fit();
     }
-    keep_slots(outs_, kept.vertices);
-    for (HalfEdge& out : outs_) {
+    compact_slots(outgoing_, kept.vertices);
+    for (HalfEdge& out : outgoing_) {
         out = moved(out);
     }
     marks_.assign(vertex_slots(), 0);
@@ -387,7 +387,7 @@ KeptSlots CollapsibleMesh::compact() {
     mark_ = 0;
     face_marks_.clear();
     face_mark_ = 0;
-    emptied_vertex_ = none;
+    free_vertex_slot_ = none;
     return kept;
 }
 
@@ -427,10 +427,10 @@ void CollapsibleMesh::flip(HalfEdge h) {
     join(h2, uy);
     join(o1, yw);
     join(o2, wx);
-    set_out(h1);
-    set_out(h2);
-    set_out(o1);
-    set_out(o2);
+    set_outgoing(h1);
+    set_outgoing(h2);
+    set_outgoing(o1);
+    set_outgoing(o2);
 }
 
 } // namespace octant::models::simplify

@@ -37,7 +37,7 @@ struct RingFace {
 };
 
 /// The slots that stay when a mesh is compacted, by their numbers before, in order.
-struct KeptSlots {
+struct SlotMap {
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> faces;
 };
@@ -45,7 +45,7 @@ struct KeptSlots {
 /// Leaves of a list with one entry a slot those of the kept slots, and gives the memory of the
 /// others back.
 template <typename T>
-void keep_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
+void compact_slots(std::vector<T>& list, std::span<const std::uint32_t> kept) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
         list[i] = list[kept[i]];
     }
@@ -87,22 +87,22 @@ public:
     /// The number of an edge: the smaller number of its one or two half-edges.
     HalfEdge edge_of(HalfEdge h) const { return h < twins_[h] ? h : twins_[h]; }
 
-    bool face_is_there(std::uint32_t face) const { return origins_[face * 3] != none; }
+    bool has_face(std::uint32_t face) const { return origins_[face * 3] != none; }
 
-    bool vertex_is_there(std::uint32_t vertex) const { return outs_[vertex] != none; }
+    bool has_vertex(std::uint32_t vertex) const { return outgoing_[vertex] != none; }
 
     std::size_t face_slots() const { return origins_.size() / 3; }
 
-    std::size_t vertex_slots() const { return outs_.size(); }
+    std::size_t vertex_slots() const { return outgoing_.size(); }
 
     std::size_t face_count() const { return face_count_; }
 
     std::size_t vertex_count() const { return vertex_count_; }
 
-    bool is_boundary_vertex(std::uint32_t vertex) const { return twins_[outs_[vertex]] == none; }
+    bool is_boundary_vertex(std::uint32_t vertex) const { return twins_[outgoing_[vertex]] == none; }
 
     /// Any one of the triangles at a vertex, which must be there.
-    std::uint32_t face_at(std::uint32_t vertex) const { return face_of(outs_[vertex]); }
+    std::uint32_t face_at(std::uint32_t vertex) const { return face_of(outgoing_[vertex]); }
 
     Triangle corners(std::uint32_t face) const {
         return {origins_[face * 3], origins_[face * 3 + 1], origins_[face * 3 + 2]};
@@ -112,7 +112,7 @@ public:
     /// counter-clockwise.
     template <typename Visit>
     void around(std::uint32_t vertex, const Visit& visit) const {
-        const HalfEdge first = outs_[vertex];
+        const HalfEdge first = outgoing_[vertex];
         HalfEdge h = first;
         do {
             visit(h);
@@ -124,7 +124,7 @@ public:
     /// last edge ends at the vertex; all others start there.
     template <typename Visit>
     void edges_around(std::uint32_t vertex, const Visit& visit) const {
-        const HalfEdge first = outs_[vertex];
+        const HalfEdge first = outgoing_[vertex];
         HalfEdge h = first;
         while (true) {
             visit(h);
@@ -172,7 +172,7 @@ public:
     void remove(std::uint32_t face);
 
     /// Gives the slots of vertices and triangles that are gone back. All others get new numbers.
-    KeptSlots compact();
+    SlotMap compact();
 
     /// Whether the edge may be replaced by the other diagonal of its two triangles.
     bool may_flip(HalfEdge h) const;
@@ -182,20 +182,20 @@ public:
 
 private:
     void join(HalfEdge a, HalfEdge b);
-    void set_out(HalfEdge h);
+    void set_outgoing(HalfEdge h);
     void take_out(HalfEdge h);
-    bool has_one_fan_a_vertex() const;
+    bool is_vertex_manifold() const;
     bool is_neighbour(std::uint32_t vertex, std::uint32_t other) const;
     CollapseEffect effect_on_cycle(HalfEdge h, std::uint32_t c) const;
     bool is_connected_without(const std::array<HalfEdge, 3>& cycle) const;
-    void give_fan(HalfEdge h, std::uint32_t vertex);
+    void set_fan_vertex(HalfEdge h, std::uint32_t vertex);
 
     /// For each half-edge the vertex that it starts from; none = the triangle is gone.
     std::vector<std::uint32_t> origins_;
     std::vector<HalfEdge> twins_;
     /// For each vertex a half-edge that starts there; at a boundary vertex the one from which
     /// around() reaches all triangles.
-    std::vector<HalfEdge> outs_;
+    std::vector<HalfEdge> outgoing_;
     std::size_t face_count_ = 0;
     std::size_t vertex_count_ = 0;
     /// For each vertex the number of the last search that met it.
@@ -204,7 +204,7 @@ private:
     /// For each triangle the number of the last search that met it; made when first needed.
     mutable std::vector<std::uint32_t> face_marks_;
     mutable std::uint32_t face_mark_ = 0;
-    std::uint32_t emptied_vertex_ = none; ///< The last slot that a collapse emptied.
+    std::uint32_t free_vertex_slot_ = none; ///< The last slot that a collapse emptied.
 };
 
 } // namespace octant::models::simplify

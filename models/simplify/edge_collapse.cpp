@@ -52,7 +52,7 @@ CollapsingSurface::CollapsingSurface(
     , face_numbers_(counted(surface_.mesh.face_slots()))
     , first_vertices_(surface_.mesh.vertex_slots()) {}
 
-CollapseEffect CollapsingSurface::collapse(HalfEdge h, const Placement& placement, double error) {
+CollapseEffect CollapsingSurface::collapse(HalfEdge h, const VertexPlacement& placement, double error) {
     CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
     const std::uint32_t gone = mesh.target(h);
@@ -90,11 +90,11 @@ void CollapsingSurface::copy_vertex(std::uint32_t from, std::uint32_t to) {
     quadrics_.copy(from, to);
 }
 
-KeptSlots CollapsingSurface::compact() {
-    KeptSlots kept = surface_.compact();
+SlotMap CollapsingSurface::compact() {
+    SlotMap kept = surface_.compact();
     quadrics_.keep(kept.vertices);
-    keep_slots(vertex_numbers_, kept.vertices);
-    keep_slots(face_numbers_, kept.faces);
+    compact_slots(vertex_numbers_, kept.vertices);
+    compact_slots(face_numbers_, kept.faces);
     return kept;
 }
 
@@ -140,7 +140,7 @@ public:
     void drop(std::uint32_t shell, const Gone& gone) {
         std::vector<std::uint32_t> numbers;
         for (const std::uint32_t face : faces_[shell]) {
-            if (surface_.mesh.face_is_there(face)) {
+            if (surface_.mesh.has_face(face)) {
                 samples_.for_each(face, [&](std::uint32_t number) { numbers.push_back(number); });
                 samples_.clear(face);
                 gone(face);
@@ -208,7 +208,7 @@ Shells::Shells(
     }
     face_counts_.assign(faces_.size(), 0);
     for (std::uint32_t face = 0; face < of_face_.size(); ++face) {
-        if (surface_.mesh.face_is_there(face)) {
+        if (surface_.mesh.has_face(face)) {
             of_face_[face] = of_original_[collapsing.face_numbers()[face]];
             faces_[of_face_[face]].push_back(face);
             ++face_counts_[of_face_[face]];
@@ -268,7 +268,7 @@ double Shells::cost(std::uint32_t shell) const {
     std::size_t all = 0;
     double present = 0.0;
     for (const std::uint32_t face : faces_[shell]) {
-        if (surface_.mesh.face_is_there(face)) {
+        if (surface_.mesh.has_face(face)) {
             all += samples_.count(face);
         }
     }
@@ -279,7 +279,7 @@ double Shells::cost(std::uint32_t shell) const {
     bool is_far = all == 0; // Nothing is known of where it is.
     std::size_t place = 0;
     for (const std::uint32_t face : faces_[shell]) {
-        if (!surface_.mesh.face_is_there(face)) {
+        if (!surface_.mesh.has_face(face)) {
             continue;
         }
         samples_.for_each(face, [&](std::uint32_t number) {
@@ -313,7 +313,7 @@ void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> nu
         const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
         assert(other.triangle != none && sample_near_[other.triangle] != none);
         const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
-        assert(surface_.mesh.face_is_there(start));
+        assert(surface_.mesh.has_face(start));
         float distance2 = 0.0F;
         const std::uint32_t face = nearest_face_from(surface_, start, at, distance2);
         samples_.put(number, face, distance2);
@@ -380,11 +380,11 @@ private:
     void fill();
     HalfEdge next_edge();
     HalfEdge taking_one(HalfEdge h);
-    bool is_allowed(HalfEdge h, const Placement& placement);
+    bool is_allowed(HalfEdge h, const VertexPlacement& placement);
     void update(HalfEdge edge, Known ways);
-    void measure(HalfEdge h, const Placement& placement, Known ways);
-    void load(HalfEdge h, const Placement& placement);
-    double length_cost(HalfEdge edge, const Placement& placement) const;
+    void measure(HalfEdge h, const VertexPlacement& placement, Known ways);
+    void load(HalfEdge h, const VertexPlacement& placement);
+    double length_cost(HalfEdge edge, const VertexPlacement& placement) const;
     void collapse(HalfEdge h);
     void part(std::uint32_t vertex);
     void update_around(std::uint32_t vertex);
@@ -431,7 +431,7 @@ bool EdgeCollapse::is_met(const Goal& goal) const {
 void EdgeCollapse::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
-        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) {
+        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) {
             update(h, first_);
         }
     }
@@ -439,7 +439,7 @@ void EdgeCollapse::fill() {
 
 void EdgeCollapse::run(const Goal& goal) {
     const std::size_t start = surface_.mesh.face_count();
-    wanted_faces_ = wanted_faces(goal);
+    wanted_faces_ = target_faces(goal);
     std::size_t done = 0;
     fill();
     for (std::uint32_t shell = 0; shells_ != nullptr && shell < shells_->count(); ++shell) {
@@ -456,7 +456,7 @@ void EdgeCollapse::run(const Goal& goal) {
             return;
         }
         if (goal.error_m && local_ == nullptr) {
-            const Placement next = collapsing_.quadrics().placement(surface_, h);
+            const VertexPlacement next = collapsing_.quadrics().placement(surface_, h);
             const double limit = *goal.error_m / collapsing_.units().diagonal_m;
             if (next.cost > limit * limit * next.weight) {
                 return; // The collapse would exceed the error.
@@ -511,7 +511,7 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     const float limit = max_factor * heap_.cost(h);
     HalfEdge best = none;
     for (HalfEdge side = 0; side < edges_; ++side) {
-        if (mesh.face_is_there(face_of(side)) && mesh.twin(side) == none) {
+        if (mesh.has_face(face_of(side)) && mesh.twin(side) == none) {
             update(side, local_ == nullptr ? Known::There : Known::BothWays);
             if (heap_.holds(side) && (best == none || heap_.cost(side) < heap_.cost(best)) &&
                 is_allowed(side, collapsing_.quadrics().placement(surface_, side))) {
@@ -523,7 +523,7 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
 }
 
 /// Whether an edge may collapse: the topology first, then the guard against fold-overs.
-bool EdgeCollapse::is_allowed(HalfEdge h, const Placement& placement) {
+bool EdgeCollapse::is_allowed(HalfEdge h, const VertexPlacement& placement) {
     effect_ = surface_.effect_of(h, changes_);
     if (effect_.kind == CollapseEffect::Kind::NotAllowed) {
         return false;
@@ -535,7 +535,7 @@ bool EdgeCollapse::is_allowed(HalfEdge h, const Placement& placement) {
 /// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
 void EdgeCollapse::update(HalfEdge edge, Known ways) {
     known_[edge] = ways;
-    const Placement placement = collapsing_.quadrics().placement(surface_, edge);
+    const VertexPlacement placement = collapsing_.quadrics().placement(surface_, edge);
     double cost = length_cost(edge, placement);
     if (local_ == nullptr) {
         cost += placement.cost;
@@ -543,7 +543,7 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
         cost += guessed_share * placement.cost;
     } else if (is_allowed(edge, placement)) {
         measure(edge, placement, ways);
-        cost += ways == Known::There ? there_ - local_->present_there()
+        cost += ways == Known::There ? there_ - local_->current_forward_error()
                                      : there_ + back_ - local_->present();
         if (effect_.kind != CollapseEffect::Kind::ClosesHole &&
             (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
@@ -562,22 +562,22 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
 
 /// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was
 /// measured last stays valid until the mesh changes.
-void EdgeCollapse::measure(HalfEdge h, const Placement& placement, Known ways) {
+void EdgeCollapse::measure(HalfEdge h, const VertexPlacement& placement, Known ways) {
     if (measured_ != h) {
         load(h, placement);
-        there_ = local_->measured_there();
+        there_ = local_->forward_error();
         measured_ = h;
         measured_ways_ = Known::There;
     }
     if (ways == Known::BothWays && measured_ways_ == Known::There) {
-        back_ = local_->measured_back();
+        back_ = local_->backward_error();
         measured_ways_ = Known::BothWays;
     }
 }
 
 /// Loads the samples around an edge, whose ring must be in ring_, and the triangles that its
 /// collapse would leave.
-void EdgeCollapse::load(HalfEdge h, const Placement& placement) {
+void EdgeCollapse::load(HalfEdge h, const VertexPlacement& placement) {
     faces_.clear();
     faces_.push_back(face_of(h));
     if (surface_.mesh.twin(h) != none) {
@@ -592,7 +592,7 @@ void EdgeCollapse::load(HalfEdge h, const Placement& placement) {
     local_->set_ring(ring_, placement.place, placement.colour);
 }
 
-double EdgeCollapse::length_cost(HalfEdge edge, const Placement& placement) const {
+double EdgeCollapse::length_cost(HalfEdge edge, const VertexPlacement& placement) const {
     const CollapsibleMesh& mesh = surface_.mesh;
     const glm::dvec3 along =
         surface_.places[mesh.target(edge)] - surface_.places[mesh.origin(edge)];
@@ -605,7 +605,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     const std::uint32_t kept = mesh.origin(h);
     const std::uint32_t gone = mesh.target(h);
-    const Placement placement = collapsing_.quadrics().placement(surface_, h);
+    const VertexPlacement placement = collapsing_.quadrics().placement(surface_, h);
     effect_ = surface_.effect_of(h, changes_);
     if (effect_.kind == CollapseEffect::Kind::NotAllowed) { // A handle was cut elsewhere.
         heap_.remove(h);

@@ -31,7 +31,7 @@ public:
     /// Collapses an edge that may collapse, merges the quadrics of its ends and records it. `error`
     /// is the estimated error so far, in working units. Where that cuts a handle, the record is no
     /// sequence of collapses any more.
-    CollapseEffect collapse(HalfEdge h, const Placement& placement, double error);
+    CollapseEffect collapse(HalfEdge h, const VertexPlacement& placement, double error);
 
     /// The number of holes closed and of handles cut so far.
     std::size_t holes_closed() const { return holes_closed_; }
@@ -39,7 +39,7 @@ public:
     std::size_t handles_cut() const { return handles_cut_; }
 
     /// Gives the slots of what is gone back and keeps the order of the rest.
-    KeptSlots compact();
+    SlotMap compact();
 
     /// The vertices of the mesh at first.
     std::size_t first_vertices() const { return first_vertices_; }

@@ -153,15 +153,15 @@ glm::dvec3 point_at(const std::array<glm::dvec3, 3>& corners, std::size_t corner
 void LocalError::gather(std::span<const std::uint32_t> faces) {
     block_.clear();
     gathered_.assign(faces.begin(), faces.end());
-    present_there_ = 0.0;
-    present_back_ = 0.0;
+    current_forward_error_ = 0.0;
+    current_backward_error_ = 0.0;
     for (const std::uint32_t face : faces) {
         samples_.prefetch(face);
     }
     for (const std::uint32_t face : faces) {
         samples_.gather(face, block_);
-        present_there_ += samples_.error(face) - samples_.back_error(face);
-        present_back_ += samples_.back_error(face);
+        current_forward_error_ += samples_.error(face) - samples_.back_error(face);
+        current_backward_error_ += samples_.back_error(face);
     }
     area_ = 0.0;
     for (std::size_t i = 0; i < block_.size(); ++i) {
@@ -184,7 +184,7 @@ void LocalError::set_ring(
              {colour, surface_.colour_of(next), surface_.colour_of(last)}});
         near_.push_back(face.face);
         turns_.push_back(face.half_edge % 3);
-        for (const WayBack& from : samples_.from_face(face.face)) {
+        for (const BackwardFoot& from : samples_.from_face(face.face)) {
             if (from.foot.triangle != none) {
                 original_.prefetch(from.foot.triangle);
             }
@@ -218,7 +218,7 @@ void LocalError::flatten() {
     }
 }
 
-double LocalError::measured_there() {
+double LocalError::forward_error() {
     if (block_.size() == 0) {
         return 0.0;
     }
@@ -239,25 +239,25 @@ double LocalError::measured_there() {
     return sum;
 }
 
-WayBack LocalError::way_back(const OriginalPoint& start, const glm::dvec3& place) const {
-    WayBack found;
+BackwardFoot LocalError::backward_foot(const OriginalPoint& start, const glm::dvec3& place) const {
+    BackwardFoot found;
     double distance2 = 0.0;
     found.foot = original_.nearest_from(start.triangle, place, distance2);
     found.distance2 = static_cast<float>(distance2);
     return found;
 }
 
-double LocalError::measured_back(double limit) {
+double LocalError::backward_error(double limit) {
     const Penalty& penalty = samples_.penalty();
     back_errors_.assign(triangles_.size(), 0.0);
     from_points_.resize(triangles_.size());
     max_back2_ = 0.0;
     back_points_.clear();
     if (!triangles_.empty() && triangles_[0].vertices[0] == none) {
-        const WayBack& near =
+        const BackwardFoot& near =
             moving_ != none ? samples_.from_vertex(moving_) : samples_.from_face(near_[0])[0];
-        from_moving_ = way_back(near.foot, triangles_[0].places[0]);
-        max_back2_ = is_close_ ? 0.0 : static_cast<double>(from_moving_.distance2);
+        from_moving_ = backward_foot(near.foot, triangles_[0].places[0]);
+        max_back2_ = is_dense_ ? 0.0 : static_cast<double>(from_moving_.distance2);
     }
     double sum = 0.0;
     for (std::size_t t = 0; t < triangles_.size() && sum <= limit; ++t) {
@@ -266,22 +266,22 @@ double LocalError::measured_back(double limit) {
         const double area = 0.5 * glm::length(normal);
         double mean = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
-            WayBack& from = from_points_[t][i];
-            from = way_back(
+            BackwardFoot& from = from_points_[t][i];
+            from = backward_foot(
                 samples_.from_face(near_[t])[(turns_[t] + i) % 3].foot, point_at(corners, i));
             if (glm::dot(original_.normal(from.foot.triangle), normal) < 0.0) {
                 from.distance2 += static_cast<float>(area);
             }
             const auto distance2 = static_cast<double>(from.distance2);
-            max_back2_ = std::max(max_back2_, is_close_ ? 0.0 : distance2);
+            max_back2_ = std::max(max_back2_, is_dense_ ? 0.0 : distance2);
             mean += point_share * penalty.of(distance2);
         }
         for (const std::uint32_t vertex : triangles_[t].vertices) {
-            const WayBack& from = vertex == none ? from_moving_ : samples_.from_vertex(vertex);
+            const BackwardFoot& from = vertex == none ? from_moving_ : samples_.from_vertex(vertex);
             mean += corner_share * penalty.of(static_cast<double>(from.distance2));
         }
-        if (is_close_) {
-            measure_closely(static_cast<std::uint32_t>(t));
+        if (is_dense_) {
+            measure_densely(static_cast<std::uint32_t>(t));
         }
         back_errors_[t] = area * mean;
         sum += back_errors_[t];
@@ -289,14 +289,14 @@ double LocalError::measured_back(double limit) {
     return sum;
 }
 
-void LocalError::measure_closely() {
-    is_close_ = true;
+void LocalError::measure_densely() {
+    is_dense_ = true;
     const CollapsibleMesh& mesh = surface_.mesh;
-    is_changed_.assign(mesh.face_slots(), 0);
+    face_changed_.assign(mesh.face_slots(), 0);
     std::vector<Triangle> triangles;
     present_faces_.clear();
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.face_is_there(face)) {
+        if (mesh.has_face(face)) {
             triangles.push_back(mesh.corners(face));
             present_faces_.push_back(face);
         }
@@ -305,7 +305,7 @@ void LocalError::measure_closely() {
 }
 
 /// A way back, or a shorter one if there is one on the whole original.
-WayBack LocalError::checked(const WayBack& from, const glm::dvec3& place) const {
+BackwardFoot LocalError::checked(const BackwardFoot& from, const glm::dvec3& place) const {
     if (static_cast<double>(from.distance2) <= trusted2_) {
         return from;
     }
@@ -317,11 +317,11 @@ WayBack LocalError::checked(const WayBack& from, const glm::dvec3& place) const 
 }
 
 /// Measures from points of the edges of a new triangle, and collects all points of it.
-void LocalError::measure_closely(std::uint32_t t) {
+void LocalError::measure_densely(std::uint32_t t) {
     const std::array<glm::dvec3, 3>& corners = triangles_[t].places;
-    const std::array<WayBack, 3>& inside = from_points_[t];
-    const auto add = [&](const WayBack& from, const glm::dvec3& place, double share) {
-        const WayBack shortest = checked(from, place);
+    const std::array<BackwardFoot, 3>& inside = from_points_[t];
+    const auto add = [&](const BackwardFoot& from, const glm::dvec3& place, double share) {
+        const BackwardFoot shortest = checked(from, place);
         back_points_.push_back({widen(shortest.foot.place) - place, t, share});
         max_back2_ = std::max(max_back2_, static_cast<double>(shortest.distance2));
     };
@@ -335,12 +335,12 @@ void LocalError::measure_closely(std::uint32_t t) {
         for (const double along : {0.25, 0.5, 0.75}) {
             const glm::dvec3 place = (1.0 - along) * corners[i] + along * corners[next];
             const double share = i == 0 ? 1.0 - along : next == 0 ? along : 0.0;
-            add(way_back(inside[along > 0.5 ? next : i].foot, place), place, share);
+            add(backward_foot(inside[along > 0.5 ? next : i].foot, place), place, share);
         }
     }
 }
 
-glm::dvec3 LocalError::way_to_lower_max() {
+glm::dvec3 LocalError::max_error_step() {
     constexpr double others = 0.02; // So much even the nearest points weigh, of the farthest ones.
     VertexFit fit;
     const double max2 = std::max(max_distance2(), 1e-30);
@@ -375,9 +375,9 @@ std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place
     double least2 = std::numeric_limits<double>::infinity();
     face_marks_.resize(mesh.face_slots(), 0);
     face_marks_[face] = ++face_mark_;
-    looked_.assign(1, face);
-    for (std::size_t i = 0; i < looked_.size(); ++i) {
-        samples_.for_each(looked_[i], [&](std::uint32_t number) {
+    start_candidates_.assign(1, face);
+    for (std::size_t i = 0; i < start_candidates_.size(); ++i) {
+        samples_.for_each(start_candidates_[i], [&](std::uint32_t number) {
             const SurfaceSample& sample = samples_[number];
             const bool faces_it = glm::dot(original_.normal(sample.triangle), normal) > 0.0;
             const glm::dvec3 off = widen(sample.place) - place;
@@ -387,15 +387,15 @@ std::uint32_t LocalError::start_near(std::uint32_t face, const glm::dvec3& place
                 start = sample.triangle;
             }
         });
-        if (std::isfinite(least2) && (i > 0 || looked_.size() >= max_looked)) {
+        if (std::isfinite(least2) && (i > 0 || start_candidates_.size() >= max_looked)) {
             continue;
         }
-        for (const std::uint32_t corner : mesh.corners(looked_[i])) {
+        for (const std::uint32_t corner : mesh.corners(start_candidates_[i])) {
             mesh.around(corner, [&](HalfEdge h) {
                 if (face_marks_[face_of(h)] != face_mark_ &&
-                    (looked_.size() < max_looked || !std::isfinite(least2))) {
+                    (start_candidates_.size() < max_looked || !std::isfinite(least2))) {
                     face_marks_[face_of(h)] = face_mark_;
-                    looked_.push_back(face_of(h));
+                    start_candidates_.push_back(face_of(h));
                 }
             });
         }
@@ -412,28 +412,28 @@ void LocalError::measure_colours(std::uint32_t face) {
     flatten();
     block_.clear();
     samples_.gather(face, block_);
-    measured_there();
+    forward_error();
     samples_.assign(block_, {&face, 1}, {&face, 1});
 }
 
 double LocalError::measure_all_back() {
     const CollapsibleMesh& mesh = surface_.mesh;
-    const auto start_from = [&](WayBack& from, std::uint32_t face, const glm::dvec3& place) {
+    const auto start_from = [&](BackwardFoot& from, std::uint32_t face, const glm::dvec3& place) {
         if (from.foot.triangle == none) {
             from.foot.triangle = start_near(face, place);
         }
     };
     double most2 = 0.0;
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
-        if (mesh.vertex_is_there(vertex)) {
-            WayBack& from = samples_.from_vertex(vertex);
+        if (mesh.has_vertex(vertex)) {
+            BackwardFoot& from = samples_.from_vertex(vertex);
             start_from(from, mesh.face_at(vertex), surface_.places[vertex]);
-            from = way_back(from.foot, surface_.places[vertex]);
+            from = backward_foot(from.foot, surface_.places[vertex]);
             most2 = std::max(most2, static_cast<double>(from.distance2));
         }
     }
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.face_is_there(face)) {
+        if (mesh.has_face(face)) {
             const std::array<glm::dvec3, 3> corners = surface_.corner_places(face);
             for (std::size_t i = 0; i < 3; ++i) {
                 start_from(samples_.from_face(face)[i], face, point_at(corners, i));
@@ -441,7 +441,7 @@ double LocalError::measure_all_back() {
             triangles_.assign(1, {mesh.corners(face), corners, {}});
             near_.assign(1, face);
             turns_.assign(1, 0);
-            measured_back();
+            backward_error();
             if (samples_.coloured()) {
                 measure_colours(face);
             }
@@ -454,19 +454,19 @@ double LocalError::measure_all_back() {
 }
 
 double LocalError::measured(double limit) {
-    const double there = measured_there();
-    return there > limit ? there : there + measured_back(limit - there);
+    const double there = forward_error();
+    return there > limit ? there : there + backward_error(limit - there);
 }
 
 double LocalError::max_there2() {
     float max2 = 0.0F;
     for (std::size_t i = 0; i < block_.size(); ++i) {
         float& distance2 = block_.distances2[i];
-        if (is_close_ && distance2 > max2 && static_cast<double>(distance2) > trusted2_) {
+        if (is_dense_ && distance2 > max2 && static_cast<double>(distance2) > trusted2_) {
             const measure::NearestOnMesh found =
                 present_tree_->nearest(glm::dvec3(block_.x[i], block_.y[i], block_.z[i]));
             const std::uint32_t face = present_faces_[found.triangle];
-            if (is_changed_[face] == 0 && std::ranges::find(gathered_, face) == gathered_.end()) {
+            if (face_changed_[face] == 0 && std::ranges::find(gathered_, face) == gathered_.end()) {
                 distance2 = std::min(distance2, static_cast<float>(found.distance2));
             }
         }
@@ -496,7 +496,7 @@ VertexFit LocalError::fit(bool with_back) const {
         const double length = glm::length(normal);
         if (length > 0.0) {
             for (std::size_t i = 0; i < 3; ++i) {
-                const WayBack& from = samples_.from_face(near_[t])[(turns_[t] + i) % 3];
+                const BackwardFoot& from = samples_.from_face(near_[t])[(turns_[t] + i) % 3];
                 const glm::dvec3 off = widen(from.foot.place) - point_at(triangles_[t].places, i);
                 const double weight = 0.5 * length * penalty.weight(glm::dot(off, off));
                 fit.add(
@@ -506,7 +506,7 @@ VertexFit LocalError::fit(bool with_back) const {
         }
     }
     if (with_back && moving_ != none && around > 0.0) {
-        const WayBack& from = samples_.from_vertex(moving_);
+        const BackwardFoot& from = samples_.from_vertex(moving_);
         const glm::dvec3 off = widen(from.foot.place) - triangles_[0].places[0];
         const glm::dvec3 normal = original_.normal(from.foot.triangle);
         const double length = glm::length(normal);
@@ -522,10 +522,10 @@ void LocalError::keep(
     std::span<const std::uint32_t> emptied,
     std::span<const std::uint32_t> faces,
     std::uint32_t vertex) {
-    if (is_close_) {
+    if (is_dense_) {
         for (const std::span<const std::uint32_t> list : {emptied, faces}) {
             for (const std::uint32_t face : list) {
-                is_changed_[face] = 1;
+                face_changed_[face] = 1;
             }
         }
     }

@@ -86,10 +86,10 @@ public:
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
-    double measured_there();
+    double forward_error();
 
     /// Measures from the new triangles to the original, until the sum exceeds `limit`.
-    double measured_back(double limit = std::numeric_limits<double>::infinity());
+    double backward_error(double limit = std::numeric_limits<double>::infinity());
 
     /// Both; only a lower bound where that exceeds `limit`.
     double measured(double limit = std::numeric_limits<double>::infinity());
@@ -98,20 +98,20 @@ public:
     double max_distance2() { return std::max(max_there2(), max_back2_); }
 
     /// The sum of the present errors of the triangles that were loaded.
-    double present() const { return present_there_ + present_back_; }
+    double present() const { return current_forward_error_ + current_backward_error_; }
 
-    double present_there() const { return present_there_; }
+    double current_forward_error() const { return current_forward_error_; }
 
     /// Below this an error may be nothing but the rounding of the samples.
     double rounding() const { return sample_rounding * sample_rounding * area_; }
 
-    /// The least-squares step of corner 0, from what measured_there() saw last; with the present
+    /// The least-squares step of corner 0, from what forward_error() saw last; with the present
     /// ways back where the new triangles are still the present ones.
     VertexFit fit(bool with_back) const;
 
     /// From now on ways back start from points of the edges too, and the largest distance is that
     /// from the whole of the other surface. The error stays as it is.
-    void measure_closely();
+    void measure_densely();
 
     /// Measured closely, only squared distances above this one are looked up in the whole of the
     /// other surface.
@@ -119,7 +119,7 @@ public:
 
     /// The step of corner 0 that lowers the largest distance, both ways, of what was measured
     /// closely last: a least-squares fit in which far points weigh most.
-    glm::dvec3 way_to_lower_max();
+    glm::dvec3 max_error_step();
 
     /// About how many distances to triangles one measurement takes.
     double work() const;
@@ -152,11 +152,11 @@ private:
     };
 
     void flatten();
-    WayBack checked(const WayBack& from, const glm::dvec3& place) const;
-    void measure_closely(std::uint32_t triangle);
+    BackwardFoot checked(const BackwardFoot& from, const glm::dvec3& place) const;
+    void measure_densely(std::uint32_t triangle);
     void measure_colours(std::uint32_t face);
     std::uint32_t start_near(std::uint32_t face, const glm::dvec3& place);
-    WayBack way_back(const OriginalPoint& start, const glm::dvec3& place) const;
+    BackwardFoot backward_foot(const OriginalPoint& start, const glm::dvec3& place) const;
 
     const WorkingSurface& surface_;
     SurfaceSamples& samples_;
@@ -168,25 +168,25 @@ private:
     std::vector<std::uint32_t> turns_;
     std::vector<FlatTriangle> flat_;
     std::vector<double> back_errors_;                 ///< For each new triangle.
-    std::vector<std::array<WayBack, 3>> from_points_; ///< By the corners of each new triangle.
-    WayBack from_moving_;                             ///< From corner 0 where that is new or moves.
+    std::vector<std::array<BackwardFoot, 3>> from_points_; ///< By the corners of each new triangle.
+    BackwardFoot from_moving_;                             ///< From corner 0 where that is new or moves.
     /// The vertex that moves, or is merged with another one; none = it is new.
     std::uint32_t moving_ = none;
     double max_back2_ = 0.0;
-    bool is_close_ = false;
+    bool is_dense_ = false;
     double trusted2_ = 0.0;
-    /// Of the present triangles when measure_closely() was called, their numbers, and for each
+    /// Of the present triangles when measure_densely() was called, their numbers, and for each
     /// number whether it changed since.
     std::unique_ptr<const measure::TriangleBvh> present_tree_;
     std::vector<std::uint32_t> present_faces_;
-    std::vector<std::uint8_t> is_changed_;
+    std::vector<std::uint8_t> face_changed_;
     std::vector<std::uint32_t> gathered_; ///< The triangles that were loaded.
     std::vector<BackPoint> back_points_;  ///< Empty unless measured closely.
     double work_done_ = 0.0;
-    double present_there_ = 0.0;
-    double present_back_ = 0.0;
+    double current_forward_error_ = 0.0;
+    double current_backward_error_ = 0.0;
     double area_ = 0.0;
-    std::vector<std::uint32_t> looked_;     ///< The triangles that start_near() looks at.
+    std::vector<std::uint32_t> start_candidates_;     ///< The triangles that start_near() looks at.
     std::vector<std::uint32_t> face_marks_; ///< For each triangle slot the last search that met it.
     std::uint32_t face_mark_ = 0;           ///< The number of the last search.
 };

@@ -170,7 +170,7 @@ void Optimizer::expect_split(HalfEdge edge) {
 void Optimizer::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
-        if (!mesh.vertex_is_there(vertex)) {
+        if (!mesh.has_vertex(vertex)) {
             continue;
         }
         double error = 0.0;
@@ -182,7 +182,7 @@ void Optimizer::fill() {
         expect(vertex, expected_of_move * error, work);
     }
     for (HalfEdge h = 0; h < edges_; ++h) {
-        if (mesh.face_is_there(face_of(h)) && mesh.edge_of(h) == h) {
+        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h) {
             expect(flip_of(h), expected_of_flip * error_at(h), work_at(h));
             expect_split(h);
             collapses_.set(h, 0.0F);
@@ -196,7 +196,7 @@ std::size_t Optimizer::run(const OptimizeOptions& options) {
     fill();
     std::size_t steps = 0;
     while (steps < options.max_steps && !queue_.empty()) {
-        if (steps % 64 == 0 && options.is_time_over && options.is_time_over()) {
+        if (steps % 64 == 0 && options.has_timed_out && options.has_timed_out()) {
             break;
         }
         if (steps % 1024 == 0 && options.show_progress) {
@@ -232,11 +232,11 @@ void Optimizer::lower_max(double mean2_before) {
     const CollapsibleMesh& mesh = surface_.mesh;
     samples_.set_penalty({}); // Now the error is the sum of squares.
     local_.measure_all_back();
-    local_.measure_closely();
+    local_.measure_densely();
     EdgeHeap largest(mesh.face_slots());
     double error = 0.0;
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.face_is_there(face)) {
+        if (mesh.has_face(face)) {
             error += samples_.error(face);
             largest.set(face, static_cast<float>(-max_distance2_of(face, untrusted)));
         }
@@ -306,7 +306,7 @@ void Optimizer::lower_max_by_corner(
     constexpr double min_length = 0.05;
     constexpr double shorter = 0.4;
     const auto way_from_here = [&] {
-        const glm::dvec3 way = local_.way_to_lower_max();
+        const glm::dvec3 way = local_.max_error_step();
         return vertex == none ? way : surface_.along_borders(vertex, way);
     };
     const double start = local_.measured();
@@ -383,7 +383,7 @@ void Optimizer::try_move(std::uint32_t vertex) {
         return;
     }
     local_.set_ring(ring_, place, colour);
-    local_.measured_there();
+    local_.forward_error();
     const VertexFit fit = local_.fit(true);
     const glm::dvec3 way = surface_.along_borders(vertex, fit.way());
     const double work = local_.work();
@@ -520,7 +520,7 @@ void Optimizer::load_split(HalfEdge h) {
 /// Moves corner 0 of the new triangles to where two least-squares fits lead.
 void Optimizer::fit_corner(glm::dvec3& place, glm::dvec3& colour) {
     for (int fit = 0; fit < 2; ++fit) {
-        local_.measured_there();
+        local_.forward_error();
         const VertexFit step = local_.fit(false);
         place += step.way();
         colour += step.colour_change();
@@ -540,7 +540,7 @@ Optimizer::MadeVertex Optimizer::split_vertex(HalfEdge h) {
         for (std::size_t i = 0; i < fan_.size(); ++i) {
             std::array<glm::dvec3, 3> corners = fan_[i].places;
             corners[0] = place;
-            if (!may_become(surface_.corner_places(faces_[i / 2]), corners)) {
+            if (!is_valid_deformation(surface_.corner_places(faces_[i / 2]), corners)) {
                 return false;
             }
         }
@@ -610,7 +610,7 @@ HalfEdge Optimizer::cheapest_collapse() {
         }
         collapse_is_checked_[edge] = 1;
         const bool is_edge =
-            surface_.mesh.face_is_there(face_of(edge)) && surface_.mesh.edge_of(edge) == edge;
+            surface_.mesh.has_face(face_of(edge)) && surface_.mesh.edge_of(edge) == edge;
         const double change =
             is_edge ? collapsed_vertex(edge).change : std::numeric_limits<double>::infinity();
         if (std::isinf(change)) {
@@ -663,7 +663,7 @@ HalfEdge Optimizer::cheapest_collapse_away_from(HalfEdge split) {
 void Optimizer::try_split(HalfEdge h) {
     const Id id = split_of(h);
     const CollapsibleMesh& mesh = surface_.mesh;
-    if (!mesh.face_is_there(face_of(h)) || mesh.edge_of(h) != h || surface_.is_border(h)) {
+    if (!mesh.has_face(face_of(h)) || mesh.edge_of(h) != h || surface_.is_border(h)) {
         queue_.remove(id);
         return;
     }

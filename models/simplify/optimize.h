@@ -13,7 +13,7 @@ namespace octant::models::simplify {
 struct OptimizeOptions {
     std::size_t max_steps = 0;
     /// Asked now and then; true ends the optimization. May be empty.
-    std::function<bool()> is_time_over;
+    std::function<bool()> has_timed_out;
     std::function<void(double share)> show_progress; ///< May be empty.
 };
 

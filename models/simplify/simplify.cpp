@@ -71,7 +71,7 @@ optimize_options(const SimplifyOptions& options, std::size_t faces, std::size_t 
         how.max_steps = std::min(how.max_steps, steps_of(options.effort, faces, original));
     }
     if (options.deadline) {
-        how.is_time_over = [end = *options.deadline] {
+        how.has_timed_out = [end = *options.deadline] {
             return std::chrono::steady_clock::now() > end;
         };
     }
@@ -112,7 +112,7 @@ std::vector<std::uint32_t> compacted(CollapsingSurface& collapsing) {
     std::vector<std::uint32_t> slots(collapsing.first_vertices() + collapses.size(), none);
     std::uint32_t count = 0;
     for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
-        if (mesh.vertex_is_there(slot)) {
+        if (mesh.has_vertex(slot)) {
             slots[collapsing.vertex_numbers()[slot]] = count++;
         }
     }
@@ -222,7 +222,7 @@ public:
 
     /// Adds what has changed in the topology.
     void tell(Simplified& result) const {
-        result.shells_gone = shells_gone_;
+        result.shells_removed = shells_gone_;
         result.holes_closed = collapsing_.holes_closed();
         result.handles_cut = collapsing_.handles_cut();
     }
@@ -343,7 +343,7 @@ private:
              .negligible_m = 0.9 * error_m_,
              .samples = 100,
              .threads = options_.threads,
-             .larger_alone = true,
+             .maximum_only = true,
              .tree_of_a = state.original_tree()});
         is_kept_ = distance.max_hausdorff_m() * measure::DistanceOptions().tightness <= error_m_;
         if (is_kept_) {
@@ -405,7 +405,7 @@ Simplified to_count(const TriangleMesh& original, const SimplifyOptions& options
     Simplified result;
     const double start_s = cpu_s();
     Simplification work(original, options);
-    const std::size_t faces = wanted_faces(options.goal);
+    const std::size_t faces = target_faces(options.goal);
     work.approach({{}, std::max(sampled_faces * faces, min_sampled_faces), {}}, faces);
     work.collapse(options.goal);
     const double collapsed_s = cpu_s();
@@ -414,7 +414,7 @@ Simplified to_count(const TriangleMesh& original, const SimplifyOptions& options
     result.collapse_cpu_s = collapsed_s - start_s;
     result.optimize_cpu_s = cpu_s() - collapsed_s;
     result.original_tree = result.steps > 0 ? work.original_tree() : nullptr;
-    if (result.shells_gone == 0 && result.handles_cut == 0) {
+    if (result.shells_removed == 0 && result.handles_cut == 0) {
         result.sequence.collapses = std::move(work.collapses());
         result.sequence.original = original;
     }

@@ -16,7 +16,7 @@ struct Simplified {
     /// The collapses that led to it, before the optimization; none where shells were dropped or
     /// handles cut, and for a wanted error.
     CollapseSequence sequence;
-    std::size_t shells_gone = 0;
+    std::size_t shells_removed = 0;
     std::size_t holes_closed = 0;
     std::size_t handles_cut = 0;
     std::size_t steps = 0; ///< That all optimizations tried.

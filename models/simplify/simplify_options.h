@@ -15,7 +15,7 @@ struct Goal {
 };
 
 /// About how many triangles a goal without an error leaves.
-inline std::size_t wanted_faces(const Goal& goal) {
+inline std::size_t target_faces(const Goal& goal) {
     return goal.faces.value_or(2 * goal.vertices.value_or(0));
 }
 

@@ -48,7 +48,7 @@ SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wante
     samples_.reserve(std::max(wanted, vertices));
     if (wanted <= vertices) {
         add_on_faces(original, areas, std::max<std::size_t>(wanted, 1), false);
-        add_to_bare_shells(original, areas);
+        add_to_unsampled_shells(original, areas);
         return;
     }
     for (double& area : vertex_areas) {
@@ -60,7 +60,7 @@ SurfaceSamples::SurfaceSamples(const WorkingSurface& original, std::size_t wante
 
 void SurfaceSamples::add_vertices(const WorkingSurface& from, std::span<const double> areas) {
     for (std::uint32_t vertex = 0; vertex < areas.size(); ++vertex) {
-        if (!from.mesh.vertex_is_there(vertex)) {
+        if (!from.mesh.has_vertex(vertex)) {
             continue;
         }
         const std::uint32_t face = from.mesh.face_at(vertex);
@@ -106,12 +106,12 @@ void SurfaceSamples::add_on_faces(
 }
 
 /// Adds the middle of the largest triangle of each shell that has no sample.
-void SurfaceSamples::add_to_bare_shells(const WorkingSurface& from, std::span<const double> areas) {
+void SurfaceSamples::add_to_unsampled_shells(const WorkingSurface& from, std::span<const double> areas) {
     const CollapsibleMesh& mesh = from.mesh;
     std::vector<bool> is_found(areas.size(), false);
     std::vector<std::uint32_t> shell;
     for (std::uint32_t start = 0; start < areas.size(); ++start) {
-        if (is_found[start] || !mesh.face_is_there(start)) {
+        if (is_found[start] || !mesh.has_face(start)) {
             continue;
         }
         is_found[start] = true;
@@ -235,8 +235,8 @@ void SurfaceSamples::assign_all(
     counts_ = std::vector<std::uint32_t>(face_slots, 0);
     errors_ = std::vector<double>(face_slots, 0.0);
     back_errors_ = std::vector<double>(face_slots, 0.0);
-    from_faces_ = std::vector<std::array<WayBack, 3>>(face_slots);
-    from_vertices_ = std::vector<WayBack>(mesh.vertex_slots());
+    from_faces_ = std::vector<std::array<BackwardFoot, 3>>(face_slots);
+    from_vertices_ = std::vector<BackwardFoot>(mesh.vertex_slots());
     for (std::uint32_t number = 0; number < samples_.size(); ++number) {
         samples_[number].face = faces[number];
         samples_[number].distance2 = distances2[number];

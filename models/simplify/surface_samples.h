@@ -38,7 +38,7 @@ struct Penalty {
 };
 
 /// Where the way back from a point of the current surface ends.
-struct WayBack {
+struct BackwardFoot {
     OriginalPoint foot;
     float distance2 = 0.0F;
 };
@@ -94,9 +94,9 @@ public:
 
     /// The ways back from three points of a triangle, by its corners, and from a vertex
     /// (LocalError).
-    std::array<WayBack, 3>& from_face(std::uint32_t face) { return from_faces_[face]; }
+    std::array<BackwardFoot, 3>& from_face(std::uint32_t face) { return from_faces_[face]; }
 
-    WayBack& from_vertex(std::uint32_t vertex) { return from_vertices_[vertex]; }
+    BackwardFoot& from_vertex(std::uint32_t vertex) { return from_vertices_[vertex]; }
 
     double back_error(std::uint32_t face) const { return back_errors_[face]; }
 
@@ -145,7 +145,7 @@ private:
         std::span<const double> areas,
         std::size_t count,
         bool with_vertices);
-    void add_to_bare_shells(const WorkingSurface& from, std::span<const double> areas);
+    void add_to_unsampled_shells(const WorkingSurface& from, std::span<const double> areas);
 
     std::vector<SurfaceSample> samples_;
     std::vector<std::array<float, 3>> colours_; ///< Empty = no colours.
@@ -153,8 +153,8 @@ private:
     std::vector<std::uint32_t> counts_;
     std::vector<double> errors_;
     std::vector<double> back_errors_;
-    std::vector<std::array<WayBack, 3>> from_faces_;
-    std::vector<WayBack> from_vertices_;
+    std::vector<std::array<BackwardFoot, 3>> from_faces_;
+    std::vector<BackwardFoot> from_vertices_;
     Penalty penalty_;
 };
 

@@ -81,13 +81,13 @@ void VertexQuadrics::add_edge(
     quadrics_[mesh.target(h)] += quadric;
 }
 
-Placement VertexQuadrics::placement(const WorkingSurface& surface, HalfEdge h) const {
+VertexPlacement VertexQuadrics::placement(const WorkingSurface& surface, HalfEdge h) const {
     const std::uint32_t u = surface.mesh.origin(h);
     const std::uint32_t w = surface.mesh.target(h);
     Quadric quadric = quadrics_[u];
     quadric += quadrics_[w];
     const glm::dvec3 middle = 0.5 * (surface.places[u] + surface.places[w]);
-    Placement found;
+    VertexPlacement found;
     found.weight = quadric.trace();
     const std::uint32_t locked = surface.is_locked(u) ? u : surface.is_locked(w) ? w : none;
     if (colours_.empty()) {
@@ -119,9 +119,9 @@ void VertexQuadrics::copy(std::uint32_t from, std::uint32_t to) {
 }
 
 void VertexQuadrics::keep(std::span<const std::uint32_t> vertices) {
-    keep_slots(quadrics_, vertices);
+    compact_slots(quadrics_, vertices);
     if (!colours_.empty()) {
-        keep_slots(colours_, vertices);
+        compact_slots(colours_, vertices);
     }
 }
 

@@ -12,7 +12,7 @@
 namespace octant::models::simplify {
 
 /// Where the vertex that an edge collapses into is placed, and its cost by the quadrics.
-struct Placement {
+struct VertexPlacement {
     glm::dvec3 place{0.0};
     glm::dvec3 colour{0.0};
     double cost = 0.0;   ///< The weighted sum of squared distances, colours included.
@@ -40,7 +40,7 @@ public:
     VertexQuadrics(const WorkingSurface& surface, const EdgeWeights& weights);
 
     /// Where the collapse of an edge would place its vertex.
-    Placement placement(const WorkingSurface& surface, HalfEdge h) const;
+    VertexPlacement placement(const WorkingSurface& surface, HalfEdge h) const;
 
     /// Gives the sum of both vertices' quadrics to `kept`.
     void merge(std::uint32_t kept, std::uint32_t gone);

@@ -1,7 +1,7 @@
 // Conversion between files and working units, and from the mesh that is being changed back to a
 // TriangleMesh.
 //
-// may_become keeps steps from folding the surface over: the test of the angle between old and new
+// is_valid_deformation keeps steps from folding the surface over: the test of the angle between old and new
 // normal of M. Garland and P. Heckbert (1997). Slivers are allowed where the error allows them:
 // along cylinders and rims they lie best. The topology has a test of its own,
 // CollapsibleMesh::may_collapse.
@@ -34,9 +34,9 @@ OriginalSurface::OriginalSurface(
     , units_(units)
     , places_(surface.places) {
     const CollapsibleMesh& mesh = surface.mesh;
-    beyond_.reserve(mesh.face_slots());
+    neighbours_.reserve(mesh.face_slots());
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        std::array<std::uint32_t, 3>& beyond = beyond_.emplace_back();
+        std::array<std::uint32_t, 3>& beyond = neighbours_.emplace_back();
         for (std::uint32_t side = 0; side < 3; ++side) {
             const HalfEdge twin = mesh.twin(3 * face + side);
             beyond[side] = twin == none ? none : face_of(twin);
@@ -139,8 +139,8 @@ OriginalPoint OriginalSurface::nearest_from(
                 next = triangle;
             }
         };
-        if (best.side != none && beyond_[at][best.side] != none) {
-            look(beyond_[at][best.side]);
+        if (best.side != none && neighbours_[at][best.side] != none) {
+            look(neighbours_[at][best.side]);
         } else if (best.corner != none) {
             // Around the corner, first one way and at a boundary then the other way.
             const std::uint32_t corner = mesh_.triangles[at][best.corner];
@@ -151,7 +151,7 @@ OriginalPoint OriginalSurface::nearest_from(
                     while (mesh_.triangles[triangle][i] != corner) {
                         ++i;
                     }
-                    triangle = beyond_[triangle][forward ? (i + 2) % 3 : i];
+                    triangle = neighbours_[triangle][forward ? (i + 2) % 3 : i];
                     if (triangle != none && triangle != at) {
                         look(triangle);
                     }
@@ -170,7 +170,7 @@ OriginalPoint OriginalSurface::nearest_from(
     }
 }
 
-bool may_become(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after) {
+bool is_valid_deformation(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after) {
     const glm::dvec3 old_normal = area_vector(before);
     const glm::dvec3 new_normal = area_vector(after);
     if (!(glm::dot(new_normal, new_normal) > 0.0)) {
@@ -183,7 +183,7 @@ bool may_flip_to(
     const std::array<std::array<glm::dvec3, 3>, 2>& before,
     const std::array<std::array<glm::dvec3, 3>, 2>& after) {
     return std::ranges::all_of(before, [&](const auto& from) {
-        return std::ranges::all_of(after, [&](const auto& to) { return may_become(from, to); });
+        return std::ranges::all_of(after, [&](const auto& to) { return is_valid_deformation(from, to); });
     });
 }
 
@@ -191,7 +191,7 @@ bool may_move(
     const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place) {
     return std::ranges::all_of(ring, [&](const RingFace& face) {
         const glm::dvec3& old_place = surface.places[surface.mesh.origin(face.half_edge)];
-        return may_become(
+        return is_valid_deformation(
             moved_corners(surface, face, old_place), moved_corners(surface, face, place));
     });
 }
@@ -199,7 +199,7 @@ bool may_move(
 WorkingUnits WorkingUnits::of(const TriangleMesh& mesh, double colour_weight) {
     // Colours that do not count are carried along with this weight.
     constexpr double min_weight = 1e-4;
-    const Bounds bounds = bounds_of(mesh);
+    const BoundingBox bounds = bounds_of(mesh);
     const double diagonal_m = glm::distance(bounds.min_m, bounds.max_m);
     return {
         0.5 * (bounds.min_m + bounds.max_m),
@@ -248,7 +248,7 @@ bool WorkingSurface::is_border_vertex(std::uint32_t vertex) const {
 
 void WorkingSurface::lock_border(const TriangleMesh& from, const WorkingUnits& units) {
     for (std::uint32_t vertex = 0; vertex < mesh.vertex_slots(); ++vertex) {
-        if (mesh.vertex_is_there(vertex) && mesh.is_boundary_vertex(vertex)) {
+        if (mesh.has_vertex(vertex) && mesh.is_boundary_vertex(vertex)) {
             const glm::dvec3 place = units.from_file(from.vertices_m[vertex]);
             locked_m[{place.x, place.y, place.z}] = from.vertices_m[vertex];
         }
@@ -296,14 +296,14 @@ glm::dvec3 WorkingSurface::along_borders(std::uint32_t vertex, const glm::dvec3&
     return flat2 > 0.0 ? up + glm::dot(way, flat) / flat2 * flat : up;
 }
 
-KeptSlots WorkingSurface::compact() {
-    KeptSlots kept = mesh.compact();
-    keep_slots(places, kept.vertices);
+SlotMap WorkingSurface::compact() {
+    SlotMap kept = mesh.compact();
+    compact_slots(places, kept.vertices);
     if (coloured()) {
-        keep_slots(colours, kept.vertices);
+        compact_slots(colours, kept.vertices);
     }
     if (!materials.empty()) {
-        keep_slots(materials, kept.faces);
+        compact_slots(materials, kept.faces);
     }
     return kept;
 }
@@ -315,7 +315,7 @@ WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units)
     made.materials = original.materials;
     std::vector<std::uint32_t> numbers(mesh.vertex_slots(), none);
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
-        if (!mesh.vertex_is_there(v)) {
+        if (!mesh.has_vertex(v)) {
             continue;
         }
         numbers[v] = static_cast<std::uint32_t>(made.vertices_m.size());
@@ -325,7 +325,7 @@ WorkingSurface::to_mesh(const TriangleMesh& original, const WorkingUnits& units)
         }
     }
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (!mesh.face_is_there(face)) {
+        if (!mesh.has_face(face)) {
             continue;
         }
         const Triangle corners = mesh.corners(face);

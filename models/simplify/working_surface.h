@@ -115,7 +115,7 @@ struct WorkingSurface {
     glm::dvec3 along_borders(std::uint32_t vertex, const glm::dvec3& way) const;
 
     /// Gives the slots of what is gone back.
-    KeptSlots compact();
+    SlotMap compact();
 
     /// The present mesh in file units, vertices and triangles in the order of their slots. Name and
     /// materials are those of `original`.
@@ -129,7 +129,7 @@ inline glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
 
 /// Whether a triangle with corners `before` may get the corners `after`: it turns by less than 90
 /// degrees and has an area. One without an area may become any that has one.
-bool may_become(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after);
+bool is_valid_deformation(const std::array<glm::dvec3, 3>& before, const std::array<glm::dvec3, 3>& after);
 
 /// Whether the two triangles at an edge may become the two given ones when the edge is flipped,
 /// whichever new one is compared with whichever old one.
@@ -137,7 +137,7 @@ bool may_flip_to(
     const std::array<std::array<glm::dvec3, 3>, 2>& before,
     const std::array<std::array<glm::dvec3, 3>, 2>& after);
 
-/// Whether every triangle of a ring may have its moving corner at `place`, by may_become.
+/// Whether every triangle of a ring may have its moving corner at `place`, by is_valid_deformation.
 bool may_move(
     const WorkingSurface& surface, std::span<const RingFace> ring, const glm::dvec3& place);
 
@@ -173,7 +173,7 @@ public:
     /// Tells the processor that a triangle will be asked for.
     void prefetch(std::uint32_t triangle) const {
         __builtin_prefetch(&mesh_.triangles[triangle]);
-        __builtin_prefetch(&beyond_[triangle]);
+        __builtin_prefetch(&neighbours_[triangle]);
     }
 
     /// The normal of a triangle, of any length.
@@ -185,7 +185,7 @@ public:
     }
 
     /// The number of triangles.
-    std::size_t size() const { return beyond_.size(); }
+    std::size_t size() const { return neighbours_.size(); }
 
     /// A tree over the triangles in the mesh's own units, for whoever measures distances to it. It
     /// is built when it is first needed.
@@ -203,7 +203,7 @@ public:
 
     /// The triangle beyond each side of a triangle, or none.
     const std::array<std::uint32_t, 3>& beyond(std::uint32_t triangle) const {
-        return beyond_[triangle];
+        return neighbours_[triangle];
     }
 
 private:
@@ -221,7 +221,7 @@ private:
     WorkingUnits units_;
     std::vector<glm::dvec3> places_;
     mutable std::shared_ptr<const measure::TriangleBvh> tree_; ///< Null = not built so far.
-    std::vector<std::array<std::uint32_t, 3>> beyond_; ///< The triangle beyond each side, or none.
+    std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< The triangle beyond each side, or none.
 };
 
 } // namespace octant::models::simplify

@@ -39,7 +39,7 @@ glm::dvec3 direction_from_heading(double heading_rad) {
     return {std::sin(heading_rad), std::cos(heading_rad), 0.0};
 }
 
-glm::dvec2 turned_clockwise(const glm::dvec2& east_north, double by_rad) {
+glm::dvec2 rotated_clockwise(const glm::dvec2& east_north, double by_rad) {
     const double cosine = std::cos(by_rad);
     const double sine = std::sin(by_rad);
     return {

@@ -28,7 +28,7 @@ EulerAngles euler_from_body_to_world(const glm::dquat& body_to_world);
 glm::dvec3 direction_from_heading(double heading_rad);
 
 /// A level vector, x east and y north, turned clockwise seen from above.
-glm::dvec2 turned_clockwise(const glm::dvec2& east_north, double by_rad);
+glm::dvec2 rotated_clockwise(const glm::dvec2& east_north, double by_rad);
 
 /// The same angle in [0, 2 pi).
 double wrapped_to_two_pi(double angle_rad);

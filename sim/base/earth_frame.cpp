@@ -4,7 +4,7 @@
 
 namespace octant {
 
-FramePlace EarthFrame::place_of(const GeoPlace& place) const {
+FramePosition EarthFrame::place_of(const GeoPosition& place) const {
     const double aside_deg = place.latitude_deg > 0.0 ? -1e-4 : 1e-4; // 11 m, away from the pole
     const glm::dvec2 at_m = local_from_geo(place);
     const glm::dvec2 beside_m =

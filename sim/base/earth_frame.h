@@ -1,17 +1,17 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 
 #include <glm/vec2.hpp>
 
 namespace octant {
 
 /// Where a place is in a frame's axes.
-struct FramePlace {
+struct FramePosition {
     glm::dvec2 east_north_m{0.0};
     /// The bearing of true north there, clockwise from the y axis: what is to be added to a heading
     /// from true north to have one from the y axis.
-    double north_turn_rad = 0.0;
+    double north_bearing_rad = 0.0;
 };
 
 /// How flat ground lies on the earth, or on the planet whose ellipsoid its origin names: where
@@ -25,16 +25,16 @@ public:
     EarthFrame& operator=(EarthFrame&&) = delete;
 
     /// Where x and y are 0.
-    virtual GeoPlace origin() const = 0;
+    virtual GeoPosition origin() const = 0;
 
     /// The ellipsoid of `place` is not looked at: its latitude and longitude are taken as the
     /// frame's. Finite for every place on the earth, and true up to 5,000 km from the origin.
-    virtual glm::dvec2 local_from_geo(const GeoPlace& place) const = 0;
+    virtual glm::dvec2 local_from_geo(const GeoPosition& place) const = 0;
 
     /// Undoes local_from_geo() there; always a place on its ellipsoid.
-    virtual GeoPlace geo_from_local(const glm::dvec2& east_north_m) const = 0;
+    virtual GeoPosition geo_from_local(const glm::dvec2& east_north_m) const = 0;
 
-    FramePlace place_of(const GeoPlace& place) const;
+    FramePosition place_of(const GeoPosition& place) const;
 
 protected:
     EarthFrame() = default;

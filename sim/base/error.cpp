@@ -4,11 +4,11 @@
 
 namespace octant {
 
-void error_at(const std::filesystem::path& path, int line, const std::string& what) {
+void throw_error_at(const std::filesystem::path& path, int line, const std::string& what) {
     throw Error(fmt::format("{}:{}: {}", path.string(), line, what));
 }
 
-void error_in(const std::filesystem::path& path, const std::string& what) {
+void throw_error_in(const std::filesystem::path& path, const std::string& what) {
     throw Error(fmt::format("{}: {}", path.string(), what));
 }
 

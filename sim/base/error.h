@@ -14,10 +14,10 @@ public:
 };
 
 /// Throws Error "path:line: what". Lines count from 1. `what` says what was expected and what came.
-[[noreturn]] void error_at(const std::filesystem::path& path, int line, const std::string& what);
+[[noreturn]] void throw_error_at(const std::filesystem::path& path, int line, const std::string& what);
 
 /// Throws Error "path: what", for a fault that has no line.
-[[noreturn]] void error_in(const std::filesystem::path& path, const std::string& what);
+[[noreturn]] void throw_error_in(const std::filesystem::path& path, const std::string& what);
 
 /// A text from outside made fit for a one-line message: control characters become '?', and what is
 /// longer than 60 characters is cut.

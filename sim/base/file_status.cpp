@@ -17,7 +17,7 @@ fs::file_type type_of(const fs::path& path) {
 
 } // namespace
 
-bool is_there(const fs::path& path) {
+bool path_exists(const fs::path& path) {
     const fs::file_type type = type_of(path);
     return type != fs::file_type::none && type != fs::file_type::not_found;
 }

@@ -8,7 +8,7 @@ namespace octant {
 // circle and folders that may not be searched are names of nothing.
 
 /// Whether a file, folder or device of that name can be found, links followed.
-bool is_there(const std::filesystem::path& path);
+bool path_exists(const std::filesystem::path& path);
 
 bool is_folder(const std::filesystem::path& path);
 

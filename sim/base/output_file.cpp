@@ -20,7 +20,7 @@ constexpr std::string_view temporary_start = ".octant-";
 constexpr std::string_view temporary_end = ".part";
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path) {
-    error_in(path, fmt::format("cannot be written: {}", std::strerror(errno)));
+    throw_error_in(path, fmt::format("cannot be written: {}", std::strerror(errno)));
 }
 
 bool write_all(int descriptor, std::string_view bytes) {
@@ -64,7 +64,7 @@ int create_beside(const std::filesystem::path& path, std::filesystem::path& targ
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
     // A device or a pipe cannot be renamed over; it is written directly.
-    const bool special = is_there(path) && !is_file(path);
+    const bool special = path_exists(path) && !is_file(path);
     std::filesystem::path target;
     const int descriptor = special ? create(path) : create_beside(path, target);
     if (descriptor < 0) {
@@ -98,7 +98,7 @@ void check_can_write(const std::filesystem::path& path) {
         cannot_write(path);
     }
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (::access(is_there(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
+    if (::access(path_exists(path) ? path.c_str() : folder.c_str(), W_OK) != 0) {
         cannot_write(path);
     }
 }
@@ -107,7 +107,7 @@ void make_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);
     if (code || !std::filesystem::is_directory(path, code)) {
-        error_in(
+        throw_error_in(
             path,
             fmt::format(
                 "expected a folder or a place for one, got: {}",
@@ -115,7 +115,7 @@ void make_folder(const std::filesystem::path& path) {
     }
 }
 
-GrowingFile::GrowingFile(std::filesystem::path path)
+AppendedFile::AppendedFile(std::filesystem::path path)
     : path_(std::move(path))
     , descriptor_(create(path_)) {
     if (descriptor_ < 0) {
@@ -123,19 +123,19 @@ GrowingFile::GrowingFile(std::filesystem::path path)
     }
 }
 
-GrowingFile::~GrowingFile() {
+AppendedFile::~AppendedFile() {
     if (descriptor_ >= 0) {
-        write_all(descriptor_, kept_);
+        write_all(descriptor_, unwritten_);
         ::close(descriptor_);
     }
 }
 
-void GrowingFile::append(std::string_view text) {
-    kept_ += text;
+void AppendedFile::append(std::string_view text) {
+    unwritten_ += text;
 }
 
-void GrowingFile::flush() {
-    const std::string bytes = std::exchange(kept_, {});
+void AppendedFile::flush() {
+    const std::string bytes = std::exchange(unwritten_, {});
     if (!write_all(descriptor_, bytes)) {
         cannot_write(path_);
     }

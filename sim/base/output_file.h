@@ -21,15 +21,15 @@ void check_can_write(const std::filesystem::path& path);
 void make_folder(const std::filesystem::path& path);
 
 /// A file that grows line by line and survives a kill: what was flushed is in the kernel's hands.
-class GrowingFile {
+class AppendedFile {
 public:
     /// Creates or empties the file. Throws Error.
-    explicit GrowingFile(std::filesystem::path path);
-    ~GrowingFile();
-    GrowingFile(GrowingFile&&) = delete;
-    GrowingFile& operator=(GrowingFile&&) = delete;
-    GrowingFile(const GrowingFile&) = delete;
-    GrowingFile& operator=(const GrowingFile&) = delete;
+    explicit AppendedFile(std::filesystem::path path);
+    ~AppendedFile();
+    AppendedFile(AppendedFile&&) = delete;
+    AppendedFile& operator=(AppendedFile&&) = delete;
+    AppendedFile(const AppendedFile&) = delete;
+    AppendedFile& operator=(const AppendedFile&) = delete;
 
     /// Keeps the text until the next flush.
     void append(std::string_view text);
@@ -39,7 +39,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    std::string kept_;
+    std::string unwritten_;
     int descriptor_ = -1;
 };
 

@@ -21,18 +21,18 @@ std::ifstream opened(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (!std::filesystem::exists(status)) {
-        error_in(
+        throw_error_in(
             path, code && code.value() != ENOENT ? code.message() : "expected a file, found none");
     }
     if (std::filesystem::is_directory(status)) {
-        error_in(path, "expected a file, got a folder");
+        throw_error_in(path, "expected a file, got a folder");
     }
     if (!std::filesystem::is_regular_file(status)) {
-        error_in(path, "expected a regular file, got a device or pipe");
+        throw_error_in(path, "expected a regular file, got a device or pipe");
     }
     std::ifstream in(path, std::ios::binary);
     if (!in) {
-        error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+        throw_error_in(path, fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     }
     return in;
 }
@@ -44,7 +44,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
     std::error_code code;
     const auto size = std::filesystem::file_size(path, code);
     const auto refuse_size = [&] {
-        error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
+        throw_error_in(path, fmt::format("expected at most {} bytes, got more", largest_bytes));
     };
     if (!code && size > largest_bytes) {
         refuse_size();
@@ -60,7 +60,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
         }
     }
     if (in.bad()) {
-        error_in(path, "cannot be read to its end");
+        throw_error_in(path, "cannot be read to its end");
     }
     return bytes;
 }
@@ -68,7 +68,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest_byt
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest_bytes) {
     std::string text = read_file(path, largest_bytes);
     if (text.find('\0') != std::string::npos) {
-        error_in(path, "expected text, got binary data");
+        throw_error_in(path, "expected text, got binary data");
     }
     return text;
 }
@@ -81,21 +81,21 @@ LineReader::LineReader(const std::filesystem::path& path)
 std::optional<std::string_view> LineReader::next() {
     in_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
     if (in_.bad()) {
-        error_in(path_, "cannot be read to its end");
+        throw_error_in(path_, "cannot be read to its end");
     }
     const auto taken = static_cast<std::size_t>(in_.gcount());
-    torn_ = in_.eof() && taken > 0;
+    is_truncated_ = in_.eof() && taken > 0;
     if (in_.eof() && taken == 0) {
         return std::nullopt;
     }
     ++number_;
     if (in_.fail()) {
-        error_at(
+        throw_error_at(
             path_, number_, fmt::format("expected at most {} bytes, got more", longest_line_bytes));
     }
-    std::string_view line(line_.data(), torn_ ? taken : taken - 1);
+    std::string_view line(line_.data(), is_truncated_ ? taken : taken - 1);
     if (line.find('\0') != std::string_view::npos) {
-        error_in(path_, "expected text, got binary data");
+        throw_error_in(path_, "expected text, got binary data");
     }
     if (!line.empty() && line.back() == '\r') {
         line.remove_suffix(1);
@@ -146,7 +146,7 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
     }
 }
 
-std::string ending_of(const std::filesystem::path& path) {
+std::string extension_of(const std::filesystem::path& path) {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(), [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

@@ -33,14 +33,14 @@ public:
     int number() const { return number_; }
 
     /// True when that line is the file's last and has no line end.
-    bool torn() const { return torn_; }
+    bool is_truncated() const { return is_truncated_; }
 
 private:
     std::filesystem::path path_;
     std::ifstream in_;
     std::string line_;
     int number_ = 0;
-    bool torn_ = false;
+    bool is_truncated_ = false;
 };
 
 /// The lines of a text without their line ends (LF or CRLF). Views into `text`.
@@ -53,7 +53,7 @@ std::vector<std::string_view> split_words(std::string_view line);
 std::vector<std::string_view> split_fields(std::string_view line, char separator);
 
 /// What a file's name ends in from its last dot on, in small letters: ".obj"; empty without one.
-std::string ending_of(const std::filesystem::path& path);
+std::string extension_of(const std::filesystem::path& path);
 
 /// The whole of `text` as a finite decimal number in the C locale; nothing for anything else
 /// (NaN and infinity too).

@@ -62,7 +62,7 @@ double geodetic(double conformal_tau, double e2) {
 
 } // namespace
 
-TransverseMercator::TransverseMercator(const GeoPlace& origin)
+TransverseMercator::TransverseMercator(const GeoPosition& origin)
     : origin_(origin) {
     const double flattening = origin.ellipsoid.flattening;
     const double n = flattening / (2.0 - flattening);
@@ -80,10 +80,10 @@ TransverseMercator::TransverseMercator(const GeoPlace& origin)
         -1.0 / 48.0 * n2 - 1.0 / 15.0 * n3 + 437.0 / 1440.0 * n4,
         -17.0 / 480.0 * n3 + 37.0 / 840.0 * n4,
         -4397.0 / 161280.0 * n4};
-    north_of_equator_m_ = metres_from(origin.latitude_deg, 0.0).real();
+    north_of_equator_m_ = project(origin.latitude_deg, 0.0).real();
 }
 
-std::complex<double> TransverseMercator::metres_from(double latitude_deg, double away_rad) const {
+std::complex<double> TransverseMercator::project(double latitude_deg, double away_rad) const {
     const double tau = conformal(std::tan(rad_from_deg(latitude_deg)), origin_.ellipsoid.e2());
     const double length = std::hypot(1.0, tau);
     const double most = std::tanh(furthest_across);
@@ -92,14 +92,14 @@ std::complex<double> TransverseMercator::metres_from(double latitude_deg, double
     return mean_radius_m_ * brought(on_sphere, from_sphere_);
 }
 
-glm::dvec2 TransverseMercator::local_from_geo(const GeoPlace& place) const {
+glm::dvec2 TransverseMercator::local_from_geo(const GeoPosition& place) const {
     const double away_rad =
         wrapped_to_pi(rad_from_deg(place.longitude_deg - origin_.longitude_deg));
-    const std::complex<double> at_m = metres_from(place.latitude_deg, away_rad);
+    const std::complex<double> at_m = project(place.latitude_deg, away_rad);
     return {at_m.imag(), at_m.real() - north_of_equator_m_};
 }
 
-GeoPlace TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) const {
+GeoPosition TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) const {
     const double along = (east_north_m.y + north_of_equator_m_) / mean_radius_m_;
     const double across = east_north_m.x / mean_radius_m_;
     const std::complex<double> on_sphere = brought(
@@ -119,7 +119,7 @@ GeoPlace TransverseMercator::geo_from_local(const glm::dvec2& east_north_m) cons
 }
 
 const EarthFrame& frame_or_at_zero(const EarthFrame* frame) {
-    static const TransverseMercator at_zero{GeoPlace{}};
+    static const TransverseMercator at_zero{GeoPosition{}};
     return frame == nullptr ? at_zero : *frame;
 }
 

@@ -16,18 +16,18 @@ public:
     /// Coefficients of the sines of 2, 4, 6 and 8 times an angle.
     using Series = std::array<double, 4>;
 
-    explicit TransverseMercator(const GeoPlace& origin);
+    explicit TransverseMercator(const GeoPosition& origin);
 
-    GeoPlace origin() const override { return origin_; }
+    GeoPosition origin() const override { return origin_; }
 
-    glm::dvec2 local_from_geo(const GeoPlace& place) const override;
-    GeoPlace geo_from_local(const glm::dvec2& east_north_m) const override;
+    glm::dvec2 local_from_geo(const GeoPosition& place) const override;
+    GeoPosition geo_from_local(const glm::dvec2& east_north_m) const override;
 
 private:
     /// Metres along the meridian (real) and across it, a longitude away from it.
-    std::complex<double> metres_from(double latitude_deg, double away_rad) const;
+    std::complex<double> project(double latitude_deg, double away_rad) const;
 
-    GeoPlace origin_;
+    GeoPosition origin_;
     double mean_radius_m_ = 0.0; ///< of a sphere with meridians as long
     Series from_sphere_ = {};
     Series to_sphere_ = {};

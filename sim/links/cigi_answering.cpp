@@ -12,18 +12,18 @@ void CigiImageGenerator::answer_height(
     const CigiHeightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
     const auto place = place_from(request.from_entity, request.entity, request.place);
     const auto surface = place && ground_ != nullptr ? ground_->below(*place) : std::nullopt;
-    const CigiAnswerHead head{request.id, surface.has_value(), host_frame};
+    const CigiResponseHeader head{request.id, surface.has_value(), host_frame};
     const double hat_m = surface ? place->z - surface->place.z : 0.0;
-    if (request.kind == CigiHeight::Extended) {
-        add_heights(message, head, hat_m, surface.value_or(CigiSurface{}));
+    if (request.kind == CigiHeightKind::Extended) {
+        add_extended_height_response(message, head, hat_m, surface.value_or(CigiSurfacePoint{}));
         return;
     }
     const double hot_m = surface ? surface->place.z : 0.0;
-    add_height(message, head, request.kind, request.kind == CigiHeight::Hat ? hat_m : hot_m);
+    add_height_response(message, head, request.kind, request.kind == CigiHeightKind::Hat ? hat_m : hot_m);
 }
 
 void CigiImageGenerator::answer_sight(
-    const CigiSightRequest& request, std::uint8_t host_frame, WireWriter& message) const {
+    const CigiLosRequest& request, std::uint8_t host_frame, WireWriter& message) const {
     const auto from = place_from(request.from_entity, request.entity, request.source);
     std::optional<glm::dvec3> to;
     if (from && ground_ != nullptr && request.is_vector) {
@@ -38,9 +38,9 @@ void CigiImageGenerator::answer_sight(
         to = place_from(request.to_entity, entity, request.destination);
     }
     const bool known = from && to && ground_ != nullptr && ground_->below(*from);
-    CigiSight sight;
+    CigiLosResponse sight;
     if (known) {
-        const auto met = ground_->first_met(*from, *to);
+        const auto met = ground_->first_hit(*from, *to);
         const bool counts = met && (!request.is_vector || met->range_m >= request.min_m);
         sight.visible = !counts;
         if (counts) {
@@ -48,10 +48,10 @@ void CigiImageGenerator::answer_sight(
             sight.met = met->surface;
         } else if (!request.is_vector) {
             sight.range_m = ground_->distance_m(*from, *to);
-            sight.met = CigiSurface{*to, 0.0, 0.0};
+            sight.met = CigiSurfacePoint{*to, 0.0, 0.0};
         }
     }
-    add_sight(message, {request.id, known, host_frame}, request.extended, sight);
+    add_los_response(message, {request.id, known, host_frame}, request.extended, sight);
 }
 
 /// Nothing is answered for what is no entity or not known.
@@ -66,7 +66,7 @@ void CigiImageGenerator::answer_position(
 void CigiImageGenerator::answer(const Answer& answer, WireWriter& message) const {
     if (const auto* height = std::get_if<CigiHeightRequest>(&answer.request)) {
         answer_height(*height, answer.host_frame, message);
-    } else if (const auto* sight = std::get_if<CigiSightRequest>(&answer.request)) {
+    } else if (const auto* sight = std::get_if<CigiLosRequest>(&answer.request)) {
         answer_sight(*sight, answer.host_frame, message);
     } else {
         answer_position(std::get<CigiPositionRequest>(answer.request), message);
@@ -74,7 +74,7 @@ void CigiImageGenerator::answer(const Answer& answer, WireWriter& message) const
 }
 
 std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, double time_s) {
-    ask_periodic();
+    queue_periodic_requests();
     constexpr double second_in_ticks = 1e5;
     WireWriter message(ByteOrder::Big);
     add_start_of_frame(
@@ -84,7 +84,7 @@ std::vector<std::byte> CigiImageGenerator::message_for(std::uint32_t ig_frame, d
          static_cast<std::uint32_t>(std::llround(time_s * second_in_ticks) & 0xffffffffLL),
          has_host_ ? control_.mode : CigiMode::Standby,
          control_.database});
-    while (!waiting_.empty() && message.size() + cigi_largest_answer <= max_message_bytes) {
+    while (!waiting_.empty() && message.size() + cigi_max_response_bytes <= max_message_bytes) {
         answer(waiting_.front(), message);
         waiting_.pop_front();
     }

@@ -1,7 +1,7 @@
 #include "sim/links/cigi_host.h"
 
 #include "sim/base/axes.h"
-#include "sim/links/cigi_begin.h"
+#include "sim/links/cigi_packet_header.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,7 +29,7 @@ void set_angles(WireWriter& message, std::size_t at, const EulerAngles& angles) 
 void add_ig_control(WireWriter& message, const CigiIgControl& control) {
     constexpr std::uint8_t major = 3;
     constexpr unsigned minor = 3;
-    const std::size_t at = begin_cigi_packet(message, 1, 24);
+    const std::size_t at = add_cigi_packet_header(message, 1, 24);
     message.set(at + 2, major);
     message.set(at + 3, control.database);
     message.set(
@@ -45,7 +45,7 @@ void add_ig_control(WireWriter& message, const CigiIgControl& control) {
 
 void add_entity(WireWriter& message, const CigiEntityControl& entity) {
     constexpr std::uint8_t opaque = 255;
-    const std::size_t at = begin_cigi_packet(message, 2, 48);
+    const std::size_t at = add_cigi_packet_header(message, 2, 48);
     message.set(at + 2, entity.entity);
     message.set(
         at + 4,
@@ -61,8 +61,8 @@ void add_entity(WireWriter& message, const CigiEntityControl& entity) {
     message.set(at + 40, entity.place.z);
 }
 
-void add_rate(WireWriter& message, const CigiRate& rate) {
-    const std::size_t at = begin_cigi_packet(message, 8, 32);
+void add_rate(WireWriter& message, const CigiRateControl& rate) {
+    const std::size_t at = add_cigi_packet_header(message, 8, 32);
     message.set(at + 2, rate.entity);
     message.set(
         at + 5, static_cast<std::uint8_t>((rate.of_part ? 1U : 0U) | (rate.local ? 1U : 0U) << 1U));
@@ -74,7 +74,7 @@ void add_rate(WireWriter& message, const CigiRate& rate) {
 
 void add_view_control(WireWriter& message, const CigiViewControl& view) {
     constexpr std::uint8_t all = 0x3f;
-    const std::size_t at = begin_cigi_packet(message, 16, 32);
+    const std::size_t at = add_cigi_packet_header(message, 16, 32);
     message.set(at + 2, view.view);
     message.set(at + 4, view.group);
     message.set(at + 5, all);
@@ -85,7 +85,7 @@ void add_view_control(WireWriter& message, const CigiViewControl& view) {
 
 void add_view_definition(WireWriter& message, const CigiViewDefinition& view) {
     constexpr std::uint8_t sides = 0x3c;
-    const std::size_t at = begin_cigi_packet(message, 21, 32);
+    const std::size_t at = add_cigi_packet_header(message, 21, 32);
     message.set(at + 2, view.view);
     message.set(at + 4, view.group);
     message.set(at + 5, sides);

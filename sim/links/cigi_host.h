@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/links/cigi_answers.h"
+#include "sim/links/cigi_responses.h"
 #include "sim/links/cigi_packets.h"
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace octant::sim::links {
 
 void add_ig_control(WireWriter& message, const CigiIgControl& control);
 void add_entity(WireWriter& message, const CigiEntityControl& entity);
-void add_rate(WireWriter& message, const CigiRate& rate);
+void add_rate(WireWriter& message, const CigiRateControl& rate);
 /// All six components are enabled.
 void add_view_control(WireWriter& message, const CigiViewControl& view);
 /// The four sides are enabled, near and far planes are left to the image generator.

@@ -25,11 +25,11 @@ bool keep(std::map<std::uint16_t, Value>& kept, std::uint16_t id, Value value, s
 
 } // namespace
 
-Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, double arrival_s) {
+DecodeResult CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, double arrival_s) {
     moved.clear();
     std::vector<CigiPacket> packets;
-    const Verdict verdict = decode_cigi(message, packets);
-    if (verdict.fault != Fault::None) {
+    const DecodeResult verdict = decode_cigi(message, packets);
+    if (verdict.fault != PacketError::None) {
         return verdict;
     }
     has_host_ = true;
@@ -45,7 +45,7 @@ Verdict CigiImageGenerator::take(Bytes message, std::vector<Fix>& moved, double 
             continue;
         }
         const Fix fix = fix_of(number, entity->second);
-        if (fault_of(fix) == Fault::None) {
+        if (error_of_fix(fix) == PacketError::None) {
             moved.push_back(fix);
         }
     }
@@ -59,7 +59,7 @@ void CigiImageGenerator::take(
     } else if (const auto* entity = std::get_if<CigiEntityControl>(&packet)) {
         take_entity(*entity);
         touched.push_back(entity->entity);
-    } else if (const auto* clamped = std::get_if<CigiClamped>(&packet)) {
+    } else if (const auto* clamped = std::get_if<CigiClampedEntity>(&packet)) {
         CigiEntityControl placed;
         if (const auto known = entities_.find(clamped->entity); known != entities_.end()) {
             placed = known->second.control;
@@ -71,9 +71,9 @@ void CigiImageGenerator::take(
         placed.place = clamped->place;
         take_entity(placed);
         touched.push_back(clamped->entity);
-    } else if (const auto* rate = std::get_if<CigiRate>(&packet)) {
+    } else if (const auto* rate = std::get_if<CigiRateControl>(&packet)) {
         take_rate(*rate, arrival_s, touched);
-    } else if (const auto* part = std::get_if<CigiPart>(&packet)) {
+    } else if (const auto* part = std::get_if<CigiArticulatedPart>(&packet)) {
         if (entities_.contains(part->entity)) {
             parts_.take(*part, arrival_s);
         }
@@ -87,17 +87,17 @@ void CigiImageGenerator::take(
         take_definition(*definition);
     } else if (const auto* height = std::get_if<CigiHeightRequest>(&packet)) {
         ask(*height);
-    } else if (const auto* sight = std::get_if<CigiSightRequest>(&packet)) {
+    } else if (const auto* sight = std::get_if<CigiLosRequest>(&packet)) {
         ask(*sight);
     } else if (const auto* position = std::get_if<CigiPositionRequest>(&packet)) {
         ask(*position);
-    } else if (const auto* unknown = std::get_if<CigiUnknown>(&packet)) {
+    } else if (const auto* unknown = std::get_if<CigiUnknownPacket>(&packet)) {
         ++unknown_[unknown->opcode];
     }
 }
 
 void CigiImageGenerator::take_rate(
-    const CigiRate& rate, double arrival_s, std::vector<std::uint16_t>& touched) {
+    const CigiRateControl& rate, double arrival_s, std::vector<std::uint16_t>& touched) {
     const auto known = entities_.find(rate.entity);
     if (known == entities_.end()) {
         return;
@@ -178,7 +178,7 @@ void CigiImageGenerator::ask(const CigiHeightRequest& request) {
     }
 }
 
-void CigiImageGenerator::ask(const CigiSightRequest& request) {
+void CigiImageGenerator::ask(const CigiLosRequest& request) {
     sights_.erase(request.id);
     if (request.period == 0 || !keep(sights_, request.id, request, max_periodic)) {
         wait({request, low_bits(control_.host_frame)});
@@ -193,7 +193,7 @@ void CigiImageGenerator::ask(const CigiPositionRequest& request) {
 }
 
 /// Asks anew what is due in this frame, with the host frame of the last IG Control.
-void CigiImageGenerator::ask_periodic() {
+void CigiImageGenerator::queue_periodic_requests() {
     const std::uint8_t host_frame = low_bits(control_.host_frame);
     for (const auto& [id, request] : heights_) {
         if (frames_ % request.period == 0) {
@@ -279,7 +279,7 @@ Fix CigiImageGenerator::fix_of(std::uint16_t number, const Entity& entity) const
         const glm::dmat3 turn = ned_from_body(fix.attitude);
         fix.velocity_ned_mps = entity.rate->local ? turn * entity.rate->mps : entity.rate->mps;
         fix.body_rates_radps = entity.rate->radps;
-        fix.velocity_is_meant = true;
+        fix.velocity_is_commanded = true;
     }
     if (control_.timestamp_valid) {
         constexpr double second_in_ticks = 1e5;

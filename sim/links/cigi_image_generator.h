@@ -1,8 +1,8 @@
 #pragma once
 
-#include "sim/links/cigi_answers.h"
+#include "sim/links/cigi_responses.h"
 #include "sim/links/cigi_packets.h"
-#include "sim/links/cigi_parts.h"
+#include "sim/links/cigi_articulated_parts.h"
 
 #include <array>
 #include <cstdint>
@@ -26,15 +26,15 @@ public:
     CigiGround& operator=(CigiGround&&) = delete;
 
     /// The ground below or above a place; nothing outside the map.
-    virtual std::optional<CigiSurface> below(const glm::dvec3& place) const = 0;
+    virtual std::optional<CigiSurfacePoint> below(const glm::dvec3& place) const = 0;
 
     /// Where a straight line first meets the ground, with the distance from its beginning.
-    struct Met {
+    struct TerrainHit {
         double range_m = 0.0;
-        CigiSurface surface;
+        CigiSurfacePoint surface;
     };
 
-    virtual std::optional<Met> first_met(const glm::dvec3& from, const glm::dvec3& to) const = 0;
+    virtual std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const = 0;
 
     /// Length of the straight line between two places.
     virtual double distance_m(const glm::dvec3& from, const glm::dvec3& to) const = 0;
@@ -59,7 +59,7 @@ public:
 
     /// Takes a message of the host that came at a time. Returns the entities that it moved, as
     /// fixes, by their numbers.
-    Verdict take(Bytes message, std::vector<Fix>& moved, double arrival_s = 0.0);
+    DecodeResult take(Bytes message, std::vector<Fix>& moved, double arrival_s = 0.0);
 
     /// The message for a picture: Start of Frame, then answers as far as they fit; others wait.
     std::vector<std::byte> message_for(std::uint32_t ig_frame, double time_s);
@@ -83,7 +83,7 @@ public:
 
     const std::map<std::uint16_t, CigiViewDefinition>& definitions() const { return definitions_; }
 
-    const CigiParts& parts() const { return parts_; }
+    const CigiArticulatedParts& parts() const { return parts_; }
 
     /// The type of an entity that is there.
     std::optional<std::uint16_t> type_of(std::uint16_t entity) const;
@@ -94,24 +94,24 @@ public:
 private:
     struct Entity {
         CigiEntityControl control;
-        std::optional<CigiRate> rate;
+        std::optional<CigiRateControl> rate;
     };
 
     struct Answer {
-        std::variant<CigiHeightRequest, CigiSightRequest, CigiPositionRequest> request;
+        std::variant<CigiHeightRequest, CigiLosRequest, CigiPositionRequest> request;
         std::uint8_t host_frame = 0;
     };
 
     void take(const CigiPacket& packet, double arrival_s, std::vector<std::uint16_t>& touched);
     void take_entity(const CigiEntityControl& control);
-    void take_rate(const CigiRate& rate, double arrival_s, std::vector<std::uint16_t>& touched);
+    void take_rate(const CigiRateControl& rate, double arrival_s, std::vector<std::uint16_t>& touched);
     void take_view(const CigiViewControl& view);
     void take_definition(const CigiViewDefinition& told);
     void ask(const CigiHeightRequest& request);
-    void ask(const CigiSightRequest& request);
+    void ask(const CigiLosRequest& request);
     void ask(const CigiPositionRequest& request);
     void wait(Answer answer);
-    void ask_periodic();
+    void queue_periodic_requests();
     std::optional<glm::dvec3> place_of(std::uint16_t entity, int depth = 0) const;
     EulerAngles attitude_of(std::uint16_t entity) const;
     std::optional<glm::dvec3>
@@ -119,18 +119,18 @@ private:
     Fix fix_of(std::uint16_t number, const Entity& entity) const;
     void answer(const Answer& answer, WireWriter& message) const;
     void answer_height(const CigiHeightRequest&, std::uint8_t host_frame, WireWriter&) const;
-    void answer_sight(const CigiSightRequest&, std::uint8_t host_frame, WireWriter&) const;
+    void answer_sight(const CigiLosRequest&, std::uint8_t host_frame, WireWriter&) const;
     void answer_position(const CigiPositionRequest&, WireWriter&) const;
 
     const CigiGround* ground_;
     bool has_host_ = false;
     CigiIgControl control_;
     std::map<std::uint16_t, Entity> entities_;
-    CigiParts parts_;
+    CigiArticulatedParts parts_;
     std::map<std::uint16_t, CigiViewControl> views_;
     std::map<std::uint16_t, CigiViewDefinition> definitions_;
     std::map<std::uint16_t, CigiHeightRequest> heights_; ///< periodic
-    std::map<std::uint16_t, CigiSightRequest> sights_;
+    std::map<std::uint16_t, CigiLosRequest> sights_;
     std::map<std::uint16_t, CigiPositionRequest> positions_;
     std::deque<Answer> waiting_;
     std::vector<std::uint16_t> removed_;

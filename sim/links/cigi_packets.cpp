@@ -4,7 +4,7 @@
 #include "sim/links/cigi_packets.h"
 
 #include "sim/base/units.h"
-#include "sim/links/cigi_begin.h"
+#include "sim/links/cigi_packet_header.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,7 @@ std::optional<CigiPacket> read_entity(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_clamped(const WireReader& reader) {
-    const CigiClamped clamped{
+    const CigiClampedEntity clamped{
         reader.at<std::uint16_t>(2),
         rad_at(reader, 4),
         {reader.at<double>(8), reader.at<double>(16), 0.0}};
@@ -94,7 +94,7 @@ std::optional<CigiPacket> read_clamped(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_rate(const WireReader& reader) {
-    CigiRate rate;
+    CigiRateControl rate;
     rate.entity = reader.at<std::uint16_t>(2);
     rate.part = reader.at<std::uint8_t>(4);
     rate.of_part = bits(reader, 5, 0, 1) != 0;
@@ -107,7 +107,7 @@ std::optional<CigiPacket> read_rate(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_part(const WireReader& reader) {
-    CigiPart part;
+    CigiArticulatedPart part;
     part.entity = reader.at<std::uint16_t>(2);
     part.part = reader.at<std::uint8_t>(4);
     part.enabled = bits(reader, 5, 0, 1) != 0;
@@ -192,7 +192,7 @@ std::optional<CigiPacket> read_view_definition(const WireReader& reader) {
 std::optional<CigiPacket> read_height_request(const WireReader& reader) {
     CigiHeightRequest request;
     request.id = reader.at<std::uint16_t>(2);
-    request.kind = static_cast<CigiHeight>(std::min(bits(reader, 4, 0, 2), 2U));
+    request.kind = static_cast<CigiHeightKind>(std::min(bits(reader, 4, 0, 2), 2U));
     request.from_entity = bits(reader, 4, 2, 1) != 0;
     request.period = reader.at<std::uint8_t>(5);
     request.entity = reader.at<std::uint16_t>(6);
@@ -201,7 +201,7 @@ std::optional<CigiPacket> read_height_request(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_sight_segment(const WireReader& reader) {
-    CigiSightRequest request;
+    CigiLosRequest request;
     request.id = reader.at<std::uint16_t>(2);
     request.extended = bits(reader, 4, 0, 1) != 0;
     request.from_entity = bits(reader, 4, 1, 1) != 0;
@@ -218,7 +218,7 @@ std::optional<CigiPacket> read_sight_segment(const WireReader& reader) {
 }
 
 std::optional<CigiPacket> read_sight_vector(const WireReader& reader) {
-    CigiSightRequest request;
+    CigiLosRequest request;
     request.is_vector = true;
     request.id = reader.at<std::uint16_t>(2);
     request.extended = bits(reader, 4, 0, 1) != 0;
@@ -265,30 +265,30 @@ constexpr std::array<Known, 13> known_packets{
      {26, 56, read_sight_vector},
      {27, 8, read_position_request}}};
 
-Verdict check_head(Bytes message, ByteOrder& order) {
+DecodeResult check_head(Bytes message, ByteOrder& order) {
     const auto size = static_cast<std::uint32_t>(message.size());
     const WireReader big(message, ByteOrder::Big);
     if (size < ig_control_bytes) {
-        return {Fault::WrongSize, size, size};
+        return {PacketError::WrongSize, size, size};
     }
     const auto word = big.at<std::uint16_t>(magic_at);
     if (big.at<std::uint8_t>(0) != ig_control || big.at<std::uint8_t>(1) != ig_control_bytes ||
         (word != cigi_magic && word != swapped_cigi_magic)) {
-        return {Fault::NotOurs, big.at<std::uint8_t>(0), size};
+        return {PacketError::NotOurs, big.at<std::uint8_t>(0), size};
     }
     order = word == cigi_magic ? ByteOrder::Big : ByteOrder::Little;
     const auto major = big.at<std::uint8_t>(2);
     constexpr std::uint8_t ours = 3;
-    return {major == ours ? Fault::None : Fault::WrongVersion, major, size};
+    return {major == ours ? PacketError::None : PacketError::WrongVersion, major, size};
 }
 
 } // namespace
 
-Verdict decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
+DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
     packets.clear();
     ByteOrder order = ByteOrder::Big;
-    Verdict verdict = check_head(message, order);
-    if (verdict.fault != Fault::None) {
+    DecodeResult verdict = check_head(message, order);
+    if (verdict.fault != PacketError::None) {
         return verdict;
     }
     for (Bytes rest = message; !rest.empty();) {
@@ -297,12 +297,12 @@ Verdict decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
             rest.size() < header_bytes ? 0 : std::to_integer<std::size_t>(rest[1]);
         if (size < header_bytes || size > rest.size()) {
             packets.clear();
-            verdict.fault = Fault::WrongSize;
+            verdict.fault = PacketError::WrongSize;
             return verdict;
         }
         const auto known = std::ranges::find(known_packets, opcode, &Known::opcode);
         if (known == known_packets.end() || known->size != size) {
-            packets.emplace_back(CigiUnknown{opcode});
+            packets.emplace_back(CigiUnknownPacket{opcode});
         } else if (auto packet = known->read(WireReader(rest.first(size), order))) {
             packets.push_back(std::move(*packet));
         }
@@ -311,13 +311,13 @@ Verdict decode_cigi(Bytes message, std::vector<CigiPacket>& packets) {
     return verdict;
 }
 
-std::string cigi_text(const Verdict& verdict) {
+std::string cigi_text(const DecodeResult& verdict) {
     switch (verdict.fault) {
-    case Fault::None:
+    case PacketError::None:
         return "CIGI 3 host: fine";
-    case Fault::WrongVersion:
+    case PacketError::WrongVersion:
         return fmt::format("expected CIGI 3, got major version {}", verdict.got);
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         return fmt::format("CIGI: expected whole packets, got a message of {} bytes", verdict.size);
     default:
         return fmt::format(

@@ -44,13 +44,13 @@ struct CigiEntityControl {
     glm::dvec3 place{0.0};
 };
 
-struct CigiClamped {
+struct CigiClampedEntity {
     std::uint16_t entity = 0;
     double heading_rad = 0.0;
     glm::dvec3 place{0.0}; ///< without height
 };
 
-struct CigiRate {
+struct CigiRateControl {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool of_part = false;
@@ -59,7 +59,7 @@ struct CigiRate {
     glm::dvec3 radps{0.0}; ///< of roll, pitch, yaw
 };
 
-struct CigiPart {
+struct CigiArticulatedPart {
     std::uint16_t entity = 0;
     std::uint8_t part = 0;
     bool enabled = false;
@@ -103,11 +103,11 @@ struct CigiViewDefinition {
     bool parallel = false;   ///< an orthographic projection is asked for
 };
 
-enum class CigiHeight { Hat = 0, Hot = 1, Extended = 2 };
+enum class CigiHeightKind { Hat = 0, Hot = 1, Extended = 2 };
 
 struct CigiHeightRequest {
     std::uint16_t id = 0;
-    CigiHeight kind = CigiHeight::Hat;
+    CigiHeightKind kind = CigiHeightKind::Hat;
     bool from_entity = false; ///< the place is in metres along the entity's axes
     std::uint8_t period = 0;  ///< frames; 0 = once, and ends what was asked periodically
     std::uint16_t entity = 0;
@@ -115,7 +115,7 @@ struct CigiHeightRequest {
 };
 
 /// A line of sight between two places, or along a direction.
-struct CigiSightRequest {
+struct CigiLosRequest {
     std::uint16_t id = 0;
     bool extended = false;
     bool from_entity = false;
@@ -140,30 +140,30 @@ struct CigiPositionRequest {
 };
 
 /// A packet that is not understood, or whose size is another than its opcode's.
-struct CigiUnknown {
+struct CigiUnknownPacket {
     std::uint8_t opcode = 0;
 };
 
 using CigiPacket = std::variant<
     CigiIgControl,
     CigiEntityControl,
-    CigiClamped,
-    CigiRate,
-    CigiPart,
+    CigiClampedEntity,
+    CigiRateControl,
+    CigiArticulatedPart,
     CigiCelestial,
     CigiAtmosphere,
     CigiViewControl,
     CigiViewDefinition,
     CigiHeightRequest,
-    CigiSightRequest,
+    CigiLosRequest,
     CigiPositionRequest,
-    CigiUnknown>;
+    CigiUnknownPacket>;
 
 /// Reads a whole message of a host. `packets` holds what of it is right, in order; with a fault in
 /// the message's form (no IG Control first, a packet that runs over the end) nothing. Packets with
 /// numbers that are none are left out.
-Verdict decode_cigi(Bytes message, std::vector<CigiPacket>& packets);
+DecodeResult decode_cigi(Bytes message, std::vector<CigiPacket>& packets);
 
-std::string cigi_text(const Verdict& verdict);
+std::string cigi_text(const DecodeResult& verdict);
 
 } // namespace octant::sim::links

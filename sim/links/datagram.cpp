@@ -22,8 +22,8 @@ std::string_view name_of(Protocol protocol) {
     return "unknown";
 }
 
-std::string text_of(const Source& source) {
-    if (source == Source{}) {
+std::string text_of(const PacketSource& source) {
+    if (source == PacketSource{}) {
         return "standard input";
     }
     const auto part = [&source](unsigned shift) { return source.address >> shift & 0xffU; };

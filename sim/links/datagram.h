@@ -22,20 +22,20 @@ enum class Protocol : std::uint8_t {
 std::string_view name_of(Protocol protocol);
 
 /// Where a packet came from: an IPv4 address and a port, both as numbers; 0:0 is standard input.
-struct Source {
+struct PacketSource {
     std::uint32_t address = 0;
     std::uint16_t port = 0;
 
-    auto operator<=>(const Source&) const = default;
+    auto operator<=>(const PacketSource&) const = default;
 };
 
 /// "127.0.0.1:5550"; "standard input" for 0:0.
-std::string text_of(const Source& source);
+std::string text_of(const PacketSource& source);
 
 /// One packet as it came.
 struct Datagram {
     Protocol protocol = Protocol::Fdm;
-    Source source;
+    PacketSource source;
     double arrival_s = 0.0; ///< on the clock of whoever received it
     std::vector<std::byte> bytes;
 };

@@ -37,23 +37,23 @@ constexpr double parts_an_hour = 2147483648.0;
 constexpr double hour_s = 3600.0;
 constexpr double heartbeat_timeout_s = 12.0; ///< 2.4 heartbeats of 5 s, the standard's default
 
-Verdict check_head(const WireReader& reader) {
+DecodeResult check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
     if (size < header_bytes) {
-        return {Fault::WrongSize, size, size};
+        return {PacketError::WrongSize, size, size};
     }
     const auto version = reader.at<std::uint8_t>(0);
     const auto type = reader.at<std::uint8_t>(2);
     constexpr std::uint8_t last_version = 7;
     if (version == 0 || version > last_version) {
-        return {Fault::WrongVersion, version, size};
+        return {PacketError::WrongVersion, version, size};
     }
     if (type != entity_state_type || reader.at<std::uint8_t>(3) != entity_family) {
-        return {Fault::Unused, type, size};
+        return {PacketError::Unused, type, size};
     }
     const std::size_t expected =
         dis_entity_bytes + articulation_bytes * reader.at<std::uint8_t>(articulations_at);
-    return {size == expected ? Fault::None : Fault::WrongSize, version, size};
+    return {size == expected ? PacketError::None : PacketError::WrongSize, version, size};
 }
 
 void read_motion(const WireReader& reader, DisEntity& entity) {
@@ -82,10 +82,10 @@ void read_motion(const WireReader& reader, DisEntity& entity) {
 
 } // namespace
 
-Verdict decode_dis(Bytes datagram, DisEntity& entity) {
+DecodeResult decode_dis(Bytes datagram, DisEntity& entity) {
     const WireReader reader(datagram, ByteOrder::Big);
-    Verdict verdict = check_head(reader);
-    if (verdict.fault != Fault::None) {
+    DecodeResult verdict = check_head(reader);
+    if (verdict.fault != PacketError::None) {
         return verdict;
     }
     entity = {};
@@ -105,17 +105,17 @@ Verdict decode_dis(Bytes datagram, DisEntity& entity) {
     const double x = reader.at<double>(position_at);
     if (!std::isfinite(x) || !std::isfinite(reader.at<double>(position_at + 8)) ||
         !std::isfinite(reader.at<double>(position_at + 16))) {
-        verdict.fault = Fault::NotFinite;
+        verdict.fault = PacketError::NotFinite;
         return verdict;
     }
     read_motion(reader, entity);
     entity.fix.ticks = reader.at<std::uint32_t>(timestamp_at);
     entity.fix.tick_s = hour_s / (2.0 * parts_an_hour);
-    entity.fix.velocity_is_meant = true;
-    entity.fix.carried_on_s = heartbeat_timeout_s;
+    entity.fix.velocity_is_commanded = true;
+    entity.fix.extrapolation_limit_s = heartbeat_timeout_s;
     entity.fix.vehicle = static_cast<std::uint64_t>(entity.site) << 32U |
                          static_cast<std::uint64_t>(entity.application) << 16U | entity.entity;
-    verdict.fault = fault_of(entity.fix);
+    verdict.fault = error_of_fix(entity.fix);
     return verdict;
 }
 
@@ -126,21 +126,21 @@ std::string marking_of(const DisEntity& entity) {
     return printable(text);
 }
 
-std::string dis_text(const Verdict& verdict) {
+std::string dis_text(const DecodeResult& verdict) {
     switch (verdict.fault) {
-    case Fault::None:
+    case PacketError::None:
         return fmt::format(
             "DIS version {} entity state of {} bytes: fine", verdict.got, verdict.size);
-    case Fault::Unused:
+    case PacketError::Unused:
         return fmt::format("DIS PDU of type {}: passed over", verdict.got);
-    case Fault::WrongVersion:
+    case PacketError::WrongVersion:
         return fmt::format("expected a DIS PDU of version 1 to 7, got {}", verdict.got);
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         return fmt::format(
             "expected a DIS entity state of {} bytes and 16 for each articulation, got {}",
             dis_entity_bytes,
             verdict.size);
-    case Fault::NotFinite:
+    case PacketError::NotFinite:
         return "DIS entity state: expected numbers, got one that is none";
     default:
         return "DIS entity state: expected an aircraft near the earth, got none";

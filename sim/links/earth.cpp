@@ -50,7 +50,7 @@ Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m) {
     return {latitude, std::atan2(ecef_m.y, ecef_m.x), height_m};
 }
 
-Geodetic moved_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid) {
+Geodetic offset_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid) {
     constexpr double min_cosine = 1e-3; // the poles have no east
     const double sine = std::sin(place.latitude_rad);
     const double share = 1.0 - ellipsoid.e2() * sine * sine;

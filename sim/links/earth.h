@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/base/axes.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ glm::dvec3 ecef_from_geodetic(const Geodetic& place);
 Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m);
 
 /// The place that lies a small way north, east and down of one on an ellipsoid.
-Geodetic moved_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid);
+Geodetic offset_by(const Geodetic& place, const glm::dvec3& ned_m, const Ellipsoid& ellipsoid);
 
 /// Rotation that takes earth-fixed vectors to north, east, down at a place.
 glm::dmat3 ned_from_ecef(const Geodetic& place);

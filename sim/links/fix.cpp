@@ -36,24 +36,24 @@ bool is_finite(const Fix& fix) {
 }
 
 glm::dvec3 turned(const glm::dvec3& ned, double by_rad) {
-    const glm::dvec2 east_north = turned_clockwise({ned.y, ned.x}, by_rad);
+    const glm::dvec2 east_north = rotated_clockwise({ned.y, ned.x}, by_rad);
     return {east_north.y, east_north.x, ned.z};
 }
 
 } // namespace
 
-Fix in_axes_turned(Fix fix, double north_turn_rad) {
-    fix.attitude.heading_rad += north_turn_rad;
-    fix.acceleration_ned_mps2 = turned(fix.acceleration_ned_mps2, north_turn_rad);
+Fix with_rotated_axes(Fix fix, double north_bearing_rad) {
+    fix.attitude.heading_rad += north_bearing_rad;
+    fix.acceleration_ned_mps2 = turned(fix.acceleration_ned_mps2, north_bearing_rad);
     if (fix.velocity_ned_mps) {
-        fix.velocity_ned_mps = turned(*fix.velocity_ned_mps, north_turn_rad);
+        fix.velocity_ned_mps = turned(*fix.velocity_ned_mps, north_bearing_rad);
     }
     return fix;
 }
 
-Fault fault_of(const Fix& fix) {
+PacketError error_of_fix(const Fix& fix) {
     if (!is_finite(fix)) {
-        return Fault::NotFinite;
+        return PacketError::NotFinite;
     }
     const glm::dvec3 angles(
         fix.attitude.heading_rad, fix.attitude.pitch_rad, fix.attitude.roll_rad);
@@ -68,7 +68,7 @@ Fault fault_of(const Fix& fix) {
         (!fix.velocity_ned_mps || within(*fix.velocity_ned_mps, fastest_mps)) &&
         within(fix.acceleration_ned_mps2, max_acceleration_mps2) &&
         (!fix.body_rates_radps || within(*fix.body_rates_radps, fastest_turn_radps));
-    return in_range ? Fault::None : Fault::OutOfRange;
+    return in_range ? PacketError::None : PacketError::OutOfRange;
 }
 
 } // namespace octant::sim::links

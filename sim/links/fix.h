@@ -27,9 +27,9 @@ struct Fix {
     /// North, east, down over the ground, where the protocol has it. Some senders leave it zero.
     std::optional<glm::dvec3> velocity_ned_mps;
     /// The velocity is how it is to go on, zero too.
-    bool velocity_is_meant = false;
+    bool velocity_is_commanded = false;
     /// How long the protocol has the motion go on without a further packet; 0 = it does not say.
-    double carried_on_s = 0.0;
+    double extrapolation_limit_s = 0.0;
     /// North, east, down; zero where the protocol has none.
     glm::dvec3 acceleration_ned_mps2{0.0};
     /// About the body's axes, where the protocol has it.
@@ -42,10 +42,10 @@ struct Fix {
 };
 
 /// The fix as it is from axes whose y axis true north lies so far clockwise of.
-Fix in_axes_turned(Fix fix, double north_turn_rad);
+Fix with_rotated_axes(Fix fix, double north_bearing_rad);
 
 /// Why a packet was not taken.
-enum class Fault {
+enum class PacketError {
     None,
     WrongSize,    ///< Verdict::got bytes
     WrongVersion, ///< Verdict::got
@@ -57,16 +57,16 @@ enum class Fault {
 };
 
 /// What a decoder made of one packet.
-struct Verdict {
-    Fault fault = Fault::None;
+struct DecodeResult {
+    PacketError fault = PacketError::None;
     std::uint32_t got = 0;  ///< size or version, as the fault says
     std::uint32_t size = 0; ///< bytes of the packet
 
-    bool operator==(const Verdict&) const = default;
+    bool operator==(const DecodeResult&) const = default;
 };
 
 /// NotFinite or OutOfRange for what no aircraft near the earth can have: heights beyond 1,000 km,
 /// speeds beyond 20 km/s, more than 100 rad/s.
-Fault fault_of(const Fix& fix);
+PacketError error_of_fix(const Fix& fix);
 
 } // namespace octant::sim::links

@@ -45,25 +45,25 @@ glm::dvec3 angle_from_body_rates(const EulerAngles& at, const glm::dvec3& body) 
     return {body.x + heading * std::sin(at.pitch_rad), body.y * cr - body.z * sr, heading};
 }
 
-Verdict check_head(const WireReader& reader) {
+DecodeResult check_head(const WireReader& reader) {
     const auto size = static_cast<std::uint32_t>(reader.size());
     const auto version = reader.at<std::uint32_t>(version_at);
     if (size < sizeof(version)) {
-        return {Fault::WrongSize, size, size};
+        return {PacketError::WrongSize, size, size};
     }
     if (version != 24 && version != 25) {
-        return {Fault::WrongVersion, version, size};
+        return {PacketError::WrongVersion, version, size};
     }
     const std::size_t expected = version == 24 ? fdm_24_bytes : fdm_25_bytes;
-    return {size == expected ? Fault::None : Fault::WrongSize, version, size};
+    return {size == expected ? PacketError::None : PacketError::WrongSize, version, size};
 }
 
 } // namespace
 
-Verdict decode_fdm(Bytes datagram, Fix& fix) {
+DecodeResult decode_fdm(Bytes datagram, Fix& fix) {
     const WireReader reader(datagram, ByteOrder::Big);
-    Verdict verdict = check_head(reader);
-    if (verdict.fault != Fault::None) {
+    DecodeResult verdict = check_head(reader);
+    if (verdict.fault != PacketError::None) {
         return verdict;
     }
     fix = {};
@@ -81,16 +81,16 @@ Verdict decode_fdm(Bytes datagram, Fix& fix) {
     fix.velocity_ned_mps = glm::dvec3(
         m_from_ft(velocity_ftps.x), m_from_ft(velocity_ftps.y), m_from_ft(velocity_ftps.z));
     fix.ticks = reader.at<std::uint32_t>(verdict.got == 24 ? time_at : time_at + longer_in_25);
-    verdict.fault = fault_of(fix);
+    verdict.fault = error_of_fix(fix);
     return verdict;
 }
 
-std::string fdm_text(const Verdict& verdict) {
+std::string fdm_text(const DecodeResult& verdict) {
     const auto [fault, got, size] = verdict;
     switch (fault) {
-    case Fault::None:
+    case PacketError::None:
         return fmt::format("FDM version {} of {} bytes: fine", got, size);
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         if (size < sizeof(got)) {
             return fmt::format("expected an FDM packet, got {} bytes", size);
         }
@@ -99,9 +99,9 @@ std::string fdm_text(const Verdict& verdict) {
             got,
             got == 25 ? fdm_25_bytes : fdm_24_bytes,
             size);
-    case Fault::NotFinite:
+    case PacketError::NotFinite:
         return fmt::format("FDM version {}: expected numbers, got one that is none", got);
-    case Fault::OutOfRange:
+    case PacketError::OutOfRange:
         return fmt::format("FDM version {}: expected an aircraft near the earth, got none", got);
     default:
         return fmt::format("expected FDM version 24 or 25, got {} in {} bytes", got, size);

@@ -109,7 +109,7 @@ bool LineServer::read(Client& client, double now_s, std::vector<Datagram>& into)
         return true;
     }
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-        return client.has_sent || std::chrono::steady_clock::now() - client.since < silent_at_first;
+        return client.has_sent || std::chrono::steady_clock::now() - client.since < first_line_timeout;
     }
     client.lines.finish(take);
     return false;

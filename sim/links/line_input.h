@@ -70,7 +70,7 @@ class LineServer {
 public:
     static constexpr std::size_t max_clients = 8;
     /// A client that has never sent anything is let go after this.
-    static constexpr std::chrono::seconds silent_at_first{10};
+    static constexpr std::chrono::seconds first_line_timeout{10};
 
     /// Throws Error where the port is taken; 0 = any free one. Clients from other addresses than
     /// `only_from`, where there is one, are turned away before they hold a place.
@@ -90,7 +90,7 @@ public:
 private:
     struct Client {
         int socket = -1;
-        Source source;
+        PacketSource source;
         LineSplitter lines;
         bool has_sent = false;
         std::chrono::steady_clock::time_point since;

@@ -45,7 +45,7 @@ void LiveTrack::clear() {
 
 AircraftState LiveTrack::beyond(double sender_s) const {
     const LiveSample& last = samples_.back();
-    const double ahead_s = std::clamp(sender_s - last.state.time_s, 0.0, last.carried_on_s);
+    const double ahead_s = std::clamp(sender_s - last.state.time_s, 0.0, last.extrapolation_limit_s);
     const double accelerated_s = std::min(ahead_s, last.accelerated_s);
     AircraftState state = last.state;
     state.velocity_mps += accelerated_s * last.world_mps2;
@@ -101,7 +101,7 @@ void LiveTrack::blend(AircraftState& state, double sender_s, double passed_s) {
 
 AircraftState LiveTrack::show(double sender_s, double passed_s) {
     assert(!samples_.empty());
-    stale_ = sender_s > samples_.back().state.time_s + samples_.back().carried_on_s;
+    stale_ = sender_s > samples_.back().state.time_s + samples_.back().extrapolation_limit_s;
     AircraftState state = raw_at(sender_s);
     if (shown_) {
         blend(state, sender_s, passed_s);

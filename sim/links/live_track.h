@@ -14,7 +14,7 @@ struct LiveSample {
     AircraftState state;
     glm::dvec3 world_radps{0.0}; ///< rate of turn in world axes
     glm::dvec3 world_mps2{0.0};  ///< acceleration
-    double carried_on_s = 0.5;   ///< how long the motion may go on beyond it
+    double extrapolation_limit_s = 0.5;   ///< how long the motion may go on beyond it
     double accelerated_s = 0.5;  ///< how long it accelerates beyond it
 };
 

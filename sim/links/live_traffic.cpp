@@ -3,7 +3,7 @@
 #include "sim/hidden_height.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
-#include "sim/links/identify.h"
+#include "sim/links/packet_kind.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,8 +57,8 @@ typename Streams::mapped_type* stream_of(
     return &known->second;
 }
 
-std::string verdict_text(Protocol protocol, const Verdict& verdict) {
-    if (verdict.fault == Fault::OtherKind) {
+std::string verdict_text(Protocol protocol, const DecodeResult& verdict) {
+    if (verdict.fault == PacketError::OtherKind) {
         return std::string(text_of(PacketKind{verdict.got}));
     }
     switch (protocol) {
@@ -79,14 +79,14 @@ std::string verdict_text(Protocol protocol, const Verdict& verdict) {
 
 /// The verdict on a packet that its port's decoder does not use: what it is in truth, where its
 /// form tells that. To a decoder of DIS, a message of CIGI 3 is a PDU of another type.
-Verdict identified(const Datagram& datagram, const Verdict& verdict) {
-    const auto kind = verdict.fault != Fault::None && datagram.protocol != Protocol::Lines
+DecodeResult identified(const Datagram& datagram, const DecodeResult& verdict) {
+    const auto kind = verdict.fault != PacketError::None && datagram.protocol != Protocol::Lines
                           ? packet_kind(datagram.bytes)
                           : std::nullopt;
     if (!kind || protocol_of(*kind) == datagram.protocol) {
         return verdict;
     }
-    return {Fault::OtherKind, static_cast<std::uint32_t>(*kind), 0};
+    return {PacketError::OtherKind, static_cast<std::uint32_t>(*kind), 0};
 }
 
 } // namespace
@@ -157,70 +157,70 @@ void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::strin
     }
 }
 
-LiveTraffic::Taken
+LiveTraffic::PacketOutcome
 LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& marking) {
     const VehicleKey key{datagram.protocol, datagram.source, fix.vehicle};
     report(key, fix, marking);
     LiveVehicle* const vehicle = vehicle_of(key, datagram.arrival_s);
     if (vehicle == nullptr) {
         ++counts_.unused;
-        return Taken::Right;
+        return PacketOutcome::Right;
     }
-    const WorldPlace place = world_from_fix_(key, fix);
+    const WorldPosition place = world_from_fix_(key, fix);
     const bool taken =
-        vehicle->add(in_axes_turned(fix, place.north_turn_rad), place.at_m, datagram.arrival_s);
+        vehicle->add(with_rotated_axes(fix, place.north_bearing_rad), place.at_m, datagram.arrival_s);
     if (!taken) {
         ++counts_.late;
-        return Taken::Right;
+        return PacketOutcome::Right;
     }
     ++counts_.accepted;
     newest_s_ = datagram.arrival_s;
-    return Taken::Moved;
+    return PacketOutcome::Moved;
 }
 
 /// Counts and remembers what is to be said of a packet. Never Moved.
-LiveTraffic::Taken LiveTraffic::count(const Datagram& datagram, const Verdict& decoded) {
-    const Verdict verdict = identified(datagram, decoded);
-    const bool wrong = verdict.fault != Fault::None && verdict.fault != Fault::Unused;
-    if (verdict.fault == Fault::Unused) {
+LiveTraffic::PacketOutcome LiveTraffic::count(const Datagram& datagram, const DecodeResult& decoded) {
+    const DecodeResult verdict = identified(datagram, decoded);
+    const bool wrong = verdict.fault != PacketError::None && verdict.fault != PacketError::Unused;
+    if (verdict.fault == PacketError::Unused) {
         ++counts_.unused;
     } else {
-        (wrong ? wrong_
-               : fine_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
+        (wrong ? last_rejected_
+               : last_accepted_) = {datagram.protocol, datagram.source, verdict, datagram.arrival_s};
     }
     counts_.wrong += wrong ? 1 : 0;
-    hear(datagram, verdict);
-    return wrong ? Taken::Wrong : Taken::Right;
+    tally(datagram, verdict);
+    return wrong ? PacketOutcome::Wrong : PacketOutcome::Right;
 }
 
 /// Counts a packet by its kind. A new kind is told where there is room for it.
-void LiveTraffic::hear(const Datagram& datagram, const Verdict& verdict) {
+void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& verdict) {
     constexpr std::size_t max_first = 200; // kinds of a fault that are the first of their sender
     constexpr std::size_t max_in_all = 100;
     constexpr std::ptrdiff_t max_of_sender = 16;
-    const bool got_is_size = verdict.fault == Fault::WrongSize || verdict.fault == Fault::NotOurs;
-    const PacketForm form{
+    const bool got_is_size = verdict.fault == PacketError::WrongSize || verdict.fault == PacketError::NotOurs;
+    const PacketErrorKey form{
         verdict.fault, datagram.source, datagram.protocol, got_is_size ? 0U : verdict.got};
-    const auto known = heard_.find(form);
-    if (known != heard_.end()) {
+    const auto known = packet_tallies_.find(form);
+    if (known != packet_tallies_.end()) {
         ++known->second.packets;
-        known->second.are_alike = known->second.are_alike && known->second.first == verdict;
+        known->second.is_uniform = known->second.is_uniform && known->second.first == verdict;
         return;
     }
     constexpr Protocol first_protocol{};
-    const auto begin = heard_.lower_bound({verdict.fault, datagram.source, first_protocol, 0});
-    const auto end = std::find_if(begin, heard_.end(), [&](const auto& heard) {
+    const auto begin = packet_tallies_.lower_bound({verdict.fault, datagram.source, first_protocol, 0});
+    const auto end = std::find_if(begin, packet_tallies_.end(), [&](const auto& heard) {
         return heard.first.fault != verdict.fault || heard.first.source != datagram.source;
     });
     const auto of_sender = std::distance(begin, end);
-    std::size_t& forms = forms_[verdict.fault];
+    std::size_t& forms = error_keys_[verdict.fault];
     if (forms >= (of_sender == 0 ? max_first : max_in_all) || of_sender >= max_of_sender) {
         ++counts_.untold;
         return;
     }
     ++forms;
-    heard_.emplace(form, Heard{verdict, 1});
-    news_.push_back(
+    packet_tallies_.emplace(form, PacketTally{verdict, 1});
+    messages_.push_back(
         fmt::format("{}: {}", text_of(datagram.source), verdict_text(datagram.protocol, verdict)));
 }
 
@@ -257,39 +257,39 @@ std::optional<long> LiveTraffic::lost_of(const VehicleKey& key) const {
     return lost;
 }
 
-LiveTraffic::Taken LiveTraffic::take_fdm(const Datagram& datagram) {
+LiveTraffic::PacketOutcome LiveTraffic::take_fdm(const Datagram& datagram) {
     Fix fix;
-    const Verdict verdict = decode_fdm(datagram.bytes, fix);
-    const Taken counted = count(datagram, verdict);
-    return verdict.fault == Fault::None ? move(datagram, fix) : counted;
+    const DecodeResult verdict = decode_fdm(datagram.bytes, fix);
+    const PacketOutcome counted = count(datagram, verdict);
+    return verdict.fault == PacketError::None ? move(datagram, fix) : counted;
 }
 
-LiveTraffic::Taken LiveTraffic::take_line(const Datagram& datagram) {
+LiveTraffic::PacketOutcome LiveTraffic::take_line(const Datagram& datagram) {
     // No more clients than that are connected at a time: who is silent longest has gone.
     auto* const stream = stream_of(columns_, datagram.source, datagram.arrival_s, 0.0);
     if (stream == nullptr) {
         ++counts_.unused;
-        return Taken::Wrong;
+        return PacketOutcome::Wrong;
     }
     Fix fix;
-    const Verdict verdict = stream->value.take(datagram.bytes, fix);
-    Verdict said = verdict;
+    const DecodeResult verdict = stream->value.take(datagram.bytes, fix);
+    DecodeResult said = verdict;
     said.size = 0; // Lines differ in length and are told once.
-    const Taken counted = count(datagram, said);
-    return verdict.fault == Fault::None ? move(datagram, fix) : counted;
+    const PacketOutcome counted = count(datagram, said);
+    return verdict.fault == PacketError::None ? move(datagram, fix) : counted;
 }
 
-LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
-    Taken taken = Taken::Wrong;
+LiveTraffic::PacketOutcome LiveTraffic::take_mavlink(const Datagram& datagram) {
+    PacketOutcome taken = PacketOutcome::Wrong;
     for (Bytes rest = datagram.bytes; !rest.empty();) {
         const MavLinkParse parse = parse_mavlink(rest);
-        Verdict said = parse.verdict;
-        said.size = said.fault == Fault::NotOurs ? said.size : 0;
+        DecodeResult said = parse.verdict;
+        said.size = said.fault == PacketError::NotOurs ? said.size : 0;
         taken = std::max(taken, count(datagram, said));
-        if (identified(datagram, said).fault == Fault::OtherKind) {
+        if (identified(datagram, said).fault == PacketError::OtherKind) {
             break;
         }
-        if (said.fault == Fault::None || said.fault == Fault::Unused) {
+        if (said.fault == PacketError::None || said.fault == PacketError::Unused) {
             const unsigned component = unsigned{parse.system} << 8U | parse.component;
             number(datagram, static_cast<std::uint16_t>(component), parse.sequence, 8);
         }
@@ -309,20 +309,20 @@ LiveTraffic::Taken LiveTraffic::take_mavlink(const Datagram& datagram) {
     return taken;
 }
 
-LiveTraffic::Taken LiveTraffic::take_dis(const Datagram& datagram) {
-    if (!ellipsoid_.is_earth() && !std::exchange(told_of_dis_, true)) {
-        news_.push_back(fmt::format(
+LiveTraffic::PacketOutcome LiveTraffic::take_dis(const Datagram& datagram) {
+    if (!ellipsoid_.is_earth() && !std::exchange(has_reported_dis_, true)) {
+        messages_.push_back(fmt::format(
             "DIS: places count from the centre of the earth (WGS 84), as its standard has it; on "
             "{} their latitudes, longitudes and heights count",
             name_of_body(ellipsoid_)));
     }
     DisEntity entity;
-    const Verdict verdict = decode_dis(datagram.bytes, entity);
-    const Taken counted = count(datagram, verdict);
-    return verdict.fault == Fault::None ? move(datagram, entity.fix, marking_of(entity)) : counted;
+    const DecodeResult verdict = decode_dis(datagram.bytes, entity);
+    const PacketOutcome counted = count(datagram, verdict);
+    return verdict.fault == PacketError::None ? move(datagram, entity.fix, marking_of(entity)) : counted;
 }
 
-LiveTraffic::Taken LiveTraffic::take_xplane(const Datagram& datagram) {
+LiveTraffic::PacketOutcome LiveTraffic::take_xplane(const Datagram& datagram) {
     std::optional<Fix> fix;
     if (packet_kind(datagram.bytes) != PacketKind::XPlane) {
         return count(datagram, XPlanePose().take(datagram.bytes, fix)); // takes no stream
@@ -330,20 +330,20 @@ LiveTraffic::Taken LiveTraffic::take_xplane(const Datagram& datagram) {
     auto* const stream = stream_of(xplanes_, datagram.source, datagram.arrival_s, gone_after_s);
     if (stream == nullptr) {
         ++counts_.unused;
-        return Taken::Wrong;
+        return PacketOutcome::Wrong;
     }
-    const Taken counted = count(datagram, stream->value.take(datagram.bytes, fix));
+    const PacketOutcome counted = count(datagram, stream->value.take(datagram.bytes, fix));
     return fix ? move(datagram, *fix) : counted;
 }
 
-LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
+LiveTraffic::PacketOutcome LiveTraffic::take_cigi(const Datagram& datagram) {
     std::vector<Fix> moved;
-    Verdict verdict = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
-    if (verdict.fault == Fault::None) {
+    DecodeResult verdict = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
+    if (verdict.fault == PacketError::None) {
         verdict.size = 0; // Messages differ in length and are told once.
     }
-    const Taken counted = count(datagram, verdict);
-    if (verdict.fault != Fault::None) {
+    const PacketOutcome counted = count(datagram, verdict);
+    if (verdict.fault != PacketError::None) {
         return counted;
     }
     number(datagram, 0, cigi_.host_frame(), 32);
@@ -356,10 +356,10 @@ LiveTraffic::Taken LiveTraffic::take_cigi(const Datagram& datagram) {
             vehicles_[known->second].hide();
         }
     }
-    return Taken::Moved; // A host's message is a frame, whatever moves in it.
+    return PacketOutcome::Moved; // A host's message is a frame, whatever moves in it.
 }
 
-LiveTraffic::Taken LiveTraffic::take(const Datagram& datagram) {
+LiveTraffic::PacketOutcome LiveTraffic::take(const Datagram& datagram) {
     switch (datagram.protocol) {
     case Protocol::Fdm:
         return take_fdm(datagram);
@@ -375,7 +375,7 @@ LiveTraffic::Taken LiveTraffic::take(const Datagram& datagram) {
         return take_xplane(datagram);
     default:
         ++counts_.unused;
-        return Taken::Wrong;
+        return PacketOutcome::Wrong;
     }
 }
 
@@ -384,29 +384,29 @@ std::size_t LiveTraffic::show_newest(double now_s, std::span<AircraftState> stat
     for (std::size_t i = 0; i < shown_; ++i) {
         states[i] = vehicles_[i].newest();
     }
-    put_away_hidden(states.first(shown_));
+    remove_hidden(states.first(shown_));
     shown_s_ = now_s;
     return shown_;
 }
 
 std::size_t LiveTraffic::show(double now_s, double delay_s, std::span<AircraftState> states) {
-    const double passed_s = shown_once_ ? now_s - shown_s_ : 0.0;
+    const double passed_s = has_shown_ ? now_s - shown_s_ : 0.0;
     shown_ = std::min(states.size(), vehicles_.size());
     counts_.snaps = 0;
     for (std::size_t i = 0; i < shown_; ++i) {
         states[i] = vehicles_[i].show(now_s, delay_s, passed_s);
         counts_.snaps += vehicles_[i].snaps();
     }
-    put_away_hidden(states.first(shown_));
+    remove_hidden(states.first(shown_));
     shown_s_ = now_s;
-    shown_once_ = true;
+    has_shown_ = true;
     return shown_;
 }
 
-void LiveTraffic::put_away_hidden(std::span<AircraftState> states) const {
+void LiveTraffic::remove_hidden(std::span<AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (vehicles_[i].is_hidden()) {
-            states[i].position_m.z = hidden_height_m;
+            states[i].position_m.z = absent_height_m;
         }
     }
 }
@@ -418,15 +418,15 @@ bool LiveTraffic::is_stale() const {
         [](const LiveVehicle& vehicle) { return vehicle.is_stale() && !vehicle.is_hidden(); });
 }
 
-std::vector<std::string> LiveTraffic::take_news() {
-    return std::exchange(news_, {});
+std::vector<std::string> LiveTraffic::take_new_messages() {
+    return std::exchange(messages_, {});
 }
 
 std::vector<std::string> LiveTraffic::lines() const {
     std::vector<std::string> lines;
-    if (fine_.at_s >= 0.0) {
+    if (last_accepted_.at_s >= 0.0) {
         lines.push_back(fmt::format(
-            "{}: {}", text_of(fine_.source), verdict_text(fine_.protocol, fine_.verdict)));
+            "{}: {}", text_of(last_accepted_.source), verdict_text(last_accepted_.protocol, last_accepted_.verdict)));
     }
     constexpr std::size_t max_lines = 4;
     for (std::size_t i = 0; i < std::min(vehicles_.size(), max_lines); ++i) {
@@ -442,11 +442,11 @@ std::vector<std::string> LiveTraffic::lines() const {
     if (vehicles_.size() > max_lines) {
         lines.push_back(fmt::format("and {} vehicles more", vehicles_.size() - max_lines));
     }
-    if (wrong_.at_s >= 0.0 && shown_s_ - wrong_.at_s < wrong_said_s) {
+    if (last_rejected_.at_s >= 0.0 && shown_s_ - last_rejected_.at_s < wrong_said_s) {
         lines.push_back(fmt::format(
             "{}: {}; {} wrong packets so far",
-            text_of(wrong_.source),
-            verdict_text(wrong_.protocol, wrong_.verdict),
+            text_of(last_rejected_.source),
+            verdict_text(last_rejected_.protocol, last_rejected_.verdict),
             counts_.wrong));
     }
     if (vehicles_.size() == max_vehicles) {
@@ -475,13 +475,13 @@ std::vector<VehicleReport> LiveTraffic::vehicle_reports() const {
 
 std::vector<PacketReport> LiveTraffic::packet_reports() const {
     std::vector<PacketReport> all;
-    for (const auto& [form, heard] : heard_) {
+    for (const auto& [form, heard] : packet_tallies_) {
         all.push_back(
             {form.source,
              verdict_text(form.protocol, heard.first) +
-                 (heard.are_alike ? "" : " (the first of them)"),
+                 (heard.is_uniform ? "" : " (the first of them)"),
              heard.packets,
-             form.fault != Fault::None && form.fault != Fault::Unused});
+             form.fault != PacketError::None && form.fault != PacketError::Unused});
     }
     return all;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/links/cigi_image_generator.h"
 #include "sim/links/datagram.h"
 #include "sim/links/live_vehicle.h"
@@ -24,12 +24,12 @@
 namespace octant::sim::links {
 
 /// Where a fix lies in the world.
-struct WorldPlace {
+struct WorldPosition {
     glm::dvec3 at_m{0.0};
-    double north_turn_rad = 0.0; ///< of true north there, clockwise from the y axis
+    double north_bearing_rad = 0.0; ///< of true north there, clockwise from the y axis
 };
 
-using WorldFromFix = std::function<WorldPlace(const VehicleKey& key, const Fix& fix)>;
+using WorldFromFix = std::function<WorldPosition(const VehicleKey& key, const Fix& fix)>;
 
 /// What came so far.
 struct TrafficCounts {
@@ -49,7 +49,7 @@ struct VehicleReport {
     std::string name;    ///< as name_of() has it
     std::string marking; ///< what a DIS entity calls itself; else empty
     Protocol protocol = Protocol::Fdm;
-    Source source;
+    PacketSource source;
     long packets = 0;
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
@@ -59,7 +59,7 @@ struct VehicleReport {
 
 /// Packets of one form that were refused or passed over, or taken.
 struct PacketReport {
-    Source source;
+    PacketSource source;
     std::string text; ///< what a person should be told of them
     long packets = 0;
     bool is_wrong = false;
@@ -96,14 +96,14 @@ public:
 
     const CigiImageGenerator& cigi() const { return cigi_; }
 
-    enum class Taken {
+    enum class PacketOutcome {
         Wrong, ///< no decoder knows it; it changed nothing but counts
         Right, ///< it may matter for later ones
         Moved
     };
 
     /// Decodes one packet. Never throws for what it holds.
-    Taken take(const Datagram& datagram);
+    PacketOutcome take(const Datagram& datagram);
 
     /// In the order in which they came first.
     std::span<const LiveVehicle> vehicles() const { return vehicles_; }
@@ -126,7 +126,7 @@ public:
     /// What was told for the first time since the last call: each sender with each kind of packet
     /// once, a line each; of each fault at most 16 kinds from one sender and 100 kinds in all, but
     /// always the first kind of each of 100 senders more.
-    std::vector<std::string> take_news();
+    std::vector<std::string> take_new_messages();
 
     /// What a person should be told, a line each: senders and what is wrong with them.
     std::vector<std::string> lines() const;
@@ -138,43 +138,43 @@ public:
     std::vector<PacketReport> packet_reports() const;
 
 private:
-    struct Said {
+    struct LastReport {
         Protocol protocol = Protocol::Fdm;
-        Source source;
-        Verdict verdict;
+        PacketSource source;
+        DecodeResult verdict;
         double at_s = -1.0;
     };
 
-    Taken take_fdm(const Datagram& datagram);
-    Taken take_line(const Datagram& datagram);
-    Taken take_mavlink(const Datagram& datagram);
-    Taken take_dis(const Datagram& datagram);
-    Taken take_cigi(const Datagram& datagram);
-    Taken take_xplane(const Datagram& datagram);
-    void put_away_hidden(std::span<AircraftState> states) const;
-    Taken move(const Datagram& datagram, const Fix& fix, const std::string& marking = {});
+    PacketOutcome take_fdm(const Datagram& datagram);
+    PacketOutcome take_line(const Datagram& datagram);
+    PacketOutcome take_mavlink(const Datagram& datagram);
+    PacketOutcome take_dis(const Datagram& datagram);
+    PacketOutcome take_cigi(const Datagram& datagram);
+    PacketOutcome take_xplane(const Datagram& datagram);
+    void remove_hidden(std::span<AircraftState> states) const;
+    PacketOutcome move(const Datagram& datagram, const Fix& fix, const std::string& marking = {});
     void report(const VehicleKey& key, const Fix& fix, const std::string& marking);
     LiveVehicle* vehicle_of(const VehicleKey& key, double arrival_s);
-    Taken count(const Datagram& datagram, const Verdict& verdict);
-    void hear(const Datagram& datagram, const Verdict& verdict);
+    PacketOutcome count(const Datagram& datagram, const DecodeResult& verdict);
+    void tally(const Datagram& datagram, const DecodeResult& verdict);
     void number(const Datagram& datagram, std::uint16_t stream, std::uint32_t number, int bits);
     std::optional<long> lost_of(const VehicleKey& key) const;
 
     /// Packets of one kind from one sender.
-    struct Heard {
-        Verdict first;
+    struct PacketTally {
+        DecodeResult first;
         long packets = 0;
-        bool are_alike = true; ///< of one size
+        bool is_uniform = true; ///< of one size
     };
 
     /// A kind of packet. Sizes are no part of it: damaged packets have any.
-    struct PacketForm {
-        Fault fault = Fault::None;
-        Source source;
+    struct PacketErrorKey {
+        PacketError fault = PacketError::None;
+        PacketSource source;
         Protocol protocol = Protocol::Fdm;
         std::uint32_t got = 0;
 
-        auto operator<=>(const PacketForm&) const = default;
+        auto operator<=>(const PacketErrorKey&) const = default;
     };
 
     WorldFromFix world_from_fix_;
@@ -189,25 +189,25 @@ private:
         double last_s = 0.0; ///< arrival of its newest packet
     };
 
-    std::map<Source, Stream<NamedColumns>> columns_;
-    std::map<std::pair<Source, std::uint8_t>, Stream<MavLinkPose>> poses_;
-    std::map<Source, Stream<XPlanePose>> xplanes_;
+    std::map<PacketSource, Stream<NamedColumns>> columns_;
+    std::map<std::pair<PacketSource, std::uint8_t>, Stream<MavLinkPose>> poses_;
+    std::map<PacketSource, Stream<XPlanePose>> xplanes_;
     /// By sender and, for MAVLink, system and component in one number.
-    std::map<std::tuple<Protocol, Source, std::uint16_t>, Stream<SequenceCount>> sequences_;
+    std::map<std::tuple<Protocol, PacketSource, std::uint16_t>, Stream<SequenceCount>> sequences_;
     CigiImageGenerator cigi_;
     TrafficCounts counts_;
     /// Packets by what they were, as far as that is told.
-    std::map<PacketForm, Heard> heard_;
-    std::map<Fault, std::size_t> forms_; ///< how many of heard_ have a fault
-    bool told_of_dis_ = false;           ///< that it knows the earth alone
+    std::map<PacketErrorKey, PacketTally> packet_tallies_;
+    std::map<PacketError, std::size_t> error_keys_; ///< how many of packet_tallies_ have a fault
+    bool has_reported_dis_ = false;           ///< that it knows the earth alone
     /// Without names, which follow from the keys.
     std::map<VehicleKey, VehicleReport> reports_;
-    std::vector<std::string> news_;
-    Said fine_;
-    Said wrong_;
+    std::vector<std::string> messages_;
+    LastReport last_accepted_;
+    LastReport last_rejected_;
     double newest_s_ = 0.0;
     double shown_s_ = 0.0;
-    bool shown_once_ = false;
+    bool has_shown_ = false;
     std::size_t shown_ = 0;
 };
 

@@ -25,16 +25,16 @@ glm::dvec3 world_from_ned(const glm::dvec3& ned) {
 }
 
 /// How long a way takes at a velocity, where the way runs along it.
-std::optional<double> time_along(const glm::dvec3& way_m, const glm::dvec3& velocity_mps) {
+std::optional<double> time_along(const glm::dvec3& distance_m, const glm::dvec3& velocity_mps) {
     const double speed2 = glm::dot(velocity_mps, velocity_mps);
     if (speed2 < slow_clock_mps * slow_clock_mps) {
         return std::nullopt;
     }
-    const double time_s = glm::dot(way_m, velocity_mps) / speed2;
-    const double aside_m = glm::length(way_m - time_s * velocity_mps);
+    const double time_s = glm::dot(distance_m, velocity_mps) / speed2;
+    const double aside_m = glm::length(distance_m - time_s * velocity_mps);
     constexpr double max_aside = 0.2;
     constexpr double min_aside_m = 0.05;
-    const bool along = aside_m <= max_aside * glm::length(way_m) + min_aside_m;
+    const bool along = aside_m <= max_aside * glm::length(distance_m) + min_aside_m;
     return along ? std::optional(time_s) : std::nullopt;
 }
 
@@ -80,22 +80,22 @@ bool LiveVehicle::is_repeated(const Fix& fix, const glm::dvec3& world_m, double 
     if (!same) {
         constexpr double max_hold_s = 1.0;
         const bool held = arrival_s - moved_at_s_ < max_hold_s;
-        usual_repeats_ = held ? std::max(repeats_, usual_repeats_ - 1) : 0;
+        typical_repeats_ = held ? std::max(repeats_, typical_repeats_ - 1) : 0;
         repeats_ = 0;
         moved_at_s_ = arrival_s;
         return false;
     }
     ++repeats_;
-    return !stands() && glm::length(track_.last().state.velocity_mps) > slow_clock_mps;
+    return !is_stationary() && glm::length(track_.last().state.velocity_mps) > slow_clock_mps;
 }
 
-bool LiveVehicle::stands() const {
-    return repeats_ >= repeats_that_stand + 2 * usual_repeats_;
+bool LiveVehicle::is_stationary() const {
+    return repeats_ >= repeats_that_stand + 2 * typical_repeats_;
 }
 
 /// The way, negative where it runs back; nothing where a second of places has no direction, as
 /// those of a vehicle that hovers.
-std::optional<double> LiveVehicle::way_of(const glm::dvec3& way_m) const {
+std::optional<double> LiveVehicle::distance_along_track(const glm::dvec3& distance_m) const {
     constexpr double length_s = 1.0;
     constexpr double heading_s = 0.3;
     constexpr std::size_t heading_samples = 4;
@@ -119,36 +119,36 @@ std::optional<double> LiveVehicle::way_of(const glm::dvec3& way_m) const {
     if (glm::length(way_from(first)) < min_directed * path_m) {
         return std::nullopt;
     }
-    const bool back = glm::dot(way_m, way_from(heading_first)) < 0.0;
-    return back ? -glm::length(way_m) : glm::length(way_m);
+    const bool back = glm::dot(distance_m, way_from(heading_first)) < 0.0;
+    return back ? -glm::length(distance_m) : glm::length(distance_m);
 }
 
-TimeClue LiveVehicle::clue_of(const Fix& fix, const glm::dvec3& world_m) {
-    TimeClue clue{
-        .sent_s = fix.sent_s, .ticks = fix.ticks, .tick_s = fix.tick_s, .moved_s = {}, .way_m = {}};
+TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3& world_m) {
+    TimingEvidence clue{
+        .sent_s = fix.sent_s, .ticks = fix.ticks, .tick_s = fix.tick_s, .moved_s = {}, .distance_m = {}};
     if (track_.empty()) {
         return clue;
     }
-    if (stands()) {
+    if (is_stationary()) {
         // A sender that is paused goes on to send, with a clock that stands.
         const bool runs =
             fix.sent_s ? fix.sent_s > last_fix_->sent_s : fix.ticks != last_fix_->ticks;
-        return runs ? clue : TimeClue{};
+        return runs ? clue : TimingEvidence{};
     }
-    const glm::dvec3 way_m = world_m - track_.last().state.position_m;
+    const glm::dvec3 distance_m = world_m - track_.last().state.position_m;
     const bool told = fix.velocity_ned_mps && last_fix_->velocity_ned_mps;
     if (told && velocity_error_ < max_velocity_error) {
         const glm::dvec3 mean_ned_mps =
             0.5 * (*fix.velocity_ned_mps + *last_fix_->velocity_ned_mps);
-        clue.moved_s = time_along(way_m, world_from_ned(mean_ned_mps));
+        clue.moved_s = time_along(distance_m, world_from_ned(mean_ned_mps));
     }
-    clue.way_m = way_of(way_m);
+    clue.distance_m = distance_along_track(distance_m);
     return clue;
 }
 
 /// Whether the sender's velocity agrees with its positions.
 bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s) {
-    if (fix.velocity_is_meant || track_.empty() || step_s <= 0.0) {
+    if (fix.velocity_is_commanded || track_.empty() || step_s <= 0.0) {
         return true;
     }
     const glm::dvec3 moved_mps =
@@ -170,16 +170,16 @@ void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) 
     sample.world_radps = turn_of(fix, sample);
     sample.world_mps2 = world_from_ned(fix.acceleration_ned_mps2);
     sample.state.velocity_mps = world_from_ned(fix.velocity_ned_mps.value_or(glm::dvec3(0.0)));
-    if (fix.carried_on_s > 0.0) {
-        sample.carried_on_s = fix.carried_on_s;
-        sample.accelerated_s = fix.carried_on_s;
+    if (fix.extrapolation_limit_s > 0.0) {
+        sample.extrapolation_limit_s = fix.extrapolation_limit_s;
+        sample.accelerated_s = fix.extrapolation_limit_s;
     } else {
         constexpr double periods = 5.0;
         constexpr double max_carried_on_s = 2.0;
-        sample.carried_on_s =
-            std::clamp(periods * clock_.period_s(), LiveSample{}.carried_on_s, max_carried_on_s);
+        sample.extrapolation_limit_s =
+            std::clamp(periods * clock_.period_s(), LiveSample{}.extrapolation_limit_s, max_carried_on_s);
     }
-    if (stands()) {
+    if (is_stationary()) {
         sample.state.velocity_mps = glm::dvec3(0.0);
         sample.world_mps2 = glm::dvec3(0.0);
         return;
@@ -192,14 +192,14 @@ void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) 
 }
 
 glm::dvec3 LiveVehicle::turn_of(const Fix& fix, const LiveSample& sample) const {
-    if (stands()) {
+    if (is_stationary()) {
         return glm::dvec3(0.0);
     }
     const glm::dquat& attitude = sample.state.body_to_world;
     if (fix.body_rates_radps && *fix.body_rates_radps != glm::dvec3(0.0)) {
         return attitude * *fix.body_rates_radps;
     }
-    if (track_.empty() || fix.velocity_is_meant) {
+    if (track_.empty() || fix.velocity_is_commanded) {
         return glm::dvec3(0.0);
     }
     // Over a tenth of a second at least: what delays do to times of packets matters less.
@@ -223,7 +223,7 @@ glm::dvec3 LiveVehicle::turn_of(const Fix& fix, const LiveSample& sample) const 
 }
 
 /// Whether no flight leads from the last place to this one.
-bool LiveVehicle::is_elsewhere(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const {
+bool LiveVehicle::has_jumped(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const {
     constexpr double unknown_mps = 400.0;
     constexpr std::size_t min_samples = 4;
     constexpr double times_speed = 5.0;
@@ -254,7 +254,7 @@ double LiveVehicle::speed_rate_of(const glm::dvec3& velocity_mps, double step_s)
 }
 
 bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_s) {
-    if (is_elsewhere(fix, world_m, arrival_s)) {
+    if (has_jumped(fix, world_m, arrival_s)) {
         track_.clear();
     }
     if (is_repeated(fix, world_m, arrival_s)) {
@@ -264,7 +264,7 @@ bool LiveVehicle::add(const Fix& fix, const glm::dvec3& world_m, double arrival_
         return true;
     }
     const double before_s = clock_.sender_s();
-    const SenderClock::Order order = clock_.take(arrival_s, clue_of(fix, world_m));
+    const SenderClock::Order order = clock_.take(arrival_s, timing_evidence_of(fix, world_m));
     last_arrival_s_ = arrival_s;
     if (order == SenderClock::Order::Late) {
         ++late_;

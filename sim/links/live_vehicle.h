@@ -15,7 +15,7 @@ namespace octant::sim::links {
 /// Who sends a vehicle's motion, and which of his vehicles it is.
 struct VehicleKey {
     Protocol protocol = Protocol::Fdm;
-    Source source;
+    PacketSource source;
     std::uint64_t vehicle = 0;
 
     auto operator<=>(const VehicleKey&) const = default;
@@ -59,10 +59,10 @@ public:
 
 private:
     bool is_repeated(const Fix& fix, const glm::dvec3& world_m, double arrival_s);
-    bool stands() const;
-    bool is_elsewhere(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const;
-    TimeClue clue_of(const Fix& fix, const glm::dvec3& world_m);
-    std::optional<double> way_of(const glm::dvec3& way_m) const;
+    bool is_stationary() const;
+    bool has_jumped(const Fix& fix, const glm::dvec3& world_m, double arrival_s) const;
+    TimingEvidence timing_evidence_of(const Fix& fix, const glm::dvec3& world_m);
+    std::optional<double> distance_along_track(const glm::dvec3& distance_m) const;
     void set_motion(const Fix& fix, LiveSample& sample, double step_s);
     bool trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s);
     glm::dvec3 turn_of(const Fix& fix, const LiveSample& sample) const;
@@ -75,7 +75,7 @@ private:
     double last_arrival_s_ = 0.0;
     double velocity_error_ = 0.0; ///< share by which velocities contradict positions, filtered
     int repeats_ = 0;             ///< fixes in a row that say the same place
-    int usual_repeats_ = 0;       ///< of a sender whose places change less often than it sends
+    int typical_repeats_ = 0;       ///< of a sender whose places change less often than it sends
     double moved_at_s_ = 0.0;     ///< arrival of the last fix that said another place
     bool hidden_ = false;
     long late_ = 0;

@@ -84,7 +84,7 @@ double boot_s(const WireReader& reader) {
 /// Autopilots that do not know yet where they are say 0 N, 0 E.
 std::optional<Fix> plausible(const Fix& fix) {
     const bool is_somewhere = fix.latitude_deg != 0.0 || fix.longitude_deg != 0.0;
-    return is_somewhere && fault_of(fix) == Fault::None ? std::optional(fix) : std::nullopt;
+    return is_somewhere && error_of_fix(fix) == PacketError::None ? std::optional(fix) : std::nullopt;
 }
 
 } // namespace
@@ -96,7 +96,7 @@ MavLinkParse parse_mavlink(Bytes bytes) {
             return byte == magic_1 || byte == magic_2;
         });
         const auto skipped = static_cast<std::size_t>(next - bytes.begin());
-        return {{Fault::NotOurs, size, size}, std::max<std::size_t>(skipped, 1), {}};
+        return {{PacketError::NotOurs, size, size}, std::max<std::size_t>(skipped, 1), {}};
     }
     const WireReader reader(bytes, ByteOrder::Little);
     const bool is_2 = bytes.front() == magic_2;
@@ -105,14 +105,14 @@ MavLinkParse parse_mavlink(Bytes bytes) {
     const bool is_signed = is_2 && (reader.at<std::uint8_t>(2) & 1U) != 0;
     const std::size_t length = header + payload + sum_bytes + (is_signed ? signature_bytes : 0);
     if (bytes.size() < length) {
-        return {{Fault::WrongSize, size, size}, std::max<std::size_t>(bytes.size(), 1), {}};
+        return {{PacketError::WrongSize, size, size}, std::max<std::size_t>(bytes.size(), 1), {}};
     }
     const std::uint32_t number =
         is_2 ? reader.at<std::uint16_t>(7) | static_cast<std::uint32_t>(reader.at<std::uint8_t>(9))
                                                  << 16U
              : reader.at<std::uint8_t>(5);
     MavLinkParse parse{
-        .verdict = {Fault::Unused, number, size},
+        .verdict = {PacketError::Unused, number, size},
         .length = length,
         .frame = {},
         .system = reader.at<std::uint8_t>(is_2 ? 5 : 3),
@@ -125,9 +125,9 @@ MavLinkParse parse_mavlink(Bytes bytes) {
     const Bytes summed_bytes = bytes.subspan(1, header - 1 + payload);
     const auto sum = reader.at<std::uint16_t>(header + payload);
     if (payload > message->length || sum != sum_of(summed_bytes, message->extra)) {
-        return {{Fault::WrongVersion, number, size}, length, {}};
+        return {{PacketError::WrongVersion, number, size}, length, {}};
     }
-    parse.verdict.fault = Fault::None;
+    parse.verdict.fault = PacketError::None;
     const Bytes held = bytes.subspan(header, payload);
     parse.frame = MavLinkFrame{message->kind, parse.system, {held.begin(), held.end()}};
     parse.frame->payload.resize(message->length);
@@ -212,7 +212,7 @@ MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid
     }
     Fix fix = *position_;
     const glm::dvec3 moved_m = carried_s * *fix.velocity_ned_mps;
-    const Geodetic moved = moved_by(
+    const Geodetic moved = offset_by(
         {rad_from_deg(fix.latitude_deg), rad_from_deg(fix.longitude_deg), fix.altitude_m},
         moved_m,
         ellipsoid);
@@ -227,15 +227,15 @@ MavLinkPose::take_attitude(const MavLinkFrame& frame, const Ellipsoid& ellipsoid
     return plausible(fix);
 }
 
-std::string mavlink_text(const Verdict& verdict) {
+std::string mavlink_text(const DecodeResult& verdict) {
     switch (verdict.fault) {
-    case Fault::None:
+    case PacketError::None:
         return fmt::format("MAVLink message {}: fine", verdict.got);
-    case Fault::Unused:
+    case PacketError::Unused:
         return fmt::format("MAVLink message {}: passed over", verdict.got);
-    case Fault::WrongVersion:
+    case PacketError::WrongVersion:
         return fmt::format("MAVLink message {}: its check sum is wrong", verdict.got);
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         return "expected a whole MAVLink frame, got a piece of one";
     default:
         return fmt::format("expected MAVLink 1 or 2, got {} bytes of something else", verdict.size);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/links/fix.h"
 #include "sim/links/wire_bytes.h"
 
@@ -34,7 +34,7 @@ struct MavLinkFrame {
 /// the length is that of what is to be skipped, at least 1. Frames of other kinds are Unused with
 /// their number as Verdict::got; their check sums cannot be told.
 struct MavLinkParse {
-    Verdict verdict;
+    DecodeResult verdict;
     std::size_t length = 0;
     std::optional<MavLinkFrame> frame;
     /// Of frames whose verdict is None or Unused.
@@ -64,6 +64,6 @@ private:
     std::optional<double> attitude_s_;
 };
 
-std::string mavlink_text(const Verdict& verdict);
+std::string mavlink_text(const DecodeResult& verdict);
 
 } // namespace octant::sim::links

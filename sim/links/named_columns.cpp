@@ -46,7 +46,7 @@ constexpr std::array<std::string_view, 14> names{
 
 } // namespace
 
-Verdict NamedColumns::take_names(std::string_view line) {
+DecodeResult NamedColumns::take_names(std::string_view line) {
     const auto size = static_cast<std::uint32_t>(line.size());
     separator_ = line.find('\t') == std::string_view::npos ? ',' : '\t';
     const std::vector<std::string_view> fields = split_fields(line, separator_);
@@ -60,7 +60,7 @@ Verdict NamedColumns::take_names(std::string_view line) {
     count_ = fields.size();
     const bool placed = (has(Latitude) && has(Longitude)) || (has(North) && has(East));
     named_ = placed && has(Altitude);
-    return {named_ ? Fault::Unused : Fault::NotOurs, static_cast<std::uint32_t>(count_), size};
+    return {named_ ? PacketError::Unused : PacketError::NotOurs, static_cast<std::uint32_t>(count_), size};
 }
 
 Fix NamedColumns::fix_of(const std::array<double, quantities>& values) const {
@@ -88,10 +88,10 @@ Fix NamedColumns::fix_of(const std::array<double, quantities>& values) const {
     return fix;
 }
 
-Verdict NamedColumns::take(Bytes line, Fix& fix) {
+DecodeResult NamedColumns::take(Bytes line, Fix& fix) {
     const auto size = static_cast<std::uint32_t>(line.size());
     if (line.size() > longest_line) {
-        return {Fault::WrongSize, size, size};
+        return {PacketError::WrongSize, size, size};
     }
     const std::string text(reinterpret_cast<const char*>(line.data()), line.size()); // NOLINT
     const auto fields = split_fields(text, separator_);
@@ -99,7 +99,7 @@ Verdict NamedColumns::take(Bytes line, Fix& fix) {
         return take_names(text);
     }
     if (fields.size() != count_) {
-        return {Fault::WrongVersion, static_cast<std::uint32_t>(fields.size()), size};
+        return {PacketError::WrongVersion, static_cast<std::uint32_t>(fields.size()), size};
     }
     std::array<double, quantities> values{};
     for (std::size_t quantity = 0; quantity < names.size(); ++quantity) {
@@ -108,29 +108,29 @@ Verdict NamedColumns::take(Bytes line, Fix& fix) {
         }
         const auto value = finite_number(fields[static_cast<std::size_t>(fields_[quantity])]);
         if (!value) {
-            return {Fault::NotFinite, static_cast<std::uint32_t>(fields_[quantity] + 1), size};
+            return {PacketError::NotFinite, static_cast<std::uint32_t>(fields_[quantity] + 1), size};
         }
         values[quantity] = *value;
     }
     fix = fix_of(values);
-    return {fault_of(fix), 0, size};
+    return {error_of_fix(fix), 0, size};
 }
 
-std::string NamedColumns::text_of(const Verdict& verdict) {
+std::string NamedColumns::text_of(const DecodeResult& verdict) {
     switch (verdict.fault) {
-    case Fault::None:
+    case PacketError::None:
         return "lines of named columns: fine";
-    case Fault::Unused:
+    case PacketError::Unused:
         return fmt::format("{} named columns", verdict.got);
-    case Fault::NotOurs:
+    case PacketError::NotOurs:
         return "expected a line of names with alt_m and lat_deg,lon_deg or north_m,east_m, got "
                "another line";
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         return fmt::format("expected a line of at most {} bytes, got more", longest_line);
-    case Fault::WrongVersion:
+    case PacketError::WrongVersion:
         return fmt::format(
             "expected as many fields as there are names, got {} fields", verdict.got);
-    case Fault::NotFinite:
+    case PacketError::NotFinite:
         return fmt::format("expected a number in field {}, got none", verdict.got);
     default:
         return "expected an aircraft near the earth, got none";

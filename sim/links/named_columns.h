@@ -23,15 +23,15 @@ public:
 
     /// Takes a line. A line that holds no number in its first field is one of names; the first line
     /// must be one. `fix` is set where the verdict is without fault; lines of names are Unused.
-    Verdict take(Bytes line, Fix& fix);
+    DecodeResult take(Bytes line, Fix& fix);
 
     /// What a person should be told of a line.
-    static std::string text_of(const Verdict& verdict);
+    static std::string text_of(const DecodeResult& verdict);
 
 private:
     static constexpr std::size_t quantities = 15;
 
-    Verdict take_names(std::string_view line);
+    DecodeResult take_names(std::string_view line);
     Fix fix_of(const std::array<double, quantities>& values) const;
 
     bool has(std::size_t quantity) const { return fields_[quantity] >= 0; }

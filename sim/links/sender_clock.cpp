@@ -39,29 +39,29 @@ void SequenceCount::add(std::uint32_t number, int bits, double arrival_s) {
     const int unused_bits = 32 - bits;
     const std::int32_t step =
         static_cast<std::int32_t>((number - newest_) << unused_bits) >> unused_bits;
-    const bool goes_on = begun_ && arrival_s - last_s_ <= max_silence_s;
+    const bool goes_on = has_begun_ && arrival_s - last_s_ <= max_silence_s;
     last_s_ = arrival_s;
     if (!goes_on || step > max_step || step <= -remembered) {
-        begun_ = true;
+        has_begun_ = true;
         newest_ = number;
-        came_ = ~std::uint64_t{0};
+        received_mask_ = ~std::uint64_t{0};
         return;
     }
     if (step > 0) {
         lost_ += step - 1;
         newest_ = number;
-        came_ = came_ << step | 1U;
+        received_mask_ = received_mask_ << step | 1U;
         ++taken_;
         return;
     }
     const std::uint64_t place = std::uint64_t{1} << -step;
-    const bool is_late = (came_ & place) == 0;
+    const bool is_late = (received_mask_ & place) == 0;
     lost_ -= is_late ? 1 : 0;
     taken_ += is_late ? 1 : 0;
-    came_ |= place;
+    received_mask_ |= place;
 }
 
-void WayFit::add(double arrival_s, double way_m) {
+void DistanceFit::add(double arrival_s, double distance_m) {
     constexpr double length_s = 3.0;
     constexpr std::size_t max_points = 128;
     constexpr double min_apart_s = length_s / max_points;
@@ -69,14 +69,14 @@ void WayFit::add(double arrival_s, double way_m) {
     if (count > 1 && points_.back().arrival_s - points_[count - 2].arrival_s < min_apart_s) {
         points_.pop_back();
     }
-    points_.push_back({arrival_s, way_m});
+    points_.push_back({arrival_s, distance_m});
     const auto old = std::ranges::find_if(
         points_, [&](const Point& point) { return point.arrival_s >= arrival_s - length_s; });
     points_.erase(points_.begin(), old);
     fit();
 }
 
-void WayFit::fit() {
+void DistanceFit::fit() {
     constexpr std::size_t min_points = 5;
     constexpr double min_length_s = 0.4;
     constexpr std::size_t min_curved_points = 10;
@@ -95,24 +95,24 @@ void WayFit::fit() {
 }
 
 /// Returns false where the points do not determine a line or parabola.
-bool WayFit::solve(bool curved) {
+bool DistanceFit::solve(bool curved) {
     ParabolaFit<double> sums;
     const Point& last = points_.back();
     for (const Point& point : points_) {
-        sums.add(point.arrival_s - last.arrival_s, point.way_m - last.way_m, point.weight);
+        sums.add(point.arrival_s - last.arrival_s, point.distance_m - last.distance_m, point.weight);
     }
     const auto solved = curved ? sums.parabola() : sums.line();
     fitted_ = solved.value_or(Parabola<double>{});
-    fitted_.value += last.way_m;
+    fitted_.value += last.distance_m;
     return solved.has_value();
 }
 
 /// Packets far off the fit count less, by Cauchy's weight.
-void WayFit::weigh() {
+void DistanceFit::weigh() {
     constexpr double min_scale_s = 0.002;
     double sum_s = 0.0;
     for (Point& point : points_) {
-        point.weight = std::abs(point.arrival_s - time_s(point.way_m));
+        point.weight = std::abs(point.arrival_s - time_s(point.distance_m));
         sum_s += point.weight;
     }
     const double scale_s = 2.0 * std::max(sum_s / static_cast<double>(points_.size()), min_scale_s);
@@ -122,16 +122,16 @@ void WayFit::weigh() {
     }
 }
 
-double WayFit::time_s(double way_m) const {
+double DistanceFit::time_s(double distance_m) const {
     assert(ready_);
     // The root of the parabola that is near the last arrival.
-    const double left_m = way_m - fitted_.value;
+    const double left_m = distance_m - fitted_.value;
     const double square = fitted_.slope * fitted_.slope + 4.0 * fitted_.bend * left_m;
     const double root = std::sqrt(std::max(square, 0.25 * fitted_.slope * fitted_.slope));
     return points_.back().arrival_s + 2.0 * left_m / (fitted_.slope + root);
 }
 
-void PaceCheck::add(double arrived_s, double passed_s) {
+void ClockRateCheck::add(double arrived_s, double passed_s) {
     arrived_s_ += arrived_s;
     passed_s_ += passed_s;
     constexpr double first_s = 1.0;
@@ -144,14 +144,14 @@ void PaceCheck::add(double arrived_s, double passed_s) {
     }
 }
 
-void SenderClock::begin(double arrival_s, const TimeClue& clue) {
-    const double before_s = begun_ ? sender_s_ : 0.0;
-    const int restarts = begun_ ? restarts_in_a_row_ + 1 : 0;
-    const bool useless = sent_is_useless_ || restarts >= restarts_before_distrust;
+void SenderClock::begin(double arrival_s, const TimingEvidence& clue) {
+    const double before_s = has_begun_ ? sender_s_ : 0.0;
+    const int restarts = has_begun_ ? consecutive_restarts_ + 1 : 0;
+    const bool useless = ignores_sent_time_ || restarts >= restarts_before_distrust;
     *this = {};
-    begun_ = true;
-    restarts_in_a_row_ = restarts;
-    sent_is_useless_ = useless;
+    has_begun_ = true;
+    consecutive_restarts_ = restarts;
+    ignores_sent_time_ = useless;
     // Goes on so that what is shown never meets older times again.
     sender_s_ = before_s + (before_s > 0.0 ? restart_s : 0.0);
     last_arrival_s_ = arrival_s;
@@ -170,14 +170,14 @@ void SenderClock::begin_offset(double arrival_s) {
 
 /// Time by a clock whose unit nobody told, once it is known: the power of ten that fits the
 /// arrivals of a second.
-std::optional<double> SenderClock::by_ticks(double arrival_s, const TimeClue& clue) {
+std::optional<double> SenderClock::step_by_ticks(double arrival_s, const TimingEvidence& clue) {
     const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
-    if (ticks_pace_.is_wrong()) {
-        seconds_a_tick_ = 0.0;
-        ticks_pace_ = {};
+    if (ticks_rate_check_.is_wrong()) {
+        seconds_per_tick_ = 0.0;
+        ticks_rate_check_ = {};
     }
-    if (seconds_a_tick_ > 0.0) {
-        return change * seconds_a_tick_;
+    if (seconds_per_tick_ > 0.0) {
+        return change * seconds_per_tick_;
     }
     ++ticks_seen_;
     ticks_changed_ += change != 0 ? 1 : 0;
@@ -193,75 +193,75 @@ std::optional<double> SenderClock::by_ticks(double arrival_s, const TimeClue& cl
                                   ? clue.tick_s
                                   : std::pow(10.0, std::round(std::log10(since_s / ticks_passed_)));
         const double error = std::abs(unit_s * ticks_passed_ / since_s - 1.0);
-        seconds_a_tick_ = fine && error < max_pace_error ? unit_s : 0.0;
+        seconds_per_tick_ = fine && error < max_pace_error ? unit_s : 0.0;
     }
     ticks_since_s_ = arrival_s;
     ticks_passed_ = 0.0;
     ticks_changed_ = 0;
     ticks_seen_ = 0;
-    return seconds_a_tick_ > 0.0 ? std::optional(change * seconds_a_tick_) : std::nullopt;
+    return seconds_per_tick_ > 0.0 ? std::optional(change * seconds_per_tick_) : std::nullopt;
 }
 
 /// By the speed that the way has itself. The time that the fit gives is followed as far as speed
 /// then stays within half and double.
-SenderClock::Step SenderClock::by_way(double arrival_s, double way_m) {
-    if (way_m <= 0.0) {
-        const double back_s = way_fit_.is_ready() ? way_m / way_fit_.speed_mps() : -min_step_s;
-        return {Source::Way, way_m < 0.0 ? std::max(back_s, -0.5 * restart_s) : 0.0};
+SenderClock::Step SenderClock::step_by_distance(double arrival_s, double distance_m) {
+    if (distance_m <= 0.0) {
+        const double back_s = distance_fit_.is_ready() ? distance_m / distance_fit_.speed_mps() : -min_step_s;
+        return {TimeSource::Way, distance_m < 0.0 ? std::max(back_s, -0.5 * restart_s) : 0.0};
     }
-    const bool was_ready = way_fit_.is_ready();
-    const double before_s = was_ready ? way_fit_.time_s(way_m_) : 0.0;
-    way_m_ += way_m;
-    way_fit_.add(arrival_s, way_m_);
-    if (!was_ready || !way_fit_.is_ready()) {
-        way_shift_s_.reset();
-        return by_arrivals(arrival_s);
+    const bool was_ready = distance_fit_.is_ready();
+    const double before_s = was_ready ? distance_fit_.time_s(distance_m_) : 0.0;
+    distance_m_ += distance_m;
+    distance_fit_.add(arrival_s, distance_m_);
+    if (!was_ready || !distance_fit_.is_ready()) {
+        distance_shift_s_.reset();
+        return step_by_arrivals(arrival_s);
     }
     arrival_shift_s_.reset();
-    way_shift_s_ = way_shift_s_.value_or(sender_s_ - before_s);
-    const double even_s = way_m / way_fit_.speed_mps();
-    const double fitted_s = way_fit_.time_s(way_m_) + *way_shift_s_ - sender_s_;
-    return {Source::Way, std::clamp(fitted_s, 0.5 * even_s, 2.0 * even_s), even_s};
+    distance_shift_s_ = distance_shift_s_.value_or(sender_s_ - before_s);
+    const double even_s = distance_m / distance_fit_.speed_mps();
+    const double fitted_s = distance_fit_.time_s(distance_m_) + *distance_shift_s_ - sender_s_;
+    return {TimeSource::Way, std::clamp(fitted_s, 0.5 * even_s, 2.0 * even_s), even_s};
 }
 
 /// By arrivals, made even over about ten packets.
-SenderClock::Step SenderClock::by_arrivals(double arrival_s) {
+SenderClock::Step SenderClock::step_by_arrivals(double arrival_s) {
     const double between_s = std::max(arrival_s - last_arrival_s_, min_step_s);
     const double period_s = spacing_.period_s();
     constexpr double many = 3.0;
     if (!spacing_.is_settled() || between_s > std::max(max_gap_s, many * period_s)) {
         arrival_shift_s_ = sender_s_ + between_s - arrival_s;
-        return {Source::Arrivals, between_s, between_s};
+        return {TimeSource::Arrivals, between_s, between_s};
     }
     constexpr double share = 0.1;
     arrival_shift_s_ = arrival_shift_s_.value_or(sender_s_ - last_arrival_s_);
     const double behind_s = arrival_s + *arrival_shift_s_ - sender_s_ - period_s;
     const double step_s = std::max(period_s + share * behind_s, share * period_s);
-    return {Source::Arrivals, std::max(step_s, min_step_s), between_s};
+    return {TimeSource::Arrivals, std::max(step_s, min_step_s), between_s};
 }
 
 /// Time that passed at the sender since the last packet, by the best clue.
-SenderClock::Step SenderClock::step_of(double arrival_s, const TimeClue& clue) {
-    const std::optional<double> ticked = clue.ticks ? by_ticks(arrival_s, clue) : std::nullopt;
-    const auto told = [](Source source, double passed_s) {
+SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& clue) {
+    const std::optional<double> ticked = clue.ticks ? step_by_ticks(arrival_s, clue) : std::nullopt;
+    const auto told = [](TimeSource source, double passed_s) {
         const double step_s = std::abs(passed_s) < min_step_s ? 0.0 : passed_s;
         return Step{source, step_s, step_s};
     };
-    const bool by_speed = clue.moved_s && !told_speed_pace_.is_wrong();
-    const bool sent = clue.sent_s && !sent_is_useless_ && !sent_pace_.is_wrong();
-    if (!sent && !ticked && !by_speed && clue.way_m) {
-        return by_way(arrival_s, *clue.way_m);
+    const bool by_speed = clue.moved_s && !sent_speed_rate_check_.is_wrong();
+    const bool sent = clue.sent_s && !ignores_sent_time_ && !sent_rate_check_.is_wrong();
+    if (!sent && !ticked && !by_speed && clue.distance_m) {
+        return step_by_distance(arrival_s, *clue.distance_m);
     }
-    way_fit_ = {};
-    way_m_ = 0.0;
-    way_shift_s_.reset();
+    distance_fit_ = {};
+    distance_m_ = 0.0;
+    distance_shift_s_.reset();
     if (!sent && !ticked && !by_speed) {
-        return by_arrivals(arrival_s);
+        return step_by_arrivals(arrival_s);
     }
     arrival_shift_s_.reset();
-    return sent     ? told(Source::SentTime, *clue.sent_s - last_sent_s_)
-           : ticked ? told(Source::Ticks, *ticked)
-                    : told(Source::ToldSpeed, *clue.moved_s);
+    return sent     ? told(TimeSource::SentTime, *clue.sent_s - last_sent_s_)
+           : ticked ? told(TimeSource::Ticks, *ticked)
+                    : told(TimeSource::ReportedSpeed, *clue.moved_s);
 }
 
 /// Follows the least delay of the last seconds: downwards quickly, upwards slowly.
@@ -289,21 +289,21 @@ void SenderClock::follow(double arrival_s) {
 }
 
 /// Where a clock turns out to be wrong, what was made of it goes.
-void SenderClock::check_pace(double arrival_s, const TimeClue& clue) {
+void SenderClock::check_clock_rate(double arrival_s, const TimingEvidence& clue) {
     const double between_s = arrival_s - last_arrival_s_;
     const auto wrong = [this] {
-        return sent_pace_.is_wrong() || ticks_pace_.is_wrong() || told_speed_pace_.is_wrong();
+        return sent_rate_check_.is_wrong() || ticks_rate_check_.is_wrong() || sent_speed_rate_check_.is_wrong();
     };
     const bool was_wrong = wrong();
     if (clue.sent_s) {
-        sent_pace_.add(between_s, *clue.sent_s - last_sent_s_);
+        sent_rate_check_.add(between_s, *clue.sent_s - last_sent_s_);
     }
-    if (clue.ticks && seconds_a_tick_ > 0.0) {
+    if (clue.ticks && seconds_per_tick_ > 0.0) {
         const auto change = static_cast<std::int32_t>(*clue.ticks - last_ticks_);
-        ticks_pace_.add(between_s, change * seconds_a_tick_);
+        ticks_rate_check_.add(between_s, change * seconds_per_tick_);
     }
     if (clue.moved_s) {
-        told_speed_pace_.add(between_s, *clue.moved_s);
+        sent_speed_rate_check_.add(between_s, *clue.moved_s);
     }
     if (wrong() && !was_wrong) {
         begin_offset(arrival_s);
@@ -316,16 +316,16 @@ bool SenderClock::is_late(const Step& step) {
     if (step.passed_s > 0.0 || step.passed_s <= -restart_s) {
         return false;
     }
-    const bool too_many = ++late_in_a_row_ >= late_before_restart;
+    const bool too_many = ++consecutive_late_ >= late_before_restart;
     const bool stands = step.passed_s == 0.0 && too_many;
-    sent_is_useless_ = sent_is_useless_ || (stands && step.source == Source::SentTime);
-    seconds_a_tick_ = stands && step.source == Source::Ticks ? 0.0 : seconds_a_tick_;
-    const bool has_clock = step.source == Source::SentTime || step.source == Source::Ticks;
+    ignores_sent_time_ = ignores_sent_time_ || (stands && step.source == TimeSource::SentTime);
+    seconds_per_tick_ = stands && step.source == TimeSource::Ticks ? 0.0 : seconds_per_tick_;
+    const bool has_clock = step.source == TimeSource::SentTime || step.source == TimeSource::Ticks;
     return !too_many || (stands && has_clock);
 }
 
-SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
-    if (!begun_) {
+SenderClock::Order SenderClock::take(double arrival_s, const TimingEvidence& clue) {
+    if (!has_begun_) {
         begin(arrival_s, clue);
         return Order::Restarts;
     }
@@ -339,11 +339,11 @@ SenderClock::Order SenderClock::take(double arrival_s, const TimeClue& clue) {
         begin(arrival_s, clue);
         return Order::Restarts;
     }
-    late_in_a_row_ = 0;
-    restarts_in_a_row_ = 0;
+    consecutive_late_ = 0;
+    consecutive_restarts_ = 0;
     spacing_.add(step.distance_s);
     sender_s_ += step.passed_s;
-    check_pace(arrival_s, clue);
+    check_clock_rate(arrival_s, clue);
     follow(arrival_s);
     last_arrival_s_ = arrival_s;
     last_sent_s_ = clue.sent_s.value_or(last_sent_s_);

@@ -12,14 +12,14 @@ namespace octant::sim::links {
 
 /// What a packet tells of the time that has passed at its sender since the last packet that was
 /// Next or Restarts.
-struct TimeClue {
+struct TimingEvidence {
     std::optional<double> sent_s;       ///< the sender's clock
     std::optional<std::uint32_t> ticks; ///< a clock that wraps around
     double tick_s = 0.0;                ///< its unit; 0 = to be found out
     /// How long the way from the last place takes at the speed that the packet says.
     std::optional<double> moved_s;
     /// The way from the last place in metres, negative where it runs back.
-    std::optional<double> way_m;
+    std::optional<double> distance_m;
 };
 
 /// The mean distance of the newest packets in the sender's time.
@@ -58,10 +58,10 @@ public:
 
 private:
     std::uint32_t newest_ = 0;
-    std::uint64_t came_ =
+    std::uint64_t received_mask_ =
         0; ///< bit i: the number newest_ - i came, or is from before the beginning
     double last_s_ = 0.0;
-    bool begun_ = false;
+    bool has_begun_ = false;
     long taken_ = 0;
     long lost_ = 0;
 };
@@ -69,16 +69,16 @@ private:
 /// When a vehicle was at a place of its way, from the way that it covered by each arrival: a
 /// parabola through the last three seconds, in which packets that are late count little. It holds
 /// where packets come in bursts, and where the sender's rate is uneven.
-class WayFit {
+class DistanceFit {
 public:
     /// Takes the whole way up to a packet, in metres, and its arrival; arrivals do not go back.
-    void add(double arrival_s, double way_m);
+    void add(double arrival_s, double distance_m);
 
     /// Whether there is enough to go by, and the vehicle is fast enough.
     bool is_ready() const { return ready_; }
 
     /// The time of a place near the last one, by the receiver's clock. is_ready() (asserted).
-    double time_s(double way_m) const;
+    double time_s(double distance_m) const;
 
     /// The speed at the last packet. is_ready() (asserted).
     double speed_mps() const { return fitted_.slope; }
@@ -86,7 +86,7 @@ public:
 private:
     struct Point {
         double arrival_s = 0.0;
-        double way_m = 0.0;
+        double distance_m = 0.0;
         double weight = 1.0;
     };
 
@@ -100,7 +100,7 @@ private:
 };
 
 /// Whether a clock keeps pace with arrivals: judged after one second, then every three.
-class PaceCheck {
+class ClockRateCheck {
 public:
     /// Takes what passed between two packets by arrivals and by the clock.
     void add(double arrived_s, double passed_s);
@@ -131,7 +131,7 @@ public:
     };
 
     /// Takes the next packet by its arrival, seconds on our clock, which do not go back.
-    Order take(double arrival_s, const TimeClue& clue);
+    Order take(double arrival_s, const TimingEvidence& clue);
 
     /// The sender's time of the last packet that was Next or Restarts, in seconds from the first.
     double sender_s() const { return sender_s_; }
@@ -149,50 +149,50 @@ private:
     static constexpr std::size_t buckets = 12;
 
     /// By what the time between two packets is known.
-    enum class Source { SentTime, Ticks, ToldSpeed, Way, Arrivals };
+    enum class TimeSource { SentTime, Ticks, ReportedSpeed, Way, Arrivals };
 
     /// The time since the last packet.
     struct Step {
-        Source source = Source::Arrivals;
+        TimeSource source = TimeSource::Arrivals;
         double passed_s = 0.0;
         double distance_s = 0.0; ///< the same without what delays have done to it
     };
 
-    Step step_of(double arrival_s, const TimeClue& clue);
-    std::optional<double> by_ticks(double arrival_s, const TimeClue& clue);
-    Step by_way(double arrival_s, double way_m);
-    Step by_arrivals(double arrival_s);
+    Step step_of(double arrival_s, const TimingEvidence& clue);
+    std::optional<double> step_by_ticks(double arrival_s, const TimingEvidence& clue);
+    Step step_by_distance(double arrival_s, double distance_m);
+    Step step_by_arrivals(double arrival_s);
     bool is_late(const Step& step);
-    void check_pace(double arrival_s, const TimeClue& clue);
+    void check_clock_rate(double arrival_s, const TimingEvidence& clue);
     void follow(double arrival_s);
     void begin_offset(double arrival_s);
-    void begin(double arrival_s, const TimeClue& clue);
+    void begin(double arrival_s, const TimingEvidence& clue);
 
-    bool begun_ = false;
+    bool has_begun_ = false;
     double sender_s_ = 0.0;
     double last_arrival_s_ = 0.0;
     double last_sent_s_ = 0.0;
-    PaceCheck sent_pace_;
+    ClockRateCheck sent_rate_check_;
     /// The sender's clock stands, or makes it begin anew with each packet.
-    bool sent_is_useless_ = false;
+    bool ignores_sent_time_ = false;
     std::uint32_t last_ticks_ = 0;
     // What the last second says of the unit of the ticks.
     double ticks_since_s_ = 0.0;
     double ticks_passed_ = 0.0;
     long ticks_changed_ = 0;
     long ticks_seen_ = 0;
-    double seconds_a_tick_ = 0.0; ///< 0 = not known
-    PaceCheck ticks_pace_;
-    PaceCheck told_speed_pace_;
-    WayFit way_fit_;
-    double way_m_ = 0.0;
+    double seconds_per_tick_ = 0.0; ///< 0 = not known
+    ClockRateCheck ticks_rate_check_;
+    ClockRateCheck sent_speed_rate_check_;
+    DistanceFit distance_fit_;
+    double distance_m_ = 0.0;
     /// The sender's time less that of the fit; nothing where the fit does not count.
-    std::optional<double> way_shift_s_;
+    std::optional<double> distance_shift_s_;
     /// The sender's time less arrivals; nothing where those do not count.
     std::optional<double> arrival_shift_s_;
     PacketSpacing spacing_;
-    int late_in_a_row_ = 0;
-    int restarts_in_a_row_ = 0;
+    int consecutive_late_ = 0;
+    int consecutive_restarts_ = 0;
     // By how much sender and receiver differ, from the least delays of late.
     std::array<double, buckets> min_s_{};
     std::size_t bucket_ = 0;

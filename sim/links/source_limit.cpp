@@ -5,7 +5,7 @@
 
 namespace octant::sim::links {
 
-bool SourceLimit::admits(const Source& source, double arrival_s) {
+bool SourceLimit::admits(const PacketSource& source, double arrival_s) {
     const std::uint64_t key = static_cast<std::uint64_t>(source.address) << 16U | source.port;
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U; // the golden ratio's bits: spreads keys
     constexpr unsigned to_index = 54;                  // the ten highest bits

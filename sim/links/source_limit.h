@@ -17,7 +17,7 @@ public:
     SourceLimit() { buckets_.fill({burst, 0.0}); }
 
     /// Whether a packet that came at this time is let through.
-    bool admits(const Source& source, double arrival_s);
+    bool admits(const PacketSource& source, double arrival_s);
 
 private:
     struct Bucket {

@@ -75,7 +75,7 @@ void TacviewServer::take_clients() {
 }
 
 /// Returns false for a client that is to be let go.
-bool TacviewServer::shake_hands(Client& client) const {
+bool TacviewServer::do_handshake(Client& client) const {
     std::array<char, 1024> bytes{};
     ssize_t count = 0;
     while ((count = ::recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0) {
@@ -94,7 +94,7 @@ bool TacviewServer::shake_hands(Client& client) const {
         return true;
     }
     if (client.heard.find('\0') == std::string::npos) {
-        return std::chrono::steady_clock::now() - client.since < longest_handshake;
+        return std::chrono::steady_clock::now() - client.since < handshake_timeout;
     }
     if (!client.heard.starts_with("XtraLib.Stream.0\n") || readers() == max_readers) {
         return false;
@@ -126,7 +126,7 @@ void TacviewServer::send(std::string_view text) {
     for (std::size_t i = 0; i < clients_.size();) {
         Client& client = clients_[i];
         const bool was_ready = client.ready;
-        bool stays = shake_hands(client);
+        bool stays = do_handshake(client);
         if (stays && was_ready) {
             client.waiting += text;
         }

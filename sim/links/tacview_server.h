@@ -22,7 +22,7 @@ public:
     /// Clients that have not shaken hands yet; the oldest makes room for another one.
     static constexpr std::size_t max_handshakes = 64;
     static constexpr std::size_t max_waiting_bytes = std::size_t{1} << 20;
-    static constexpr std::chrono::seconds longest_handshake{5};
+    static constexpr std::chrono::seconds handshake_timeout{5};
 
     /// Throws Error where the port is taken; 0 = any free one.
     TacviewServer(std::uint32_t address, std::uint16_t port, std::string name);
@@ -53,7 +53,7 @@ private:
     };
 
     void take_clients();
-    bool shake_hands(Client& client) const;
+    bool do_handshake(Client& client) const;
     static bool flush(Client& client);
 
     int socket_ = -1;

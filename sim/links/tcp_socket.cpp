@@ -39,7 +39,7 @@ std::pair<int, std::uint16_t> listening_socket(std::uint32_t address, std::uint1
     return {listening, ntohs(own.sin_port)};
 }
 
-std::optional<std::pair<int, Source>> accepted_client(int listening) {
+std::optional<std::pair<int, PacketSource>> accepted_client(int listening) {
     sockaddr generic{};
     socklen_t length = sizeof(generic);
     const int client = ::accept4(listening, &generic, &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
@@ -48,7 +48,7 @@ std::optional<std::pair<int, Source>> accepted_client(int listening) {
     }
     sockaddr_in from{};
     std::memcpy(&from, &generic, sizeof(from));
-    return std::pair(client, Source{ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)});
+    return std::pair(client, PacketSource{ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)});
 }
 
 } // namespace octant::sim::links

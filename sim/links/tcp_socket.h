@@ -14,6 +14,6 @@ std::pair<int, std::uint16_t> listening_socket(std::uint32_t address, std::uint1
 
 /// The next client that asks, with its socket, which does not wait either; nothing if there is
 /// none.
-std::optional<std::pair<int, Source>> accepted_client(int listening);
+std::optional<std::pair<int, PacketSource>> accepted_client(int listening);
 
 } // namespace octant::sim::links

@@ -94,7 +94,7 @@ std::uint32_t address_from_text(const std::string& option, const std::string& te
     return ntohl(address.s_addr);
 }
 
-Source peer_from_text(const std::string& option, const std::string& text) {
+PacketSource peer_from_text(const std::string& option, const std::string& text) {
     const std::size_t colon = text.rfind(':');
     const auto port = colon == std::string::npos
                           ? std::nullopt
@@ -182,7 +182,7 @@ void UdpPort::drain(Protocol protocol, double now_s, std::vector<Datagram>& into
     }
 }
 
-bool UdpPort::send(const Source& to, std::span<const std::byte> bytes) {
+bool UdpPort::send(const PacketSource& to, std::span<const std::byte> bytes) {
     const sockaddr_in peer = internet_address(to.address, to.port);
     sockaddr generic{};
     std::memcpy(&generic, &peer, sizeof(generic));

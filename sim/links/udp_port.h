@@ -15,7 +15,7 @@ std::uint32_t address_from_text(const std::string& option, const std::string& te
 
 /// "HOST:PORT" of somebody else; HOST is an IPv4 address or a name. Throws Error
 /// "option: ...".
-Source peer_from_text(const std::string& option, const std::string& text);
+PacketSource peer_from_text(const std::string& option, const std::string& text);
 
 /// A UDP socket that never waits.
 class UdpPort {
@@ -41,7 +41,7 @@ public:
     void drain(Protocol protocol, double now_s, std::vector<Datagram>& into);
 
     /// Sends a packet and does not wait; false where it could not be sent.
-    bool send(const Source& to, std::span<const std::byte> bytes);
+    bool send(const PacketSource& to, std::span<const std::byte> bytes);
 
 private:
     struct Batch;

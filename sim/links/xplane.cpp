@@ -116,7 +116,7 @@ bool is_complete(const std::optional<glm::dvec3>& whole) {
 /// Moves a place, degrees and metres, by a small way east, up and south: X-Plane flies over the
 /// earth, whatever is below its place here.
 void move_by(glm::dvec3& place, const glm::dvec3& local_m) {
-    const Geodetic moved = moved_by(
+    const Geodetic moved = offset_by(
         {rad_from_deg(place.x), rad_from_deg(place.y), place.z},
         {-local_m.z, local_m.x, -local_m.y},
         wgs84);
@@ -128,26 +128,26 @@ void move_by(glm::dvec3& place, const glm::dvec3& local_m) {
 void XPlanePose::take_group(std::int32_t group, const WireReader& row) {
     switch (group) {
     case Times:
-        told_.time_s = value_at(row, 2);
+        received_.time_s = value_at(row, 2);
         break;
     case Speeds:
-        told_.ground_speed_mps = mps_from_kt(value_at(row, 3));
+        received_.ground_speed_mps = mps_from_kt(value_at(row, 3));
         break;
     case Angles:
         attitude_deg_ = values_at(row, 0);
         break;
     case Path:
-        told_.path_deg = {value_at(row, 2), value_at(row, 3)};
+        received_.path_deg = {value_at(row, 2), value_at(row, 3)};
         break;
     case Place: {
         const glm::dvec3 place = values_at(row, 0);
-        told_.place = {place.x, place.y, m_from_ft(place.z)};
-        told_.above_ground_m = m_from_ft(value_at(row, 3));
+        received_.place = {place.x, place.y, m_from_ft(place.z)};
+        received_.above_ground_m = m_from_ft(value_at(row, 3));
         break;
     }
     case Local:
-        told_.local_m = values_at(row, 0);
-        told_.local_mps = values_at(row, 3);
+        received_.local_m = values_at(row, 0);
+        received_.local_mps = values_at(row, 3);
         break;
     default:
         break;
@@ -163,32 +163,32 @@ bool XPlanePose::take_answer(std::int32_t number, float value) {
     const auto which = static_cast<std::size_t>(number - first_answer);
     const auto answer = static_cast<double>(value);
     if (which <= Elevation) {
-        part_of(told_.place, which) = answer;
+        part_of(received_.place, which) = answer;
     } else if (which == AboveGround) {
-        told_.above_ground_m = answer;
+        received_.above_ground_m = answer;
     } else if (which <= Heading) {
         attitude_deg_[static_cast<int>(which - Pitch)] = answer;
     } else if (which <= LocalZ) {
-        part_of(told_.local_m, which - LocalX) = answer;
+        part_of(received_.local_m, which - LocalX) = answer;
     } else if (which <= LocalVz) {
-        part_of(told_.local_mps, which - LocalVx) = answer;
+        part_of(received_.local_mps, which - LocalVx) = answer;
     } else if (which <= YawRate) {
-        part_of(told_.body_rates_degps, which - RollRate) = answer;
+        part_of(received_.body_rates_degps, which - RollRate) = answer;
     } else {
-        told_.time_s = answer;
+        received_.time_s = answer;
     }
     return true;
 }
 
-Verdict XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
+DecodeResult XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
     const auto size = static_cast<std::uint32_t>(datagram.size());
     const bool is_data = begins(datagram, "DATA");
     if (!is_data && !begins(datagram, "RREF")) {
-        return {Fault::NotOurs, size, size};
+        return {PacketError::NotOurs, size, size};
     }
     const std::size_t each = is_data ? group_bytes : answer_bytes;
     if (size <= head_bytes || (size - head_bytes) % each != 0) {
-        return {Fault::WrongSize, is_data ? 0U : 1U, size};
+        return {PacketError::WrongSize, is_data ? 0U : 1U, size};
     }
     bool is_asked_for = false;
     for (std::size_t at = head_bytes; at < size; at += each) {
@@ -199,64 +199,64 @@ Verdict XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
             is_asked_for = take_answer(row.at<std::int32_t>(0), row.at<float>(4)) || is_asked_for;
         }
     }
-    Verdict verdict{
-        Fault::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
-    if (!told_.place || (!is_data && !is_complete(told_.place))) {
-        verdict.fault = Fault::Unused; // Answers to RREF may bring the rest of a place later.
+    DecodeResult verdict{
+        PacketError::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
+    if (!received_.place || (!is_data && !is_complete(received_.place))) {
+        verdict.fault = PacketError::Unused; // Answers to RREF may bring the rest of a place later.
         verdict.got = is_asked_for ? part_of_answers : verdict.got;
         return verdict;
     }
     for (std::optional<glm::dvec3>* each_vector :
-         {&told_.local_m, &told_.local_mps, &told_.body_rates_degps}) {
+         {&received_.local_m, &received_.local_mps, &received_.body_rates_degps}) {
         if (!is_complete(*each_vector)) {
             each_vector->reset();
         }
     }
     Fix complete_fix = complete();
-    verdict.fault = fault_of(complete_fix);
-    if (verdict.fault == Fault::None) {
+    verdict.fault = error_of_fix(complete_fix);
+    if (verdict.fault == PacketError::None) {
         Fix smoothed = complete_fix;
         smooth(smoothed);
-        fix = fault_of(smoothed) == Fault::None ? smoothed : complete_fix;
+        fix = error_of_fix(smoothed) == PacketError::None ? smoothed : complete_fix;
     }
-    told_ = {};
+    received_ = {};
     return verdict;
 }
 
 Fix XPlanePose::complete() {
     Fix fix;
-    fix.latitude_deg = told_.place->x;
-    fix.longitude_deg = told_.place->y;
-    fix.altitude_m = told_.place->z;
-    fix.above_ground_m = told_.above_ground_m;
+    fix.latitude_deg = received_.place->x;
+    fix.longitude_deg = received_.place->y;
+    fix.altitude_m = received_.place->z;
+    fix.above_ground_m = received_.above_ground_m;
     fix.attitude = {
         rad_from_deg(attitude_deg_.z),
         rad_from_deg(attitude_deg_.x),
         rad_from_deg(attitude_deg_.y)};
-    if (told_.local_mps) {
-        const glm::dvec3& local = *told_.local_mps;
+    if (received_.local_mps) {
+        const glm::dvec3& local = *received_.local_mps;
         fix.velocity_ned_mps = glm::dvec3(-local.z, local.x, -local.y);
-    } else if (told_.ground_speed_mps && told_.path_deg) {
-        const double track_rad = rad_from_deg(told_.path_deg->x);
+    } else if (received_.ground_speed_mps && received_.path_deg) {
+        const double track_rad = rad_from_deg(received_.path_deg->x);
         const double steepest_deg = 89.0;
         const double up =
-            std::tan(rad_from_deg(std::clamp(told_.path_deg->y, -steepest_deg, steepest_deg)));
+            std::tan(rad_from_deg(std::clamp(received_.path_deg->y, -steepest_deg, steepest_deg)));
         fix.velocity_ned_mps =
-            *told_.ground_speed_mps * glm::dvec3(std::cos(track_rad), std::sin(track_rad), -up);
+            *received_.ground_speed_mps * glm::dvec3(std::cos(track_rad), std::sin(track_rad), -up);
     }
-    if (told_.body_rates_degps) {
-        const glm::dvec3& rates = *told_.body_rates_degps;
+    if (received_.body_rates_degps) {
+        const glm::dvec3& rates = *received_.body_rates_degps;
         fix.body_rates_radps =
             glm::dvec3(rad_from_deg(rates.x), rad_from_deg(rates.y), rad_from_deg(rates.z));
     }
     // A clock that stands still is none: senders that are no X-Plane often leave group 1 as it is.
     // Later it counts in steps of 1 ms and more, as its single precision has it: too coarse.
     constexpr double fine_until_s = 8192.0;
-    if (told_.time_s && last_time_s_ && *told_.time_s > *last_time_s_ &&
-        *told_.time_s < fine_until_s) {
-        fix.sent_s = told_.time_s;
+    if (received_.time_s && last_time_s_ && *received_.time_s > *last_time_s_ &&
+        *received_.time_s < fine_until_s) {
+        fix.sent_s = received_.time_s;
     }
-    last_time_s_ = told_.time_s;
+    last_time_s_ = received_.time_s;
     return fix;
 }
 
@@ -268,9 +268,9 @@ void XPlanePose::smooth(Fix& fix) {
     constexpr double highest_latitude_deg = 89.0;
     const glm::dvec3 told(fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
     glm::dvec3 place = told;
-    if (told_.local_m && last_local_m_ && std::abs(told.x) < highest_latitude_deg) {
+    if (received_.local_m && last_local_m_ && std::abs(told.x) < highest_latitude_deg) {
         place = smooth_;
-        move_by(place, *told_.local_m - *last_local_m_);
+        move_by(place, *received_.local_m - *last_local_m_);
         const glm::dvec3 left = told - place;
         constexpr double m_per_degree = 111195.0;
         const glm::dvec3 left_m(
@@ -278,7 +278,7 @@ void XPlanePose::smooth(Fix& fix) {
         const bool has_jumped = !(glm::length(left_m) < farthest_m);
         place = has_jumped ? told : place + share * left;
     }
-    last_local_m_ = told_.local_m;
+    last_local_m_ = received_.local_m;
     smooth_ = place;
     fix.latitude_deg = place.x;
     fix.longitude_deg = place.y;
@@ -359,12 +359,12 @@ std::vector<std::byte> encode_xplane(const Fix& fix, const Geodetic& origin, dou
     return packet.take();
 }
 
-std::string xplane_text(const Verdict& verdict) {
+std::string xplane_text(const DecodeResult& verdict) {
     const std::string_view kind = verdict.got == 0 ? "DATA" : "RREF";
     switch (verdict.fault) {
-    case Fault::None:
+    case PacketError::None:
         return fmt::format("X-Plane {}: fine", kind);
-    case Fault::Unused:
+    case PacketError::Unused:
         return verdict.got == 0
                    ? "X-Plane DATA without group 20 (latitude and longitude): waits for that one; "
                      "groups "
@@ -374,16 +374,16 @@ std::string xplane_text(const Verdict& verdict) {
                      "elevation"
                    : "X-Plane RREF lacks latitude, longitude and elevation under our request "
                      "numbers; start listen with --xplane HOST";
-    case Fault::WrongSize:
+    case PacketError::WrongSize:
         return fmt::format(
             "X-Plane {}: expected 5 bytes and {} for each {}, got {}",
             kind,
             verdict.got == 0 ? group_bytes : answer_bytes,
             verdict.got == 0 ? "group" : "answer",
             verdict.size);
-    case Fault::NotFinite:
+    case PacketError::NotFinite:
         return fmt::format("X-Plane {}: expected numbers, got one that is none", kind);
-    case Fault::OutOfRange:
+    case PacketError::OutOfRange:
         return fmt::format("X-Plane {}: expected an aircraft near the earth, got none", kind);
     default:
         return fmt::format(

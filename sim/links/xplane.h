@@ -26,7 +26,7 @@ class XPlanePose {
 public:
     /// Reads a packet. `fix` is set where it completes one and the verdict has no fault. A packet
     /// without a place is Unused.
-    Verdict take(Bytes datagram, std::optional<Fix>& fix);
+    DecodeResult take(Bytes datagram, std::optional<Fix>& fix);
 
 private:
     void take_group(std::int32_t group, const WireReader& row);
@@ -36,7 +36,7 @@ private:
 
     /// Values as X-Plane has them since the last fix: degrees, metres, m/s; the local axes are x
     /// east, y up, z south.
-    struct Told {
+    struct ReceivedValues {
         std::optional<glm::dvec3> place; ///< latitude, longitude, height above the sea
         std::optional<double> above_ground_m;
         std::optional<glm::dvec3> local_m;
@@ -47,7 +47,7 @@ private:
         std::optional<double> time_s;
     };
 
-    Told told_;
+    ReceivedValues received_;
     glm::dvec3 attitude_deg_{0.0}; ///< pitch, roll, true heading
     std::optional<double> last_time_s_;
     std::optional<glm::dvec3> last_local_m_;
@@ -63,6 +63,6 @@ std::vector<std::vector<std::byte>> xplane_requests(int per_second);
 std::vector<std::byte> encode_xplane(const Fix& fix, const Geodetic& origin, double time_s);
 
 /// What a person should be told of a packet.
-std::string xplane_text(const Verdict& verdict);
+std::string xplane_text(const DecodeResult& verdict);
 
 } // namespace octant::sim::links

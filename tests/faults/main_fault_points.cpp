@@ -45,7 +45,7 @@ bool is_half(const std::string& name, const std::string& bytes, const Files& who
 
 /// What is wrong with the end of a run; empty when nothing is.
 std::string fault_of(
-    const TriedCommand& command, const RunEnd& end, const fs::path& folder, const Files& whole) {
+    const TriedCommand& command, const RunSummary& end, const fs::path& folder, const Files& whole) {
     if (end.timed_out) {
         return "it did not end";
     }
@@ -100,7 +100,7 @@ public:
         fs::remove_all(prepared_);
         make_folder(prepared_);
         for (const std::vector<std::string>& words : preparations()) {
-            const RunEnd end = program_.run(words, prepared_, {});
+            const RunSummary end = program_.run(words, prepared_, {});
             if (end.exit_code != 0) {
                 throw Error(fmt::format(
                     "expected octant {} to end well, got exit code {}: {}",
@@ -114,7 +114,7 @@ public:
     /// Tries one command; the number of findings.
     int command(const TriedCommand& command) {
         fill(run_, prepared_);
-        const RunEnd end = program_.run(command.words, run_, {});
+        const RunSummary end = program_.run(command.words, run_, {});
         if (end.exit_code != 0 || end.allocations == 0 || end.writes == 0) {
             throw Error(fmt::format(
                 "{}: expected a run without faults to end well, got: {}",
@@ -139,7 +139,7 @@ private:
         for (const std::uint64_t point : tried) {
             fault.point = point;
             fill(run_, prepared_);
-            const RunEnd end = program_.run(command.words, run_, fault);
+            const RunSummary end = program_.run(command.words, run_, fault);
             const bool reached =
                 (fault.kind == Fault::Kind::Allocation ? end.allocations : end.writes) >= point;
             const std::string wrong = reached ? fault_of(command, end, run_, whole) : "";

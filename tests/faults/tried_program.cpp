@@ -67,13 +67,13 @@ TriedProgram::TriedProgram(
     , errors_file_(scratch / "errors.txt") {
     const int file = ::open(counters_file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (file < 0 || ::ftruncate(file, sizeof(FaultCounters)) != 0) {
-        error_in(counters_file_, "cannot be written");
+        throw_error_in(counters_file_, "cannot be written");
     }
     void* const mapped =
         ::mmap(nullptr, sizeof(FaultCounters), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     ::close(file);
     if (mapped == MAP_FAILED) {
-        error_in(counters_file_, "cannot be mapped");
+        throw_error_in(counters_file_, "cannot be mapped");
     }
     counters_ = new (mapped) FaultCounters{};
 }
@@ -82,7 +82,7 @@ TriedProgram::~TriedProgram() {
     ::munmap(counters_, sizeof(FaultCounters));
 }
 
-RunEnd TriedProgram::run(
+RunSummary TriedProgram::run(
     const std::vector<std::string>& words,
     const std::filesystem::path& folder,
     const Fault& fault) {
@@ -100,7 +100,7 @@ RunEnd TriedProgram::run(
         ::setenv(counters_variable, counters_file_.c_str(), 1);
         become(program_, words, folder, errors_file_);
     }
-    RunEnd end;
+    RunSummary end;
     const int status = wait_for(child, end.timed_out);
     end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

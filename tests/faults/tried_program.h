@@ -19,7 +19,7 @@ struct Fault {
 };
 
 /// How a run ended.
-struct RunEnd {
+struct RunSummary {
     int exit_code = 0;
     int signal = 0; ///< that ended it; 0 = none
     bool timed_out = false;
@@ -43,7 +43,7 @@ public:
     TriedProgram& operator=(const TriedProgram&) = delete;
 
     /// Runs it in a folder, for five minutes at most. Throws Error when it cannot be started.
-    RunEnd
+    RunSummary
     run(const std::vector<std::string>& words,
         const std::filesystem::path& folder,
         const Fault& fault);

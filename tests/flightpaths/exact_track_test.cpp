@@ -31,7 +31,7 @@ bool same_bits(const sim::AircraftState& a, const sim::AircraftState& b) {
 std::vector<sim::AircraftState> flown(const sim::AircraftKind& kind, long steps) {
     const bool jet = kind.flight_model == sim::FlightModel::FixedWing;
     const auto flight =
-        sim::hand_flight(kind, sim::trimmed_state(kind, {0, 0, 2500}, 1.1, jet ? 210 : 25));
+        sim::make_piloted_flight(kind, sim::trimmed_state(kind, {0, 0, 2500}, 1.1, jet ? 210 : 25));
     std::vector<sim::AircraftState> states{flight->state()};
     for (long step = 0; step < steps; ++step) {
         const double t = sim::time_of_step(step);

@@ -43,9 +43,9 @@ void check_northward(const RecordedTrack& track, double first_m, double step_s) 
 TEST_CASE("moments are read as numbers, clocks and dates, and nothing else is") {
     CHECK(log_time("12.5")->seconds == 12.5);
     CHECK(log_time("07:41:03.5")->seconds == 7 * 3600 + 41 * 60 + 3.5);
-    CHECK(log_time("07:41:03")->of_day);
+    CHECK(log_time("07:41:03")->is_time_of_day);
     CHECK(log_time("1970-01-02T00:00:01Z")->seconds == 86401.0);
-    CHECK_FALSE(log_time("1970-01-02T00:00:01Z")->of_day);
+    CHECK_FALSE(log_time("1970-01-02T00:00:01Z")->is_time_of_day);
     CHECK(log_time("2024-01-02 07:41:03Z.515")->seconds == 1704181263.515);
     CHECK(log_time("2024/01/02 07:41:03+01:00")->seconds == 1704181263.0);
     for (const char* wrong :

@@ -124,7 +124,7 @@ TEST_CASE("headings that leave the map are passed over, then the middle of the p
             return 10.0;
         };
     };
-    const Placement here{{0, 0}, std::nullopt, HeightMode::Clear};
+    const PlacementOptions here{{0, 0}, std::nullopt, HeightMode::Clear};
     CHECK(place_over_ground(northward(), here, strip(-100), 30, f15()).heading_rad == 0.0);
     CHECK(
         deg_from_rad(place_over_ground(northward(), here, strip(-2300), 30, f15()).heading_rad) ==

@@ -14,7 +14,7 @@ using namespace octant::flightpaths;
 
 namespace {
 
-PointMass flown(PointMass mass, const Controls& controls, double seconds) {
+PointMass flown(PointMass mass, const PointMassControls& controls, double seconds) {
     for (long step = 0; step < sim::step_at(seconds); ++step) {
         mass = stepped(mass, controls, sim::step_s);
     }

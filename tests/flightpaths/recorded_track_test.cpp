@@ -1,4 +1,4 @@
-#include "flightpaths/motion_fill.h"
+#include "flightpaths/derived_motion.h"
 #include "flightpaths/recorded_track.h"
 #include "flightpaths/track_writer.h"
 #include "sim/base/axes.h"

@@ -23,7 +23,7 @@ Reheat reheat_along(const sim::Trajectory& path) {
     const sim::AircraftKind& f15 = sim::aircraft_kind("f15");
     Reheat reheat;
     for (double time_s = path.start_s() + 0.5; time_s < path.end_s() - 0.5; time_s += 0.05) {
-        const double share = sim::reheat_share(&f15, path.state_at(time_s));
+        const double share = sim::reheat_fraction(&f15, path.state_at(time_s));
         reheat.least = std::min(reheat.least, share);
         reheat.most = std::max(reheat.most, share);
     }
@@ -64,7 +64,7 @@ TEST_CASE("of the built-in paths only the pop-up needs reheat, while it gains en
         const sim::AircraftState state = pop_up.state_at(time_s);
         const double gained = energy_m2ps2(time_s + 0.5) - energy_m2ps2(time_s - 0.5);
         if (gained < 0.0 && state.load_factor < 3.0) {
-            CHECK(sim::reheat_share(&f15, state) == 0.0);
+            CHECK(sim::reheat_fraction(&f15, state) == 0.0);
         }
     }
 }
@@ -73,10 +73,10 @@ TEST_CASE("a helicopter has no reheat, and an unknown shape that of the F-15") {
     sim::AircraftState state;
     state.velocity_mps = {200.0, 0.0, 50.0};
     state.speed_rate_mps2 = 9.0;
-    CHECK(sim::reheat_share(&sim::aircraft_kind("500md"), state) == 0.0);
-    const double share = sim::reheat_share(&sim::aircraft_kind("f15"), state);
+    CHECK(sim::reheat_fraction(&sim::aircraft_kind("500md"), state) == 0.0);
+    const double share = sim::reheat_fraction(&sim::aircraft_kind("f15"), state);
     CHECK(share > 0.5);
-    CHECK(sim::reheat_share(nullptr, state) == share);
+    CHECK(sim::reheat_fraction(nullptr, state) == share);
     state.velocity_mps = glm::dvec3(0.0);
-    CHECK(sim::reheat_share(nullptr, state) == 0.0);
+    CHECK(sim::reheat_fraction(nullptr, state) == 0.0);
 }

@@ -75,7 +75,7 @@ Figures figures_of(const std::string& name) {
 }
 
 double begin_of(const FlownPath& path, const std::string& label) {
-    for (const LegBegin& leg : path.legs) {
+    for (const LegStart& leg : path.legs) {
         if (leg.label == label) {
             return leg.time_s;
         }

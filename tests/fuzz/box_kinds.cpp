@@ -18,7 +18,7 @@ int boxes_of(int polygons, int least) {
     return std::max(least, polygons / 6);
 }
 
-Soup boxes(Dice& dice, int polygons) {
+Soup boxes(RandomGenerator& dice, int polygons) {
     Soup soup;
     for (int i = boxes_of(polygons, 2); i > 0; --i) {
         const glm::dvec3 half_m = glm::dvec3(0.1) + (point_within(dice, 0.5) + 0.5) * 0.7;
@@ -29,7 +29,7 @@ Soup boxes(Dice& dice, int polygons) {
 }
 
 /// Along the axes, so that faces meet at edges, lie in one plane or nearly do.
-Soup blocks(Dice& dice, int polygons) {
+Soup blocks(RandomGenerator& dice, int polygons) {
     Soup soup;
     const auto step = [&](int least, int most) { return 0.25 * whole_between(dice, least, most); };
     for (int i = boxes_of(polygons, 2); i > 0; --i) {
@@ -40,7 +40,7 @@ Soup blocks(Dice& dice, int polygons) {
 }
 
 /// Three to five bars: across one another through a middle, or woven around it.
-Soup bars(Dice& dice, int polygons) {
+Soup bars(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int count = std::clamp(polygons / 6, 3, 5);
     const bool woven = dice.next() < 0.5;
@@ -79,7 +79,7 @@ void add_frame(
 
 /// Three frames, no two linked and all three together not to be parted; in some the sizes are
 /// such that they pass through one another.
-Soup frames(Dice& dice, int polygons) {
+Soup frames(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int count = std::clamp(polygons / 24, 2, 3);
     const double narrow_m = dice.between(0.3, 0.95);
@@ -98,7 +98,7 @@ Soup frames(Dice& dice, int polygons) {
 }
 
 /// Boxes put together face to face, with the faces in between kept, and slabs let into others.
-Soup touching(Dice& dice, int polygons) {
+Soup touching(RandomGenerator& dice, int polygons) {
     Soup soup;
     glm::dvec3 half_m{0.2, 0.3, 0.25};
     glm::dvec3 centre(-0.5);

@@ -59,7 +59,7 @@ void add_torus(
 }
 
 /// Two or three rings through one another's holes; thick ones pass through one another.
-Soup links(Dice& dice, int polygons) {
+Soup links(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int count = polygons < 90 ? 2 : 3;
     const int rows = std::clamp(polygons / count / 5, 5, 24);
@@ -75,7 +75,7 @@ Soup links(Dice& dice, int polygons) {
 }
 
 /// A ramp that winds around an axis, seen from both sides, perhaps with a post in the middle.
-Soup helix(Dice& dice, int polygons) {
+Soup helix(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int steps = std::max(6, polygons / 4);
     const double turns = dice.between(1.0, 3.0);
@@ -103,7 +103,7 @@ Soup helix(Dice& dice, int polygons) {
 
 /// A part of a wavy body, triangulated and then simplified without care: corners are drawn onto
 /// neighbours, so that slivers, folds and penetrations come about.
-Soup wavy(Dice& dice, int polygons) {
+Soup wavy(RandomGenerator& dice, int polygons) {
     const int side = std::max(3, static_cast<int>(std::sqrt(polygons / 2.0)) + 1);
     Grid grid{side, side, {}};
     const double waves = dice.between(1.0, 4.0);

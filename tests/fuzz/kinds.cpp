@@ -27,7 +27,7 @@ std::vector<Kind> shapes() {
     return all;
 }
 
-glm::dmat3 turn(Dice& dice) {
+glm::dmat3 turn(RandomGenerator& dice) {
     const glm::dvec3 x = dice.direction();
     const glm::dvec3 y = glm::normalize(glm::cross(dice.direction(), x));
     return {x, y, glm::cross(x, y)};
@@ -42,7 +42,7 @@ void change_all(Soup& soup, const Change& change) {
     }
 }
 
-Soup made_shape(std::string_view name, Dice& dice, int polygons) {
+Soup made_shape(std::string_view name, RandomGenerator& dice, int polygons) {
     const std::vector<Kind> all = shapes();
     auto kind = std::ranges::find(all, name, &Kind::name);
     if (std::ranges::find(placed_kinds, name) != placed_kinds.end()) {
@@ -55,7 +55,7 @@ Soup made_shape(std::string_view name, Dice& dice, int polygons) {
 }
 
 /// Far, tiny and huge models are moved or scaled by powers of ten in doubles.
-void place(Soup& soup, std::string_view name, Dice& dice) {
+void place(Soup& soup, std::string_view name, RandomGenerator& dice) {
     if (name == "far") {
         const glm::dvec3 away_m = dice.direction() * far_m;
         change_all(soup, [&](const glm::dvec3& corner) { return corner + away_m; });
@@ -81,7 +81,7 @@ std::span<const std::string_view> kind_names() {
 }
 
 ObjPolygons made_model(std::string_view kind, std::uint64_t seed, int polygons) {
-    Dice dice(seed * 0x9e3779b97f4a7c15U + 1989U);
+    RandomGenerator dice(seed * 0x9e3779b97f4a7c15U + 1989U);
     dice.next();
     Soup soup = made_shape(kind, dice, polygons);
     if (dice.next() < 0.5) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/fuzz/obj_polygons.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Kind {
     std::string_view meaning;
     /// About `polygons` polygons, at least enough for the shape, about 2 m large, around the
     /// origin.
-    Soup (*make)(Dice& dice, int polygons);
+    Soup (*make)(RandomGenerator& dice, int polygons);
 };
 
 std::span<const Kind> box_kinds();

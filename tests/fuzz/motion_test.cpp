@@ -111,7 +111,7 @@ OrderedModel ordered_after(const std::filesystem::path& file, const Motion& moti
 
 /// What differs between two orders; empty if their lists, nodes and splits are the same.
 std::string difference(const OrderedModel& a, const OrderedModel& b) {
-    if (a.drawn_by != b.drawn_by || a.splits != b.splits ||
+    if (a.found_by != b.found_by || a.splits != b.splits ||
         a.model.polygons.size() != b.model.polygons.size()) {
         return fmt::format("{} splits, not {}", b.splits, a.splits);
     }
@@ -125,7 +125,7 @@ std::string difference(const OrderedModel& a, const OrderedModel& b) {
     }
     const auto is_same = [](const auto& one, const auto& other) {
         return one.kind == other.kind && one.front == other.front && one.back == other.back &&
-               one.along == other.along && one.against == other.against;
+               one.coplanar_front == other.coplanar_front && one.coplanar_back == other.coplanar_back;
     };
     return std::ranges::equal(a.order.nodes(), b.order.nodes(), is_same) ? "" : "other nodes";
 }

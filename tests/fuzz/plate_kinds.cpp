@@ -14,7 +14,7 @@ namespace octant::tests::fuzz {
 
 namespace {
 
-Soup plates(Dice& dice, int polygons) {
+Soup plates(RandomGenerator& dice, int polygons) {
     Soup soup;
     for (int i = std::max(2, polygons); i > 0; --i) {
         const glm::dvec3 centre = point_within(dice, 0.5);
@@ -24,14 +24,14 @@ Soup plates(Dice& dice, int polygons) {
     return soup;
 }
 
-Soup two_sided(Dice& dice, int polygons) {
+Soup two_sided(RandomGenerator& dice, int polygons) {
     Soup soup = plates(dice, polygons / 2);
     add_backs(soup);
     return soup;
 }
 
 /// Triangles with one side a million times shorter than the others, and ordinary ones.
-Soup slivers(Dice& dice, int polygons) {
+Soup slivers(RandomGenerator& dice, int polygons) {
     Soup soup = plates(dice, polygons / 3);
     for (int i = std::max(2, polygons - polygons / 3); i > 0; --i) {
         const double aspect = std::pow(10.0, dice.between(2.0, 6.0));
@@ -46,7 +46,7 @@ Soup slivers(Dice& dice, int polygons) {
 }
 
 /// Some polygons twice or more, some with their corners counted from another one.
-Soup repeated(Dice& dice, int polygons) {
+Soup repeated(RandomGenerator& dice, int polygons) {
     Soup soup = plates(dice, polygons / 2);
     const std::size_t first = soup.size();
     for (std::size_t i = 0; i < first; ++i) {
@@ -59,7 +59,7 @@ Soup repeated(Dice& dice, int polygons) {
 }
 
 /// Polygons painted upon others in the very same plane: with exact numbers in planes of the axes.
-Soup decals(Dice& dice, int polygons) {
+Soup decals(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int walls = std::max(1, polygons / 5);
     for (int wall = 0; wall < walls; ++wall) {
@@ -88,7 +88,7 @@ Soup decals(Dice& dice, int polygons) {
 }
 
 /// A wall whose neighbours' corners lie in the middle of its sides, folded at those sides.
-Soup t_junctions(Dice& dice, int polygons) {
+Soup t_junctions(RandomGenerator& dice, int polygons) {
     Soup soup;
     const int strips = std::clamp(polygons / 3, 2, 12);
     double x = -0.5;
@@ -114,7 +114,7 @@ Soup t_junctions(Dice& dice, int polygons) {
 }
 
 /// Polygons with corners a little off their planes, 1e-7 to 1e-5 of the size.
-Soup bent(Dice& dice, int polygons) {
+Soup bent(RandomGenerator& dice, int polygons) {
     Soup soup;
     if (dice.next() < 0.5) {
         soup = plates(dice, polygons);
@@ -135,7 +135,7 @@ Soup bent(Dice& dice, int polygons) {
 }
 
 /// Plates that stand on others: an edge or a corner on a face, no more.
-Soup standing(Dice& dice, int polygons) {
+Soup standing(RandomGenerator& dice, int polygons) {
     Soup soup = plates(dice, std::max(1, polygons / 4));
     while (soup.size() < static_cast<std::size_t>(std::max(3, polygons))) {
         const auto which = static_cast<std::size_t>(dice.next() * static_cast<double>(soup.size()));

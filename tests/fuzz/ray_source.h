@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/fuzz/facets.h"
 
 #include <glm/vec3.hpp>
@@ -35,7 +35,7 @@ private:
     Vec direction() { return Vec(dice_.direction()); }
 
     const Facets& facets_;
-    Dice dice_;
+    RandomGenerator dice_;
     int eyes_ = 0;
 };
 

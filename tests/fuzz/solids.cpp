@@ -18,7 +18,7 @@ glm::dmat3 attitude_along(const glm::dvec3& along) {
     return {x, y, glm::cross(x, y)};
 }
 
-glm::dmat3 any_attitude(Dice& dice) {
+glm::dmat3 any_attitude(RandomGenerator& dice) {
     const glm::dvec3 x = dice.direction();
     const glm::dvec3 y = glm::normalize(glm::cross(dice.direction(), x));
     return {x, y, glm::cross(x, y)};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/fuzz/obj_polygons.h"
 
 #include <glm/mat3x3.hpp>
@@ -9,19 +9,19 @@
 namespace octant::tests::fuzz {
 
 /// A whole number, least to most, all equally likely.
-inline int whole_between(Dice& dice, int least, int most) {
+inline int whole_between(RandomGenerator& dice, int least, int most) {
     return least + static_cast<int>(dice.next() * static_cast<double>(most - least + 1));
 }
 
 /// A point of a cube around the origin.
-inline glm::dvec3 point_within(Dice& dice, double half_m) {
+inline glm::dvec3 point_within(RandomGenerator& dice, double half_m) {
     const double x = dice.between(-half_m, half_m);
     const double y = dice.between(-half_m, half_m);
     return {x, y, dice.between(-half_m, half_m)};
 }
 
 /// Axes of a random attitude, right-handed.
-glm::dmat3 any_attitude(Dice& dice);
+glm::dmat3 any_attitude(RandomGenerator& dice);
 
 /// Axes whose first one points along `along`.
 glm::dmat3 attitude_along(const glm::dvec3& along);

@@ -60,8 +60,8 @@ std::string gap_in_proof(const visuals::draworder::OrderedModel& ordered) {
         file, visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
     const auto certificate = visuals::verify::read_certificate(file);
     const auto verdict = visuals::verify::verify(certificate);
-    if (verdict.refused) {
-        return fmt::format("line {}: {}", verdict.refused->line, verdict.refused->what);
+    if (verdict.failure) {
+        return fmt::format("line {}: {}", verdict.failure->line, verdict.failure->what);
     }
     return verdict.proved() ? "" : fmt::format("{} claims without proof", verdict.unproved);
 }

@@ -20,7 +20,7 @@ TEST_CASE("every known aircraft is found by its name, and no other name is taken
 
 TEST_CASE("a pilot is handed over an aircraft at a speed that it can fly") {
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        CHECK(kind.slowest_handed_over_mps >= kind.limits.min_speed_mps);
-        CHECK(kind.slowest_handed_over_mps < kind.limits.max_speed_mps);
+        CHECK(kind.min_handover_speed_mps >= kind.limits.min_speed_mps);
+        CHECK(kind.min_handover_speed_mps < kind.limits.max_speed_mps);
     }
 }

@@ -8,10 +8,10 @@ using namespace octant::sim;
 
 TEST_CASE("standard air is that of the published tables") {
     CHECK(standard_air(0.0).density_kgpm3 == Approx(1.225));
-    CHECK(standard_air(0.0).sound_mps == Approx(340.294));
+    CHECK(standard_air(0.0).speed_of_sound_mps == Approx(340.294));
     CHECK(standard_air(5000.0).density_kgpm3 == Approx(0.73643).epsilon(2e-3));
     CHECK(standard_air(11000.0).density_kgpm3 == Approx(0.36391).epsilon(1e-4));
-    CHECK(standard_air(11000.0).sound_mps == Approx(295.07).epsilon(1e-4));
+    CHECK(standard_air(11000.0).speed_of_sound_mps == Approx(295.07).epsilon(1e-4));
     CHECK(standard_air(20000.0).density_kgpm3 == Approx(0.08803).epsilon(1e-3));
     CHECK(standard_air(32000.0).density_kgpm3 == Approx(0.01322).epsilon(2e-3));
 }

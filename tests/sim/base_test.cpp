@@ -110,12 +110,12 @@ TEST_CASE("a file is written whole, replaced whole, and a full disk leaves nothi
 
 TEST_CASE("a growing file keeps what was flushed") {
     const auto path = scratch("growing");
-    GrowingFile file(path);
+    AppendedFile file(path);
     file.append("line\n");
     CHECK(read_file(path).empty());
     file.flush();
     CHECK(read_file(path) == "line\n");
-    GrowingFile full("/dev/full");
+    AppendedFile full("/dev/full");
     full.append("x");
     CHECK_THROWS_AS(full.flush(), Error);
 }

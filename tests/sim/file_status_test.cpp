@@ -32,16 +32,16 @@ fs::path link_in_a_circle() {
 TEST_CASE("files and folders are told apart, and what cannot be looked up is not there") {
     const fs::path file = scratch("plain");
     write_file(file, "x");
-    CHECK(is_there(file));
+    CHECK(path_exists(file));
     CHECK(is_file(file));
     CHECK_FALSE(is_folder(file));
     CHECK(is_folder(tests::scratch_folder()));
-    CHECK(is_there("/dev/null"));
+    CHECK(path_exists("/dev/null"));
     CHECK_FALSE(is_file("/dev/null"));
     const fs::path circle = link_in_a_circle();
     for (const fs::path& name :
          {circle, circle / "in", fs::path(std::string(5000, 'n')), fs::path()}) {
-        CHECK_FALSE(is_there(name));
+        CHECK_FALSE(path_exists(name));
         CHECK_FALSE(is_file(name));
         CHECK_FALSE(is_folder(name));
         CHECK_FALSE(is_same_file(name, file));

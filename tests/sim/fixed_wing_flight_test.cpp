@@ -8,7 +8,7 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::HandFlight;
+using sim::PilotedFlight;
 using sim::PilotControls;
 
 TEST_CASE("an F-15 starts level on its heading with its nose a little up") {
@@ -34,7 +34,7 @@ TEST_CASE("an F-15 in trim holds height, speed and attitude with the stick centr
         CHECK(speed_mps(*flight) == Approx(speed).margin(0.1));
         CHECK(turn_radps(start.body_to_world, flight->state().body_to_world) < 1e-2);
         CHECK_FALSE(flight->warnings().stalled);
-        CHECK_FALSE(flight->warnings().at_a_limit);
+        CHECK_FALSE(flight->warnings().is_at_limit);
     }
 }
 
@@ -60,11 +60,11 @@ TEST_CASE("a banked pull of 4 g turns an F-15 as its speed and load factor say")
             0.0,
             std::clamp(0.7 + 0.2 * (235.0 - speed_mps(*flight)), 0.0, 1.0)};
     };
-    fly(*flight, 6, pilot, [](const HandFlight&) {});
+    fly(*flight, 6, pilot, [](const PilotedFlight&) {});
     const double before = angles_of(*flight).heading_rad;
     double load_factor = 0.0;
     double speed = 0.0;
-    fly(*flight, 5, pilot, [&](const HandFlight& f) {
+    fly(*flight, 5, pilot, [&](const PilotedFlight& f) {
         load_factor += f.state().load_factor / static_cast<double>(steps_of(5));
         speed += speed_mps(f) / static_cast<double>(steps_of(5));
     });
@@ -85,7 +85,7 @@ TEST_CASE("in a bank with the stick centred the nose of an F-15 drops") {
         [](double t) {
             return PilotControls{0, t < 0.5 ? 0.7 : 0.0, 0, 0.3};
         },
-        [](const HandFlight&) {});
+        [](const PilotedFlight&) {});
     CHECK(deg_from_rad(angles_of(*flight).roll_rad) > 30);
     CHECK(flight->state().velocity_mps.z < -10);
 }
@@ -104,7 +104,7 @@ TEST_CASE("a stick at its stops never takes an F-15 beyond its load factors") {
                 [&](double) {
                     return PilotControls{stick, 0, 0, 1};
                 },
-                [&](const HandFlight& f) {
+                [&](const PilotedFlight& f) {
                     const double n = f.state().load_factor;
                     most = std::max(most, n);
                     least = std::min(least, n);
@@ -134,13 +134,13 @@ TEST_CASE("the load factor of an F-15 comes on at no more than 6 g a second") {
         [](double t) {
             return PilotControls{t < 1.5 ? 1.0 : -1.0, 0, 0, 0.8};
         },
-        [&](const HandFlight& f) {
+        [&](const PilotedFlight& f) {
             CHECK(std::abs(f.state().load_factor - before) * sim::steps_per_second < 6.1);
             before = f.state().load_factor;
         });
-    CHECK(flight->warnings().at_a_limit == false);
+    CHECK(flight->warnings().is_at_limit == false);
     hold(*flight, 2, {1, 0, 0, 1});
-    CHECK(flight->warnings().at_a_limit);
+    CHECK(flight->warnings().is_at_limit);
 }
 
 TEST_CASE("an F-15 flies Mach 1.1 to 1.25 low down, about Mach 2 high up, and no more") {
@@ -157,7 +157,7 @@ TEST_CASE("an F-15 flies Mach 1.1 to 1.25 low down, about Mach 2 high up, and no
     hold(*down, 40, {0, 0, 0, 1});
     CHECK(down->state().velocity_mps.z < -200);
     CHECK(speed_mps(*down) < 700);
-    CHECK(down->warnings().at_a_limit);
+    CHECK(down->warnings().is_at_limit);
 }
 
 TEST_CASE("an F-15 climbs at the 50,000 ft/min of its data sheets") {
@@ -182,11 +182,11 @@ TEST_CASE("an F-15 rolls at most at its limit, and the slower it flies the slowe
             [&](double) {
                 return PilotControls{0, 1, 0, flight->trim_throttle()};
             },
-            [&](const HandFlight& f) {
+            [&](const PilotedFlight& f) {
                 fastest = std::max(fastest, turn_radps(attitude, f.state().body_to_world));
                 attitude = f.state().body_to_world;
             });
-        CHECK(flight->warnings().at_a_limit);
+        CHECK(flight->warnings().is_at_limit);
         CHECK(deg_from_rad(fastest) < 206);
         if (speed >= 200) {
             CHECK(deg_from_rad(fastest) > 195);
@@ -241,7 +241,7 @@ TEST_CASE("a flight by hand takes an F-15 over as it is") {
     start.velocity_mps = {0, 235, 0};
     start.body_to_world = body_to_world_from_euler({0, 0, rad_from_deg(-75.5)});
     start.load_factor = 4.0;
-    const auto flight = sim::hand_flight(sim::aircraft_kind("f15"), start);
+    const auto flight = sim::make_piloted_flight(sim::aircraft_kind("f15"), start);
     CHECK(same_bits(flight->state(), start));
     glm::dquat attitude = start.body_to_world;
     double load_factor = 4.0;

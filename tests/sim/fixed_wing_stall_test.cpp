@@ -7,19 +7,19 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::HandFlight;
+using sim::PilotedFlight;
 using sim::PilotControls;
 
 namespace {
 
 /// Angle between the nose and the velocity, in the aircraft's plane of symmetry.
-double alpha_rad(const HandFlight& flight) {
+double alpha_rad(const PilotedFlight& flight) {
     const glm::dvec3 in_body =
         glm::conjugate(flight.state().body_to_world) * flight.state().velocity_mps;
     return std::atan2(in_body.z, in_body.x);
 }
 
-double climb_deg(const HandFlight& flight) {
+double climb_deg(const PilotedFlight& flight) {
     const glm::dvec3& v = flight.state().velocity_mps;
     return deg_from_rad(std::atan2(v.z, std::hypot(v.x, v.y)));
 }
@@ -38,7 +38,7 @@ TEST_CASE("a slow F-15 held back stalls, sinks nose down, and recovers when rele
         [](double) {
             return PilotControls{1, 0, 0, 0};
         },
-        [&](const HandFlight& f) {
+        [&](const PilotedFlight& f) {
             highest_pitch = std::max(highest_pitch, angles_of(f).pitch_rad);
             steepest_alpha = std::max(steepest_alpha, alpha_rad(f));
         });
@@ -64,7 +64,7 @@ TEST_CASE("an F-15 left to itself without thrust slows down, stalls and dives ou
         *flight,
         70,
         [](double) { return PilotControls{}; },
-        [&](const HandFlight& f) {
+        [&](const PilotedFlight& f) {
             stalled = stalled || f.warnings().stalled;
             slowest = std::min(slowest, speed_mps(f));
         });
@@ -112,7 +112,7 @@ TEST_CASE("an F-15 thrown straight up comes down nose first and flies again") {
         *flight,
         40,
         [](double) { return PilotControls{}; },
-        [&](const HandFlight& f) { slowest = std::min(slowest, speed_mps(f)); });
+        [&](const PilotedFlight& f) { slowest = std::min(slowest, speed_mps(f)); });
     CHECK(slowest < 60);
     CHECK(speed_mps(*flight) > 100);
     CHECK(std::abs(deg_from_rad(alpha_rad(*flight))) < 15);

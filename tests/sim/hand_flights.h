@@ -5,7 +5,7 @@
 #include "sim/base/units.h"
 #include "sim/fixed_step.h"
 #include "sim/flight_models.h"
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 
 #include <glm/geometric.hpp>
 
@@ -24,7 +24,7 @@ inline long steps_of(double seconds) {
 
 /// Flies on with the controls that `pilot(seconds since the call)` gives; `look` sees every step.
 template <class Pilot, class Look>
-void fly(sim::HandFlight& flight, double seconds, Pilot&& pilot, const Look& look) {
+void fly(sim::PilotedFlight& flight, double seconds, Pilot&& pilot, const Look& look) {
     for (long step = 0; step < steps_of(seconds); ++step) {
         flight.step(pilot(sim::time_of_step(step)));
         look(flight);
@@ -32,30 +32,30 @@ void fly(sim::HandFlight& flight, double seconds, Pilot&& pilot, const Look& loo
 }
 
 /// Flies on with the same controls.
-inline void hold(sim::HandFlight& flight, double seconds, const sim::PilotControls& controls) {
+inline void hold(sim::PilotedFlight& flight, double seconds, const sim::PilotControls& controls) {
     fly(
-        flight, seconds, [&](double) { return controls; }, [](const sim::HandFlight&) {});
+        flight, seconds, [&](double) { return controls; }, [](const sim::PilotedFlight&) {});
 }
 
 /// An F-15 in level flight towards 70 degrees, ready to be flown.
-inline std::unique_ptr<sim::HandFlight> trimmed_f15(double speed_mps, double height_m = 1000.0) {
+inline std::unique_ptr<sim::PilotedFlight> trimmed_f15(double speed_mps, double height_m = 1000.0) {
     const sim::AircraftKind& kind = sim::aircraft_kind("f15");
-    return sim::hand_flight(
+    return sim::make_piloted_flight(
         kind, sim::trimmed_state(kind, {0, 0, height_m}, rad_from_deg(70), speed_mps));
 }
 
-inline double speed_mps(const sim::HandFlight& flight) {
+inline double speed_mps(const sim::PilotedFlight& flight) {
     return glm::length(flight.state().velocity_mps);
 }
 
 /// Height that the aircraft's energy is worth.
-inline double energy_height_m(const sim::HandFlight& flight) {
+inline double energy_height_m(const sim::PilotedFlight& flight) {
     const sim::AircraftState& state = flight.state();
     return state.position_m.z +
            0.5 * glm::dot(state.velocity_mps, state.velocity_mps) / gravity_mps2;
 }
 
-inline EulerAngles angles_of(const sim::HandFlight& flight) {
+inline EulerAngles angles_of(const sim::PilotedFlight& flight) {
     return euler_from_body_to_world(flight.state().body_to_world);
 }
 
@@ -100,7 +100,7 @@ private:
 
 /// The most that the energy height rises in one step of a wild flight without throttle.
 inline double
-largest_rise_without_throttle_m(sim::HandFlight& flight, std::uint32_t seed, double seconds) {
+largest_rise_without_throttle_m(sim::PilotedFlight& flight, std::uint32_t seed, double seconds) {
     WildPilot wild(seed);
     double before_m = energy_height_m(flight);
     double rise_m = 0.0;
@@ -112,7 +112,7 @@ largest_rise_without_throttle_m(sim::HandFlight& flight, std::uint32_t seed, dou
             controls.throttle = 0.0;
             return controls;
         },
-        [&](const sim::HandFlight& f) {
+        [&](const sim::PilotedFlight& f) {
             rise_m = std::max(rise_m, energy_height_m(f) - before_m);
             before_m = energy_height_m(f);
         });

@@ -9,25 +9,25 @@
 
 using namespace octant;
 using namespace octant::tests;
-using sim::HandFlight;
+using sim::PilotedFlight;
 using sim::PilotControls;
 
 namespace {
 
 constexpr double heading = 0.8;
 
-std::unique_ptr<HandFlight> trimmed(double speed_mps, double height_m = 300.0) {
-    return sim::hand_flight(
+std::unique_ptr<PilotedFlight> trimmed(double speed_mps, double height_m = 300.0) {
+    return sim::make_piloted_flight(
         sim::aircraft_kind("500md"),
         sim::trimmed_state(sim::aircraft_kind("500md"), {0, 0, height_m}, heading, speed_mps));
 }
 
-double ahead_mps(const HandFlight& flight) {
+double ahead_mps(const PilotedFlight& flight) {
     return glm::dot(flight.state().velocity_mps, direction_from_heading(heading));
 }
 
 /// Flies level at full collective, as fast as it gets: cyclic for the height.
-PilotControls level_flat_out(const HandFlight& flight) {
+PilotControls level_flat_out(const PilotedFlight& flight) {
     const sim::AircraftState& state = flight.state();
     const double climb = state.velocity_mps.z + 0.2 * (state.position_m.z - 300.0);
     return {std::clamp(-0.1 * climb, -1.0, 1.0), 0, 0, 1};
@@ -47,7 +47,7 @@ TEST_CASE("a 500MD in trim holds height, speed and attitude with the cyclic cent
         CHECK(speed_mps(*flight) == Approx(speed).margin(0.1));
         CHECK(turn_radps(start.body_to_world, flight->state().body_to_world) < 1e-2);
         CHECK(flight->state().load_factor == Approx(1).margin(1e-3));
-        CHECK_FALSE(flight->warnings().at_a_limit);
+        CHECK_FALSE(flight->warnings().is_at_limit);
         CHECK_FALSE(flight->warnings().stalled);
     }
 }
@@ -123,7 +123,7 @@ TEST_CASE("bank, roll rate and load factor of a 500MD stay within its limits") {
         [](double t) {
             return PilotControls{0.3, std::fmod(t, 8.0) < 4.0 ? 1.0 : -1.0, 0, 1};
         },
-        [&](const HandFlight& f) {
+        [&](const PilotedFlight& f) {
             max_bank = std::max(max_bank, std::abs(angles_of(f).roll_rad));
             max_load_factor = std::max(max_load_factor, f.state().load_factor);
             fastest = std::max(fastest, turn_radps(attitude, f.state().body_to_world));
@@ -132,7 +132,7 @@ TEST_CASE("bank, roll rate and load factor of a 500MD stay within its limits") {
     CHECK(deg_from_rad(max_bank) == Approx(60).margin(0.5));
     CHECK(max_load_factor < 2.05);
     CHECK(deg_from_rad(fastest) < 75);
-    CHECK(flight->warnings().at_a_limit);
+    CHECK(flight->warnings().is_at_limit);
 }
 
 TEST_CASE("a 500MD climbs at most 8.6 m/s for good, best at 60 kt or so") {
@@ -145,7 +145,7 @@ TEST_CASE("a 500MD climbs at most 8.6 m/s for good, best at 60 kt or so") {
         hold(*flight, 40, {0, 0, 0, 1});
         const double climb = (flight->state().position_m.z - start_m) / 40.0;
         CHECK(climb <= 8.65);
-        CHECK(flight->warnings().at_a_limit);
+        CHECK(flight->warnings().is_at_limit);
         best_speed = climb > best ? speed : best_speed;
         best = std::max(best, climb);
     }
@@ -165,7 +165,7 @@ TEST_CASE("flat out a 500MD flies about its never-exceed speed, and pushed over 
         *level,
         120,
         [&](double) { return level_flat_out(*level); },
-        [](const HandFlight& f) { CHECK(speed_mps(f) < 79); });
+        [](const PilotedFlight& f) { CHECK(speed_mps(f) < 79); });
     CHECK(speed_mps(*level) == Approx(77).margin(2));
     CHECK(std::abs(level->state().velocity_mps.z) < 1);
 
@@ -177,10 +177,10 @@ TEST_CASE("flat out a 500MD flies about its never-exceed speed, and pushed over 
         [](double) {
             return PilotControls{-1, 0, 0, 0.4};
         },
-        [&](const HandFlight& f) { fastest = std::max(fastest, speed_mps(f)); });
+        [&](const PilotedFlight& f) { fastest = std::max(fastest, speed_mps(f)); });
     CHECK(fastest > 76);
     CHECK(fastest < 82);
-    CHECK(pushed->warnings().at_a_limit);
+    CHECK(pushed->warnings().is_at_limit);
 }
 
 TEST_CASE("collective down sinks a 500MD at an autorotation's rate and never gives it energy") {
@@ -200,7 +200,7 @@ TEST_CASE("a flight by hand takes a 500MD over as it is") {
     start.velocity_mps = {0, 40, 0};
     start.body_to_world = body_to_world_from_euler({0, 0, rad_from_deg(45)});
     start.load_factor = 1.41;
-    const auto flight = sim::hand_flight(sim::aircraft_kind("500md"), start);
+    const auto flight = sim::make_piloted_flight(sim::aircraft_kind("500md"), start);
     CHECK(same_bits(flight->state(), start));
     flight->step({0, 0.75, 0, flight->trim_throttle()});
     CHECK(flight->state().time_s == 0.123 + sim::time_of_step(1));

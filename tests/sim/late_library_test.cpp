@@ -1,5 +1,5 @@
 #include "sim/base/error.h"
-#include "sim/base/late_library.h"
+#include "sim/base/lazy_library.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,11 +7,11 @@ namespace octant {
 
 namespace {
 
-constinit LateLibrary numbers("libm.so.6");
-constinit LateLibrary nowhere("liboctant-is-not-there.so.1");
-const LateFunction<double(double)> late_root(numbers, "sqrt");
-const LateFunction<double(double)> late_nothing(numbers, "no_such_root");
-const LateFunction<double(double)> late_nowhere(nowhere, "sqrt");
+constinit LazyLibrary numbers("libm.so.6");
+constinit LazyLibrary nowhere("liboctant-is-not-there.so.1");
+const LazyFunction<double(double)> late_root(numbers, "sqrt");
+const LazyFunction<double(double)> late_nothing(numbers, "no_such_root");
+const LazyFunction<double(double)> late_nowhere(nowhere, "sqrt");
 
 } // namespace
 

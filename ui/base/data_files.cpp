@@ -26,7 +26,7 @@ bool looks_like_file(const std::string& name) {
            fs::is_regular_file(name, ignored);
 }
 
-[[noreturn]] void refuse_aircraft(const std::string& name) {
+[[noreturn]] void throw_unknown_aircraft(const std::string& name) {
     throw Error(fmt::format(
         "aircraft: expected {} or an OBJ file, got '{}'",
         fmt::join(built_in_models, ", "),
@@ -36,21 +36,21 @@ bool looks_like_file(const std::string& name) {
 } // namespace
 
 fs::path data_folder() {
-    std::vector<fs::path> places;
+    std::vector<fs::path> candidates;
     if (const char* named = std::getenv("OCTANT_DATA"); named != nullptr && *named != '\0') {
-        places.emplace_back(named);
+        candidates.emplace_back(named);
     }
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    places.push_back(program.parent_path().parent_path() / "share" / "octant");
-    places.emplace_back(OCTANT_SOURCE_DIR);
-    for (const fs::path& place : places) {
+    candidates.push_back(program.parent_path().parent_path() / "share" / "octant");
+    candidates.emplace_back(OCTANT_SOURCE_DIR);
+    for (const fs::path& place : candidates) {
         if (holds_data(place)) {
             return place;
         }
     }
     std::vector<std::string> names;
-    std::transform(places.begin(), places.end(), std::back_inserter(names), [](const fs::path& p) {
+    std::transform(candidates.begin(), candidates.end(), std::back_inserter(names), [](const fs::path& p) {
         return p.string();
     });
     throw Error(fmt::format(
@@ -63,29 +63,29 @@ fs::path aircraft_file(const std::string& name_or_file) {
     if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
         return data_folder() / models / kind->model_file;
     }
-    if (name_or_file == typeless_model) {
-        return data_folder() / models / fmt::format("{}.obj", typeless_model);
+    if (name_or_file == example_model) {
+        return data_folder() / models / fmt::format("{}.obj", example_model);
     }
     if (looks_like_file(name_or_file)) {
         return name_or_file;
     }
-    refuse_aircraft(name_or_file);
+    throw_unknown_aircraft(name_or_file);
 }
 
-const sim::AircraftKind& flown_as(const std::string& name_or_file) {
+const sim::AircraftKind& aircraft_kind_of(const std::string& name_or_file) {
     if (const sim::AircraftKind* kind = sim::find_aircraft_kind(name_or_file)) {
         return *kind;
     }
-    if (name_or_file != typeless_model && !looks_like_file(name_or_file)) {
-        refuse_aircraft(name_or_file);
+    if (name_or_file != example_model && !looks_like_file(name_or_file)) {
+        throw_unknown_aircraft(name_or_file);
     }
     return sim::aircraft_kind("f15");
 }
 
 fs::path path_file(const std::string& name_or_file, const std::string& aircraft) {
     if (std::ranges::find(built_in_paths, name_or_file) != built_in_paths.end()) {
-        const sim::AircraftKind& kind = flown_as(aircraft);
-        const std::string_view whose = kind.plain_name.empty() ? kind.name : kind.plain_name;
+        const sim::AircraftKind& kind = aircraft_kind_of(aircraft);
+        const std::string_view whose = kind.simple_type_name.empty() ? kind.name : kind.simple_type_name;
         return data_folder() / "flightpaths" / fmt::format("{}-{}.toml", whose, name_or_file);
     }
     if (looks_like_file(name_or_file)) {

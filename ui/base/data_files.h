@@ -11,13 +11,13 @@
 namespace octant::ui::base {
 
 /// A shape without a type of its own: the example object of the 1989 paper.
-inline constexpr std::string_view typeless_model = "concave";
+inline constexpr std::string_view example_model = "concave";
 
 /// Names of the built-in models of polygons: those of the known aircraft, then the typeless one.
 inline constexpr auto built_in_models = [] {
-    std::array<std::string_view, sim::known_aircraft.size() + 1> names{};
-    std::ranges::transform(sim::known_aircraft, names.begin(), &sim::AircraftKind::name);
-    names.back() = typeless_model;
+    std::array<std::string_view, sim::aircraft_table.size() + 1> names{};
+    std::ranges::transform(sim::aircraft_table, names.begin(), &sim::AircraftKind::name);
+    names.back() = example_model;
     return names;
 }();
 
@@ -38,7 +38,7 @@ std::filesystem::path aircraft_file(const std::string& name_or_file);
 /// The aircraft whose flight model and built-in paths a model flies with: its own, or, for the
 /// typeless model and files, of which no more than the shape is known, the F-15's. Throws Error as
 /// aircraft_file.
-const sim::AircraftKind& flown_as(const std::string& name_or_file);
+const sim::AircraftKind& aircraft_kind_of(const std::string& name_or_file);
 
 /// File of a path for an aircraft: a name of built_in_paths or a file. Throws Error as
 /// aircraft_file.

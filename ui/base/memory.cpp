@@ -4,7 +4,7 @@
 
 namespace octant::ui::base {
 
-void give_memory_back() {
+void release_free_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 20);

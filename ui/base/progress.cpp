@@ -1,7 +1,7 @@
 #include "ui/base/progress.h"
 
 #include "sim/base/utf8.h"
-#include "ui/base/other_names.h"
+#include "ui/base/path_alias.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -60,9 +60,9 @@ void Progress::finish() {
     }
 }
 
-void say(bool quiet, const std::string& line) {
+void print_note(bool quiet, const std::string& line) {
     if (!quiet) {
-        std::fputs(fmt::format("{}\n", one_line(with_other_names(line))).c_str(), stderr);
+        std::fputs(fmt::format("{}\n", one_line(with_path_aliases(line))).c_str(), stderr);
     }
 }
 

@@ -8,71 +8,71 @@ namespace octant::ui::base {
 
 namespace {
 
-struct Stop {
+struct HandledSignal {
     int number;
     const char* name;
 };
 
-constexpr std::array stops{
-    Stop{SIGINT, "SIGINT"}, Stop{SIGTERM, "SIGTERM"}, Stop{SIGHUP, "SIGHUP"}};
+constexpr std::array signal_handler_is_set{
+    HandledSignal{SIGINT, "SIGINT"}, HandledSignal{SIGTERM, "SIGTERM"}, HandledSignal{SIGHUP, "SIGHUP"}};
 
-volatile std::sig_atomic_t signal_that_came = 0;
+volatile std::sig_atomic_t received_signal = 0;
 
-void remember(int number) {
-    if (signal_that_came != 0) {
+void store_signal(int number) {
+    if (received_signal != 0) {
         std::signal(number, SIG_DFL);
         ::raise(number); // acts when this handler returns
         return;
     }
-    signal_that_came = number;
+    received_signal = number;
 }
 
-void handle(int number, void (*handler)(int)) {
-    struct sigaction now {};
+void set_handler(int number, void (*handler)(int)) {
+    struct sigaction current_action {};
 
-    if (sigaction(number, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) {
+    if (sigaction(number, nullptr, &current_action) != 0 || current_action.sa_handler == SIG_IGN) {
         return;
     }
 
-    struct sigaction action {};
+    struct sigaction chosen_action {};
 
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, nullptr);
+    chosen_action.sa_handler = handler;
+    chosen_action.sa_flags = SA_RESTART;
+    sigemptyset(&chosen_action.sa_mask);
+    sigaction(number, &chosen_action, nullptr);
 }
 
 } // namespace
 
 StopSignals::StopSignals() {
-    for (const Stop& stop : stops) {
-        handle(stop.number, remember);
+    for (const HandledSignal& stop : signal_handler_is_set) {
+        set_handler(stop.number, store_signal);
     }
 }
 
 StopSignals::~StopSignals() {
-    for (const Stop& stop : stops) {
-        handle(stop.number, SIG_DFL);
+    for (const HandledSignal& stop : signal_handler_is_set) {
+        set_handler(stop.number, SIG_DFL);
     }
 }
 
-bool StopSignals::came() {
-    return signal_that_came != 0;
+bool StopSignals::received() {
+    return received_signal != 0;
 }
 
 std::string StopSignals::name() {
-    for (const Stop& stop : stops) {
-        if (stop.number == signal_that_came) {
+    for (const HandledSignal& stop : signal_handler_is_set) {
+        if (stop.number == received_signal) {
             return stop.name;
         }
     }
     return {};
 }
 
-void end_by_signal_that_came() {
-    if (signal_that_came != 0) {
-        std::signal(signal_that_came, SIG_DFL);
-        ::raise(signal_that_came);
+void exit_by_received_signal() {
+    if (received_signal != 0) {
+        std::signal(received_signal, SIG_DFL);
+        ::raise(received_signal);
     }
 }
 

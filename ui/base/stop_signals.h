@@ -17,7 +17,7 @@ public:
     StopSignals& operator=(StopSignals&&) = delete;
 
     /// True once one of them came, since the program began.
-    static bool came();
+    static bool received();
 
     /// "SIGINT", "SIGTERM" or "SIGHUP"; empty where none came.
     static std::string name();
@@ -28,6 +28,6 @@ public:
 struct StoppedBySignal {};
 
 /// Ends the program by the signal that came, as whoever started it expects; returns where none did.
-void end_by_signal_that_came();
+void exit_by_received_signal();
 
 } // namespace octant::ui::base

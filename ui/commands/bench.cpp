@@ -31,10 +31,10 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr int floor_triangles = 20000;
+constexpr int baseline_triangles = 20000;
 constexpr int warm_up_frames = 20;
-constexpr int usual_frames = 300;
-constexpr int frames_of_features = 30; ///< a minute for them all
+constexpr int default_frames = 300;
+constexpr int feature_frames = 30; ///< a minute for them all
 
 settings::RunSettings by_gl(settings::RunSettings settings) {
     settings.drawing.renderer = settings::RendererKind::Gl;
@@ -43,23 +43,23 @@ settings::RunSettings by_gl(settings::RunSettings settings) {
 }
 
 /// The platform's floor, drawn by OpenGL with one sample a pixel.
-class Floor {
+class BaselineScene {
 public:
-    explicit Floor(const settings::RunSettings& settings)
+    explicit BaselineScene(const settings::RunSettings& settings)
         : renderer_(flight::make_renderer(by_gl(settings))) {
         plan_.view_to_clip = scene::view_to_clip(
             {}, static_cast<double>(settings.view.size_px.x) / settings.view.size_px.y);
-        grid_ = visuals::gl::bare_grid(floor_triangles, plan_.view_to_clip);
+        grid_ = visuals::gl::bare_grid(baseline_triangles, plan_.view_to_clip);
         plan_.ground = {grid_.vertices, grid_.indices};
         planning::StepWriter(plan_).add_ground();
         renderer_->warm_up();
     }
 
-    ~Floor() = default;
-    Floor(const Floor&) = delete;
-    Floor& operator=(const Floor&) = delete;
-    Floor(Floor&&) = delete;
-    Floor& operator=(Floor&&) = delete;
+    ~BaselineScene() = default;
+    BaselineScene(const BaselineScene&) = delete;
+    BaselineScene& operator=(const BaselineScene&) = delete;
+    BaselineScene(BaselineScene&&) = delete;
+    BaselineScene& operator=(BaselineScene&&) = delete;
 
     report::FrameRecord draw() {
         report::FrameRecord record;
@@ -191,8 +191,8 @@ std::vector<BenchScene> scenes_of(const BenchOptions& options) {
                 settings.view.samples.reset();
             }
             const BenchScene scene{name_of(settings), settings, false};
-            if (options.growth) {
-                std::ranges::move(growth_scenes(scene), std::back_inserter(scenes));
+            if (options.triangle_counts) {
+                std::ranges::move(triangle_count_scenes(scene), std::back_inserter(scenes));
             } else {
                 scenes.push_back(scene);
             }
@@ -203,14 +203,14 @@ std::vector<BenchScene> scenes_of(const BenchOptions& options) {
 
 /// A scene's session; none of an optional one whose world cannot be loaded.
 std::unique_ptr<flight::Session> session_of(const BenchScene& scene, bool quiet) {
-    base::say(quiet, fmt::format("loading {}", scene.name));
+    base::print_note(quiet, fmt::format("loading {}", scene.name));
     try {
         return std::make_unique<flight::Session>(scene.settings);
     } catch (const Error& error) {
         if (!scene.is_optional) {
             throw;
         }
-        base::say(quiet, fmt::format("left out: {}", error.what()));
+        base::print_note(quiet, fmt::format("left out: {}", error.what()));
         return nullptr;
     }
 }
@@ -218,9 +218,9 @@ std::unique_ptr<flight::Session> session_of(const BenchScene& scene, bool quiet)
 /// Draws scenes and the floor in turn.
 std::vector<BenchResult>
 timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options) {
-    Floor floor(options.settings);
+    BaselineScene floor(options.settings);
     std::vector<Timed> timed(1);
-    timed[0].name = fmt::format("floor: bare grid of {} triangles", floor_triangles);
+    timed[0].name = fmt::format("floor: bare grid of {} triangles", baseline_triangles);
     std::vector<std::unique_ptr<flight::Session>> sessions;
     for (const BenchScene& scene : scenes) {
         if (auto session = session_of(scene, options.quiet)) {
@@ -260,7 +260,7 @@ timed_in_turn(const std::vector<BenchScene>& scenes, const BenchOptions& options
 } // namespace
 
 int timed_frames(const BenchOptions& options) {
-    return options.frames.value_or(options.features ? frames_of_features : usual_frames);
+    return options.frames.value_or(options.features ? feature_frames : default_frames);
 }
 
 std::vector<BenchResult> run_bench(const BenchOptions& options) {
@@ -273,7 +273,7 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
         std::vector<BenchResult> of_scene = timed_in_turn(feature_scenes(scene), options);
         const double plain_ms = of_scene[1].cpu_ms;
         for (BenchResult& result : of_scene) {
-            result.of_plain = result.cpu_ms / plain_ms;
+            result.ratio_to_plain = result.cpu_ms / plain_ms;
             results.push_back(std::move(result));
         }
     }

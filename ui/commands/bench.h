@@ -11,12 +11,12 @@ namespace octant::ui::commands {
 
 struct BenchOptions {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< size, samples, triangles, aircraft and drawing are used
+        settings::measurement_settings(); ///< size, samples, triangles, aircraft and drawing are used
     /// One scene each, and each renderer if none is asked for; none: the usual ones.
     std::vector<std::string> terrains;
     std::optional<int> frames; ///< timed, of each scene; else as many as are usual
     bool features = false;     ///< each scene with and without each feature of the picture
-    bool growth = false;       ///< each scene with 20,000 to 200,000 triangles of ground
+    bool triangle_counts = false;       ///< each scene with 20,000 to 200,000 triangles of ground
     bool quiet = false;
 };
 
@@ -34,7 +34,7 @@ struct BenchResult {
     double draw_wait_ms = 0.0; ///< of draw_ms
     double cpu_ms = 0.0;       ///< median of the time that all threads took of processors
     /// That, over the same scene's without features.
-    std::optional<double> of_plain = {};
+    std::optional<double> ratio_to_plain = {};
     int triangles = 0; ///< of ground, median
     /// median_ms for each 1,000 of them; nothing where there are none.
     std::optional<double> ms_per_1000_triangles = {};

@@ -103,7 +103,7 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene) {
     return scenes;
 }
 
-std::vector<BenchScene> growth_scenes(const BenchScene& scene) {
+std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene) {
     std::vector<BenchScene> scenes;
     for (const int triangles : {20000, 50000, 100000, 200000}) {
         scenes.push_back({fmt::format("{}, {}", scene.name, triangles), scene.settings, false});

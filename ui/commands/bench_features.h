@@ -22,6 +22,6 @@ struct BenchScene {
 std::vector<BenchScene> feature_scenes(const BenchScene& scene);
 
 /// A scene with 20,000, 50,000, 100,000 and 200,000 triangles of ground.
-std::vector<BenchScene> growth_scenes(const BenchScene& scene);
+std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene);
 
 } // namespace octant::ui::commands

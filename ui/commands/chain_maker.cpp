@@ -35,7 +35,7 @@ double certified_distance_m(const TriangleMesh& original, const TriangleMesh& me
                {.negligible_m = 1e-6 * models::diagonal_m(original),
                 .samples = 0,
                 .threads = threads,
-                .larger_alone = true})
+                .maximum_only = true})
         .max_hausdorff_m();
 }
 
@@ -76,13 +76,13 @@ level_chain(const models::simplify::AttributeSeams& seams, const ChainOptions& o
     const TriangleMesh& last = chain.levels.back().mesh;
     chain.polygons = options.polygons;
     if (!chain.polygons && last.triangles.size() <= max_polygons) {
-        chain.polygons = models::polygons::as_polygons(last);
+        chain.polygons = models::polygons::polygons_from_mesh(last);
     }
     if (chain.polygons) {
         chain.polygons_error_m =
             options.polygons
                 ? certified_distance_m(
-                      original, models::polygons::as_triangles(*chain.polygons), simplify.threads)
+                      original, models::polygons::mesh_from_polygons(*chain.polygons), simplify.threads)
                 : chain.levels.back().error_m;
     }
     return chain;

@@ -9,7 +9,7 @@
 namespace octant::ui::commands {
 
 /// Thrown by a command whose work is done and whose check said no: exit code 1, without a line.
-struct CheckSaidNo {};
+struct CheckFailed {};
 
 /// A command as the user meets it. What its options read into belongs to `run` and to them.
 struct Command {

@@ -1,7 +1,7 @@
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/commands/bench.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 
 #include <array>
@@ -23,7 +23,7 @@ struct BenchCommand {
 };
 
 /// A scene that is harder than the usual ones: ten aircraft in a picture of two million pixels.
-void put_formation(BenchOptions& options) {
+void set_formation(BenchOptions& options) {
     constexpr std::size_t aircraft = 10;
     options.terrains = {"canyon"};
     options.settings.path.aircraft.assign(aircraft, "f15");
@@ -73,7 +73,7 @@ void print_table(const std::vector<BenchResult>& results) {
                 r.mesh_wait_ms,
                 r.draw_wait_ms,
                 r.cpu_ms,
-                figure_or_dash(r.of_plain, 2),
+                figure_or_dash(r.ratio_to_plain, 2),
                 r.triangles,
                 figure_or_dash(r.ms_per_1000_triangles, 3),
                 r.hash)
@@ -83,7 +83,7 @@ void print_table(const std::vector<BenchResult>& results) {
 }
 
 void print_json(const std::vector<BenchResult>& results) {
-    auto scenes = base::Figures::list({});
+    auto scenes = base::JsonValue::list({});
     for (const BenchResult& r : results) {
         scenes.push_back(
             {{"name", r.name},
@@ -97,52 +97,52 @@ void print_json(const std::vector<BenchResult>& results) {
              {"mesh_wait_ms", r.mesh_wait_ms},
              {"draw_wait_ms", r.draw_wait_ms},
              {"cpu_ms", r.cpu_ms},
-             {"of_plain", r.of_plain},
+             {"of_plain", r.ratio_to_plain},
              {"triangles", r.triangles},
              {"ms_per_1000_triangles", r.ms_per_1000_triangles},
              {"hash", fmt::format("{:016x}", r.hash)}});
     }
-    base::print_figures({{"scenes", scenes}}, true);
+    base::print_value({{"scenes", scenes}}, true);
 }
 
 constexpr std::array sample_counts{1, 4, 16};
 
 /// An option for one thing each time that it stands, with all defaults in help.
-Option again(std::string name, std::string meaning, std::vector<std::string>& values) {
-    return showing(
+Option repeat_option(std::string name, std::string meaning, std::vector<std::string>& values) {
+    return with_shown_default(
         fmt::format("[{}]", fmt::join(values, ",")),
-        list_option(std::move(name), "NAME|FILE", std::move(meaning), Takes::OneWordAgain, values));
+        list_option(std::move(name), "NAME|FILE", std::move(meaning), Arity::Repeatable, values));
 }
 
 std::vector<Option> options_of(BenchCommand& bench) {
     BenchOptions& options = bench.options;
     settings::RunSettings& settings = options.settings;
     std::vector<Option> table = {
-        showing(
+        with_shown_default(
             "[hills,canyon,background60; with --features: hills]",
             list_option(
                 "--terrain",
                 "NAME|FILE",
                 "scenes: one for each ground",
-                Takes::OneWordAgain,
+                Arity::Repeatable,
                 options.terrains)),
-        again("--aircraft", "aircraft of every scene; repeat for wingmen", settings.path.aircraft),
-        read_option(
+        repeat_option("--aircraft", "aircraft of every scene; repeat for wingmen", settings.path.aircraft),
+        value_option(
             {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, settings.view.size_px),
-        showing(
+        with_shown_default(
             "20000",
-            read_option(
+            value_option(
                 {"triangles", "N", "triangles of ground", 100, 10000000},
                 settings.ground.triangles)),
-        read_option(
+        value_option(
             {"renderer", "KIND", "raster or gl; auto: both in turn, with --features raster"},
             settings.drawing.renderer),
-        read_option(
+        value_option(
             {"samples", "N", "samples a pixel [raster: 16, gl: 1]", 1, 16, sample_counts},
             settings.view.samples),
-        read_option(
+        value_option(
             {"context", "KIND", "OpenGL's context: osmesa or egl"}, settings.drawing.context),
-        read_option(
+        value_option(
             {"frames",
              "N",
              "timed frames of each scene [300; with --features 30, about a minute]",
@@ -168,7 +168,7 @@ std::vector<Option> options_of(BenchCommand& bench) {
             "--growth",
             "each scene with 20,000, 50,000, 100,000 and 200,000 triangles of ground in turn, in "
             "place of --triangles; ms/1000 is the median for each 1,000 triangles",
-            options.growth),
+            options.triangle_counts),
         flag("--json", "as JSON", bench.json),
         flag("--quiet", "no progress", options.quiet)};
     add_file_options(table, settings.path);
@@ -189,7 +189,7 @@ Command bench_command() {
                   "  octant bench --growth --terrain canyon",
         .run = [bench] {
             if (bench->formation) {
-                put_formation(bench->options);
+                set_formation(bench->options);
             }
             const std::vector<BenchResult> results = run_bench(bench->options);
             bench->json ? print_json(results) : print_table(results);

@@ -1,15 +1,15 @@
 #include "models/polygons/obj_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
-#include "ui/commands/certificate_work.h"
+#include "ui/commands/certificates.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/draw_order_options.h"
-#include "ui/commands/percents.h"
+#include "ui/commands/percent_progress.h"
 #include "ui/settings/settings_text.h"
-#include "ui/world/order_input.h"
-#include "visuals/draworder/eyes_beyond.h"
+#include "ui/world/order_model.h"
+#include "visuals/draworder/with_min_distance.h"
 #include "visuals/draworder/octant_path.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/orderfile/order_check.h"
@@ -35,10 +35,10 @@ namespace orderfile = visuals::orderfile;
 
 namespace {
 
-using base::Figures;
+using base::JsonValue;
 
 /// The orders that are shown, exported and checked, and the model that they speak of.
-struct Work {
+struct PreparedOrder {
     models::polygons::PolygonModel model;
     models::polygons::FileAxes axes;
     orderfile::CellOrders orders;
@@ -46,41 +46,41 @@ struct Work {
         order; ///< as it is proved; nothing for cells that were read
 };
 
-std::string cell_name(const Work& work, std::size_t cell) {
+std::string cell_name(const PreparedOrder& work, std::size_t cell) {
     const std::string& path = work.orders.cells[cell].path;
     return path.empty() ? fmt::format("{}", cell + 1) : draworder::path_in_file(path, work.axes);
 }
 
-void add_figures(Figures& figures, const draworder::OrderedModel& ordered, std::size_t polygons) {
+void add_order_results(JsonValue& results, const draworder::OrderedModel& ordered, std::size_t polygons) {
     const world::PlaneTests tests = world::plane_tests(ordered);
-    figures["polygons"] = polygons;
-    figures["polygons_after_splitting"] = ordered.model.polygons.size();
-    figures["splits"] = ordered.splits;
-    figures["drawn_by"] = settings::text_of(ordered.drawn_by);
-    const bool has_cells = ordered.order.one_cell_an_eye();
-    figures[has_cells ? "cells" : "parts"] = ordered.order.cell_count();
-    figures["lists"] = ordered.order.list_count();
-    figures["cyclic_cells"] = ordered.cyclic_cells;
-    figures["plane_tests_most"] = tests.most;
-    figures["plane_tests_mean"] = tests.mean;
-    figures["min_distance_m"] = ordered.min_distance_m;
-    figures["rays_tried"] = ordered.trial.rays;
-    figures["rays_tried_wrong"] = ordered.trial.wrong;
-    figures["proof_is_whole"] = ordered.trial.is_proof_whole;
-    figures["proof_open"] = ordered.trial.unproved;
+    results["polygons"] = polygons;
+    results["polygons_after_splitting"] = ordered.model.polygons.size();
+    results["splits"] = ordered.splits;
+    results["drawn_by"] = settings::text_of(ordered.found_by);
+    const bool has_cells = ordered.order.has_one_cell_per_eye();
+    results[has_cells ? "cells" : "parts"] = ordered.order.cell_count();
+    results["lists"] = ordered.order.list_count();
+    results["cyclic_cells"] = ordered.cyclic_cells;
+    results["plane_tests_most"] = tests.most;
+    results["plane_tests_mean"] = tests.mean;
+    results["min_distance_m"] = ordered.min_distance_m;
+    results["rays_tried"] = ordered.ray_test.rays;
+    results["rays_tried_wrong"] = ordered.ray_test.wrong;
+    results["proof_is_whole"] = ordered.ray_test.is_proof_complete;
+    results["proof_open"] = ordered.ray_test.unproved;
 }
 
 /// How many cells a file of orders has, or parts.
-void add_size(Figures& figures, const orderfile::CellOrders& orders) {
+void add_size(JsonValue& results, const orderfile::CellOrders& orders) {
     if (orders.parts) {
-        figures["parts"] = orders.parts->cell_count();
+        results["parts"] = orders.parts->cell_count();
     } else {
-        figures["cells"] = orders.cells.size();
+        results["cells"] = orders.cells.size();
     }
 }
 
 /// Finds the orders of a model, or reads them from the cache.
-ordercache::CachedOrder found(
+ordercache::CachedOrder find_or_read_orders(
     models::polygons::PolygonModel model,
     const std::optional<std::string>& cache,
     const draworder::OrderOptions& options) {
@@ -92,63 +92,63 @@ ordercache::CachedOrder found(
 
 /// The order as it can be proved: of octants that hold from a distance on, nothing is claimed for
 /// nearer eyes.
-draworder::DrawOrder provable(const draworder::OrderedModel& ordered) {
-    return ordered.drawn_by == draworder::DrawnBy::Cells
-               ? draworder::eyes_beyond(ordered.order, ordered.centre_m, ordered.min_distance_m)
+draworder::DrawOrder order_to_prove(const draworder::OrderedModel& ordered) {
+    return ordered.found_by == draworder::OrderSource::Cells
+               ? draworder::with_min_distance(ordered.order, ordered.centre_m, ordered.min_distance_m)
                : ordered.order;
 }
 
 /// Finds the orders, or reads those that are to be checked.
-Work prepared(const DrawOrderOptions& options, Figures& figures) {
-    world::OrderInput input = world::read_order_input(options.model, options.axes);
+PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results) {
+    world::OrderModel input = world::load_order_model(options.model, options.axes);
     for (const std::string& note : input.model.notes) {
-        base::say(options.quiet, "note: " + note);
+        base::print_note(options.quiet, "note: " + note);
     }
-    figures["model"] = input.model.name;
+    results["model"] = input.model.name;
     if (!options.check_file.empty()) {
         const std::size_t faces = input.model.polygons.size();
-        Work work{std::move(input.model), input.axes, {}, {}};
+        PreparedOrder work{std::move(input.model), input.axes, {}, {}};
         work.orders = orderfile::read_order_file(options.check_file, faces, work.axes);
         if (work.orders.parts) {
             work.order = work.orders.parts;
             work.model.parents = work.orders.parents;
         }
-        figures["orders"] = options.check_file;
-        figures["polygons"] = faces;
-        add_size(figures, work.orders);
+        results["orders"] = options.check_file;
+        results["polygons"] = faces;
+        add_size(results, work.orders);
         return work;
     }
-    figures["method"] = settings::text_of(options.order.method);
+    results["method"] = settings::text_of(options.order.method);
     const std::size_t polygons = input.model.polygons.size();
     draworder::OrderOptions order = options.order;
-    Percents percents("searching for cells", options.quiet, "% of the budget");
+    PercentProgress percents("searching for cells", options.quiet, "% of the budget");
     order.progress = [&](double share) { percents.show(share); };
-    ordercache::CachedOrder cached = found(std::move(input.model), options.cache, order);
+    ordercache::CachedOrder cached = find_or_read_orders(std::move(input.model), options.cache, order);
     draworder::OrderedModel& ordered = cached.ordered;
     const double build_ms = percents.finish();
     for (const std::string& note : cached.notes) {
-        base::say(options.quiet, "note: " + note);
+        base::print_note(options.quiet, "note: " + note);
     }
-    add_figures(figures, ordered, polygons);
+    add_order_results(results, ordered, polygons);
     if (options.cache) {
-        figures["from_cache"] = cached.was_kept;
+        results["from_cache"] = cached.was_cached;
     }
-    figures["build_ms"] = build_ms;
+    results["build_ms"] = build_ms;
     for (const std::string& note : ordered.notes) {
-        base::say(options.quiet, "note: " + note);
+        base::print_note(options.quiet, "note: " + note);
     }
     if (options.json) {
-        figures["notes"] = ordered.notes; // else they are said
+        results["notes"] = ordered.notes; // else they are said
     }
     orderfile::CellOrders orders = orderfile::cell_orders(ordered);
-    draworder::DrawOrder proved = provable(ordered);
+    draworder::DrawOrder proved = order_to_prove(ordered);
     return {std::move(ordered.model), input.axes, std::move(orders), std::move(proved)};
 }
 
-void export_files(const Work& work, const DrawOrderOptions& options) {
+void export_files(const PreparedOrder& work, const DrawOrderOptions& options) {
     if (!options.export_model.empty()) {
         models::polygons::write_obj(options.export_model, work.model, work.axes);
-        base::say(options.quiet, "model: " + options.export_model);
+        base::print_note(options.quiet, "model: " + options.export_model);
     }
     if (options.export_file.empty()) {
         return;
@@ -160,10 +160,10 @@ void export_files(const Work& work, const DrawOrderOptions& options) {
         }
     }
     write_file(options.export_file, orderfile::order_text(orders, work.axes));
-    base::say(options.quiet, "orders: " + options.export_file);
+    base::print_note(options.quiet, "orders: " + options.export_file);
 }
 
-std::string doubt_in_words(const Work& work, const orderfile::Doubt& doubt) {
+std::string unproved_pair_text(const PreparedOrder& work, const orderfile::UnprovedPair& doubt) {
     const std::string cell = cell_name(work, doubt.cell);
     if (doubt.first == doubt.later) {
         return fmt::format("cell {}: P{} is not listed and may face an eye", cell, doubt.first + 1);
@@ -176,7 +176,7 @@ std::string doubt_in_words(const Work& work, const orderfile::Doubt& doubt) {
 }
 
 /// Adds to the figures; false when something could not be certified.
-bool certified(const Work& work, const DrawOrderOptions& options, Figures& figures) {
+bool write_and_check_certificate(const PreparedOrder& work, const DrawOrderOptions& options, JsonValue& results) {
     base::Progress progress(
         "checking cells", static_cast<int>(work.orders.cells.size()), options.quiet, "cells");
     const orderfile::OrderCheck check =
@@ -184,29 +184,29 @@ bool certified(const Work& work, const DrawOrderOptions& options, Figures& figur
             progress.show(static_cast<int>(done));
         });
     progress.finish();
-    figures["pairs"] = check.pairs;
-    figures["pairs_certified_by_planes"] = check.by_plane;
-    figures["pairs_certified_by_programmes"] = check.by_programme;
-    figures["pairs_not_certified"] = check.pairs_open;
-    figures["unlisted"] = check.unlisted;
-    figures["unlisted_not_certified"] = check.unlisted_open;
-    auto doubts = Figures::list({});
-    for (const orderfile::Doubt& doubt : check.doubts) {
-        doubts.push_back(doubt_in_words(work, doubt));
+    results["pairs"] = check.pairs;
+    results["pairs_certified_by_planes"] = check.by_plane;
+    results["pairs_certified_by_programmes"] = check.by_linear_program;
+    results["pairs_not_certified"] = check.pairs_unproved;
+    results["unlisted"] = check.unlisted;
+    results["unlisted_not_certified"] = check.unlisted_unproved;
+    auto first_unproved = JsonValue::list({});
+    for (const orderfile::UnprovedPair& doubt : check.first_unproved) {
+        first_unproved.push_back(unproved_pair_text(work, doubt));
     }
-    figures["doubts"] = doubts;
+    results["doubts"] = first_unproved;
     return check.good();
 }
 
 /// Adds to the figures; false when a ray sees a wrong polygon or an eye has no cell.
-bool rays_are_right(const Work& work, int rays, Figures& figures) {
-    const orderfile::RayCount count = world::cast_rays(work.model, work.orders, rays);
-    figures["eyes"] = count.eyes;
-    figures["eyes_without_cell"] = count.eyes_in_gap;
-    figures["rays_that_hit"] = count.hits;
-    figures["rays_wrong"] = count.wrong;
-    figures["wrong_share"] = count.wrong_share();
-    return count.wrong == 0 && count.eyes_in_gap == 0;
+bool ray_test_passes(const PreparedOrder& work, int rays, JsonValue& results) {
+    const orderfile::RayTestCounts count = world::cast_rays(work.model, work.orders, rays);
+    results["eyes"] = count.eyes;
+    results["eyes_without_cell"] = count.eyes_without_cell;
+    results["rays_that_hit"] = count.hits;
+    results["rays_wrong"] = count.wrong;
+    results["wrong_share"] = count.wrong_share();
+    return count.wrong == 0 && count.eyes_without_cell == 0;
 }
 
 void print_table(const std::vector<orderfile::OrderRow>& rows) {
@@ -218,34 +218,34 @@ void print_table(const std::vector<orderfile::OrderRow>& rows) {
 }
 
 void print_results(
-    const Work& work, const DrawOrderOptions& options, bool checked, Figures figures) {
+    const PreparedOrder& work, const DrawOrderOptions& options, bool checked, JsonValue results) {
     const auto rows = options.table ? orderfile::order_table(work.model, work.orders, work.axes)
                                     : std::vector<orderfile::OrderRow>{};
     if (options.json) {
         for (const orderfile::OrderRow& row : rows) {
-            figures["table"].push_back(
+            results["table"].push_back(
                 {{"cell", row.cell}, {"region", row.region}, {"order", row.list}});
         }
-        base::print_figures(figures, true);
+        base::print_value(results, true);
         return;
     }
     print_table(rows);
     if (!options.table || checked) {
-        base::print_figures(figures, false);
+        base::print_value(results, false);
     }
 }
 
 void verify(const DrawOrderOptions& options) {
-    Figures figures;
-    const bool good = verified(options.verify, options.quiet, figures);
-    base::print_figures(figures, options.json);
+    JsonValue results;
+    const bool good = verify_certificate(options.verify, options.quiet, results);
+    base::print_value(results, options.json);
     if (!good) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 
 void draw_order(const DrawOrderOptions& options) {
-    refuse_impossible(options);
+    check_draw_order_options(options);
     if (!options.verify.empty()) {
         verify(options);
         return;
@@ -253,30 +253,30 @@ void draw_order(const DrawOrderOptions& options) {
     if (options.cache) {
         ordercache::make_cache_folder(*options.cache);
     }
-    Figures figures;
-    const Work work = prepared(options, figures);
+    JsonValue results;
+    const PreparedOrder work = prepare_order(options, results);
     export_files(work, options);
     if (!options.certificate.empty()) {
         write_certificate(
-            options.certificate, {work.model, *work.order, work.axes}, options.quiet, figures);
+            options.certificate, {work.model, *work.order, work.axes}, options.quiet, results);
     }
     bool good = true;
     if (options.check && work.orders.parts) {
-        good = is_proved({work.model, *work.order, work.axes}, options.quiet, figures);
+        good = order_is_proved({work.model, *work.order, work.axes}, options.quiet, results);
     } else if (options.check) {
-        good = certified(work, options, figures);
+        good = write_and_check_certificate(work, options, results);
     }
-    const int rays = options.rays.value_or(options.check ? usual_rays : 0);
+    const int rays = options.rays.value_or(options.check ? default_rays : 0);
     if (rays > 0) {
-        good = rays_are_right(work, rays, figures) && good;
+        good = ray_test_passes(work, rays, results) && good;
     }
     const bool checked = options.check || rays > 0;
     if (checked) {
-        figures["right"] = good;
+        results["right"] = good;
     }
-    print_results(work, options, checked, std::move(figures));
+    print_results(work, options, checked, std::move(results));
     if (!good) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 

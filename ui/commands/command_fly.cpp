@@ -4,8 +4,8 @@
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/flight_summary.h"
-#include "ui/commands/read_option.h"
-#include "ui/commands/replay_packets.h"
+#include "ui/commands/value_option.h"
+#include "ui/commands/packet_replay.h"
 #include "ui/commands/settings_options.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
@@ -13,10 +13,10 @@
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/video_pipe.h"
-#include "ui/settings/part_text.h"
+#include "ui/settings/frame_part.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "ui/world/near_ground_notes.h"
+#include "ui/world/near_detail_warnings.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +57,7 @@ void wait_for(const base::Stopwatch& since_start, double time_s) {
 }
 
 /// Throws Error when the command line sets anything beside --replay that could change pictures.
-void refuse_settings_beside_replay(const FlyOptions& options) {
+void check_no_settings_with_replay(const FlyOptions& options) {
     constexpr std::array<std::string_view, 4> harmless{
         "--realtime", "--pictures", "--warm-up", "--order-cache"};
     for (const std::string& name : options.given) {
@@ -79,7 +79,7 @@ void check_options(const FlyOptions& options) {
     if (!options.replay) {
         return;
     }
-    refuse_settings_beside_replay(options);
+    check_no_settings_with_replay(options);
     if (options.if_new) {
         throw Error("--if-new: expected no --replay beside it, got one");
     }
@@ -96,16 +96,16 @@ void check_options(const FlyOptions& options) {
 /// Makes the session repeat the recording's rows. Throws Error when they do not fit it.
 void start_replay(const flight::Replay& replay, flight::Session& session, bool quiet) {
     flight::check_frames(replay, session.frames());
-    if (static_cast<int>(replay.decisions.size()) < session.frames()) {
-        base::say(
+    if (static_cast<int>(replay.quality_targets.size()) < session.frames()) {
+        base::print_note(
             quiet,
             fmt::format(
                 "note: {} has {} of {} frames; these are flown",
                 replay.folder.string(),
-                replay.decisions.size(),
+                replay.quality_targets.size(),
                 session.frames()));
     }
-    session.replay(replay.decisions);
+    session.replay(replay.quality_targets);
 }
 
 /// Every frame of the session, recorded, until a signal comes. What ended the flight before its
@@ -116,15 +116,15 @@ std::string fly_frames(
     flight::Sender& sender,
     flight::FlightRecorder& recorder) {
     const std::optional<std::string>& part = options.settings.time.part;
-    const int first = part ? session.begin_part(*settings::part_from_text(*part)).first : 0;
+    const int first = part ? session.begin_frame_range(*settings::part_from_text(*part)).first : 0;
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, options.quiet);
-    for (const std::string& line : sender.await_channels(session)) {
-        base::say(false, line);
+    for (const std::string& line : sender.wait_for_channels(session)) {
+        base::print_note(false, line);
     }
     const base::Stopwatch since_start;
     int frame = first;
-    for (; frame < session.frames() && !(base::StopSignals::came() && frame > first); ++frame) {
+    for (; frame < session.frames() && !(base::StopSignals::received() && frame > first); ++frame) {
         const double due_s = (frame - first) / session.rate_hz();
         if (options.settings.time.realtime) {
             wait_for(since_start, due_s);
@@ -136,13 +136,13 @@ std::string fly_frames(
             record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
         }
         sender.send(session);
-        record.skew_frames = sender.await_pictures();
+        record.skew_frames = sender.wait_for_pictures();
         recorder.add(record, session);
         progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
     }
     progress.finish();
     for (const std::string& line : sender.channel_lines()) {
-        base::say(false, line);
+        base::print_note(false, line);
     }
     return frame == session.frames()
                ? std::string()
@@ -152,7 +152,7 @@ std::string fly_frames(
 
 /// What the automatic share of smooth polygons came to.
 std::string shading_note(const visuals::shading::ShadingState& shading) {
-    if (shading.no_gain) {
+    if (shading.has_no_gain) {
         return "shading: flat polygons are not measurably faster here, so all are smooth";
     }
     return fmt::format(
@@ -172,20 +172,20 @@ void fly(FlyOptions options) {
         throw Error(
             "path: expected a path or a track, got 'live', which others fly: octant listen");
     }
-    options.settings = world::with_absolute_files(options.settings);
-    if (options.if_new && flight::is_recorded(options.record, options.settings)) {
-        base::say(
+    options.settings = world::with_absolute_paths(options.settings);
+    if (options.if_new && flight::is_already_recorded(options.record, options.settings)) {
+        base::print_note(
             options.quiet, fmt::format("{} is done already", options.record.folder->string()));
         return;
     }
     flight::Sender sender(options.send);
     flight::Session session(options.settings);
     for (const std::string& note : session.world().notes) {
-        base::say(options.quiet, fmt::format("note: {}", note));
+        base::print_note(options.quiet, fmt::format("note: {}", note));
     }
     for (const std::string& note :
-         world::near_ground_notes(session.world(), options.settings.ground, options.given)) {
-        base::say(options.quiet, fmt::format("note: {}", note));
+         world::near_detail_warnings(session.world(), options.settings.ground, options.given)) {
+        base::print_note(options.quiet, fmt::format("note: {}", note));
     }
     if (options.replay && !live) {
         start_replay(*options.replay, session, options.quiet);
@@ -193,43 +193,43 @@ void fly(FlyOptions options) {
     const base::StopSignals stop_signals;
     flight::FlightRecorder recorder(options.record, options.settings, session);
     std::string stopped;
-    FlownPackets packets;
+    PacketReplay packets;
     if (live) {
-        packets = fly_packets(*options.replay, session, recorder, options.quiet);
+        packets = replay_packets(*options.replay, session, recorder, options.quiet);
         stopped = packets.stopped;
     } else {
         stopped = fly_frames(options, session, sender, recorder);
     }
     if (!stopped.empty()) {
-        base::say(options.quiet, fmt::format("note: ended by {}", stopped));
+        base::print_note(options.quiet, fmt::format("note: ended by {}", stopped));
     }
-    const flight::FlightEnd end = recorder.finish(session, stopped);
+    const flight::FlightResult end = recorder.finish(session, stopped);
     if (session.shading() && !options.replay) {
-        base::say(options.quiet, shading_note(*session.shading()));
+        base::print_note(options.quiet, shading_note(*session.shading()));
     }
     for (const std::string& note : end.notes) {
-        base::say(options.quiet, note);
+        base::print_note(options.quiet, note);
     }
-    for (const std::string& missing : end.missing) {
-        base::say(false, missing);
+    for (const std::string& missing_programs : end.missing_programs) {
+        base::print_note(false, missing_programs);
     }
     if (end.statistics.frames == 0) {
-        base::say(
+        base::print_note(
             options.quiet,
             fmt::format(
                 "note: all {} frames are warm-up, so there are no figures; --warm-up 0 counts them",
                 session.frames()));
     }
-    std::optional<flight::ReplayVerdict> verdict;
+    std::optional<flight::ReplayComparison> verdict;
     if (options.replay && stopped.empty()) {
-        verdict = flight::verdict_on(*options.replay, end.state_hash, end.picture_hash);
+        verdict = flight::compare_with_recording(*options.replay, end.state_hash, end.picture_hash);
     }
     print_summary(end, verdict, options.json);
     if (!end.fault.empty()) {
         throw Error(end.fault);
     }
     if (verdict && !verdict->is_same) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 
@@ -268,13 +268,13 @@ std::vector<Option> options_of(FlyOptions& options) {
             "OWN "
             "[8005], whose picture is waited for, so that several show one frame; "
             "tacview:PORT: for readers of Tacview's telemetry",
-            Takes::OneWordAgain,
+            Arity::Repeatable,
             options.send),
         text_option(
             "--swept",
             "HOW",
             "how octant sweep flies this one beside others, for its report",
-            options.record.swept),
+            options.record.batch_context),
         flag("--if-new", "do nothing when DIR holds this very run already", options.if_new),
         flag("--json", "summary as JSON", options.json),
         flag("--quiet", "no progress, no notes", options.quiet)};

@@ -1,7 +1,7 @@
 #include "ui/commands/command_line.h"
 
 #include "sim/base/error.h"
-#include "ui/commands/nearest_word.h"
+#include "ui/commands/spelling.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,27 +20,27 @@ namespace octant::ui::commands {
 namespace {
 
 constexpr int column_width = 34;
-constexpr int no_end = CLI::detail::expected_max_vector_size;
+constexpr int unlimited_words = CLI::detail::expected_max_vector_size;
 
 void count_words(CLI::Option& option, const Option& row) {
-    switch (row.takes) {
-    case Takes::Nothing:
-    case Takes::OneWord:
+    switch (row.arity) {
+    case Arity::None:
+    case Arity::One:
         break;
-    case Takes::PerhapsOneWord:
+    case Arity::Optional:
         option.expected(0, 1);
         break;
-    case Takes::OneWordAgain:
-    case Takes::SomeWords:
-        option.type_size(row.together)
-            ->expected(no_end)
-            ->allow_extra_args(row.takes == Takes::SomeWords);
+    case Arity::Repeatable:
+    case Arity::OneOrMore:
+        option.type_size(row.words_per_use)
+            ->expected(unlimited_words)
+            ->allow_extra_args(row.arity == Arity::OneOrMore);
         break;
     }
 }
 
 CLI::Option* add_option(CLI::App& app, const Option& row) {
-    if (row.takes == Takes::Nothing) {
+    if (row.arity == Arity::None) {
         const std::string meaning = row.shown_default.empty()
                                         ? row.meaning
                                         : fmt::format("{} [{}]", row.meaning, row.shown_default);
@@ -68,7 +68,7 @@ bool is_truth(std::string_view word) {
 
 /// The words given for an option.
 Words words_of(const CLI::Option& option, const Option& row) {
-    if (row.takes == Takes::Nothing) {
+    if (row.arity == Arity::None) {
         return {option.as<bool>() ? "true" : "false"};
     }
     return option.reduced_results();
@@ -104,35 +104,35 @@ public:
     }
 
     /// What is wrong with the line, where parse() found `fault`.
-    std::string fault_text(const CLI::ParseError& fault, const Words& line) const {
+    std::string parse_error_text(const CLI::ParseError& fault, const Words& line) const {
         const Parsed* const parsed = named();
         const std::vector<Command>& commands =
             parsed == nullptr ? program_.commands : parsed->command->commands;
         if (!commands.empty()) {
             const std::string name = parsed == nullptr ? "" : full_name(*parsed) + ": ";
-            return name + text_of_other_command(commands, first_extra(line));
+            return name + option_of_other_command_error(commands, first_extra(line));
         }
         if (is(fault, CLI::ExitCodes::ExtrasError)) {
-            return fmt::format("{}: {}", full_name(*parsed), text_of_extra(*parsed, line));
+            return fmt::format("{}: {}", full_name(*parsed), unexpected_word_error(*parsed, line));
         }
         if (is(fault, CLI::ExitCodes::RequiredError)) {
             for (std::size_t i = 0; i < parsed->options.size(); ++i) {
                 if (parsed->options[i]->get_required() && parsed->options[i]->count() == 0) {
-                    return text_of_words(parsed->command->options[i], {});
+                    return missing_words_error(parsed->command->options[i], {});
                 }
             }
         }
         const std::string text = fault.what();
         for (std::size_t i = 0; i < parsed->options.size(); ++i) {
             if (is_about(text, parsed->options[i]->get_name())) {
-                return text_of_words(parsed->command->options[i], parsed->options[i]->results());
+                return missing_words_error(parsed->command->options[i], parsed->options[i]->results());
             }
         }
         return text;
     }
 
     /// Options of the command that the line names, read; then what is to be done.
-    std::function<void()> action(const Words& line) const {
+    std::function<void()> chosen_action(const Words& line) const {
         const Parsed& parsed = *named();
         check_flag_values(parsed, line);
         std::vector<std::pair<const Option*, Words>> readings;
@@ -140,7 +140,7 @@ public:
             if (parsed.options[i]->count() > 0) {
                 const Option& row = parsed.command->options[i];
                 readings.emplace_back(&row, words_of(*parsed.options[i], row));
-                refuse_empty_words(row, readings.back().second);
+                check_no_empty_words(row, readings.back().second);
             }
         }
         for (const auto& [row, words] : readings) {
@@ -213,7 +213,7 @@ private:
     }
 
     static std::string
-    text_of_other_command(const std::vector<Command>& commands, const std::string& got) {
+    option_of_other_command_error(const std::vector<Command>& commands, const std::string& got) {
         Words names;
         for (const Command& command : commands) {
             names.push_back(command.name);
@@ -222,10 +222,10 @@ private:
             "expected a command ({}), got {}{}",
             fmt::join(names, ", "),
             got.empty() ? "none" : printable(got),
-            perhaps_meant(got, names));
+            did_you_mean(got, names));
     }
 
-    std::string text_of_extra(const Parsed& parsed, const Words& line) const {
+    std::string unexpected_word_error(const Parsed& parsed, const Words& line) const {
         const std::string got = first_extra(line);
         if (!got.starts_with('-')) {
             return fmt::format("expected no further argument, got '{}'", printable(got));
@@ -238,7 +238,7 @@ private:
         }
         const std::string name = got.substr(0, got.find('='));
         return fmt::format(
-            "expected one of its options, got {}{}", printable(got), perhaps_meant(name, names));
+            "expected one of its options, got {}{}", printable(got), did_you_mean(name, names));
     }
 
     /// Throws Error for a flag with another value than true or false, and for a name that unsets a
@@ -252,7 +252,7 @@ private:
             const std::string name = word.substr(0, equals);
             for (std::size_t i = 0; i < parsed.options.size(); ++i) {
                 const Option& row = parsed.command->options[i];
-                if (row.takes != Takes::Nothing || !parsed.options[i]->check_name(name)) {
+                if (row.arity != Arity::None || !parsed.options[i]->check_name(name)) {
                     continue;
                 }
                 const std::string value = word.substr(equals + 1);
@@ -265,17 +265,17 @@ private:
                         first_name(row)));
                 }
                 if (!is_truth(value)) {
-                    throw Error(text_of_words(row, {value}));
+                    throw Error(missing_words_error(row, {value}));
                 }
             }
         }
     }
 
     /// Throws Error for a word of no letters, as a shell gives for a variable that is not set.
-    static void refuse_empty_words(const Option& row, const Words& words) {
-        const bool may_be_empty = row.takes == Takes::Nothing || row.takes == Takes::PerhapsOneWord;
+    static void check_no_empty_words(const Option& row, const Words& words) {
+        const bool may_be_empty = row.arity == Arity::None || row.arity == Arity::Optional;
         if (!may_be_empty && std::ranges::find(words, "") != words.end()) {
-            throw Error(text_of_words(row, {}));
+            throw Error(missing_words_error(row, {}));
         }
     }
 
@@ -284,21 +284,21 @@ private:
     }
 
     /// The option's words are too few or too many.
-    static std::string text_of_words(const Option& row, const Words& got) {
+    static std::string missing_words_error(const Option& row, const Words& got) {
         std::string name = first_name(row);
         if (!name.starts_with('-')) {
             std::ranges::transform(name, name.begin(), [](unsigned char c) {
                 return static_cast<char>(std::toupper(c));
             });
         }
-        const std::string form = row.takes == Takes::Nothing ? "nothing, =true or =false after it"
+        const std::string form = row.arity == Arity::None ? "nothing, =true or =false after it"
                                  : row.form.empty() || row.form == name ? "a word"
                                                                         : row.form;
         return fmt::format(
             "{}: expected {}{}, got {}",
             name,
             form,
-            row.takes == Takes::OneWord && got.size() > 1 ? " once" : "",
+            row.arity == Arity::One && got.size() > 1 ? " once" : "",
             got.empty() ? "none" : printable(fmt::format("{}", fmt::join(got, " "))));
     }
 
@@ -314,11 +314,11 @@ std::function<void()> printing(std::string text) {
 } // namespace
 
 std::function<void()>
-action_of(const Program& program, int argument_count, const char* const* arguments) {
+parse_command_line(const Program& program, int argument_count, const char* const* arguments) {
     Parser parser(program);
     try {
         parser.parse(argument_count, arguments);
-        return parser.action(Words(arguments + 1, arguments + argument_count));
+        return parser.chosen_action(Words(arguments + 1, arguments + argument_count));
     } catch (const CLI::CallForHelp&) {
         return printing(parser.help());
     } catch (const CLI::CallForAllHelp&) {
@@ -326,7 +326,7 @@ action_of(const Program& program, int argument_count, const char* const* argumen
     } catch (const CLI::CallForVersion& version) {
         return printing(fmt::format("{}\n", version.what()));
     } catch (const CLI::ParseError& fault) {
-        throw Error(parser.fault_text(fault, Words(arguments + 1, arguments + argument_count)));
+        throw Error(parser.parse_error_text(fault, Words(arguments + 1, arguments + argument_count)));
     }
 }
 

@@ -10,6 +10,6 @@ namespace octant::ui::commands {
 /// already, or help. `arguments` begin with the program's own name, as in main(). Throws Error with
 /// one line for a wrong command line.
 std::function<void()>
-action_of(const Program& program, int argument_count, const char* const* arguments);
+parse_command_line(const Program& program, int argument_count, const char* const* arguments);
 
 } // namespace octant::ui::commands

@@ -2,13 +2,13 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
-#include "sim/base/worker_team.h"
-#include "ui/base/figures_text.h"
+#include "sim/base/parallel_for.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
-#include "ui/world/mesh_input.h"
+#include "ui/commands/value_option.h"
+#include "ui/world/mesh_loader.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace measure = models::measure;
 
 namespace {
 
-using base::Figures;
+using base::JsonValue;
 
 struct MeshErrorOptions {
     std::string a;
@@ -35,7 +35,7 @@ struct MeshErrorOptions {
 };
 
 /// What was found; lengths in the units of the files.
-struct Findings {
+struct MeshComparison {
     measure::MeshDistance distance;
     measure::MeshDefects defects; ///< of B
     double flipped_area_share = 0.0;
@@ -45,14 +45,14 @@ struct Findings {
 };
 
 models::TriangleMesh read_surface(const std::string& path) {
-    models::TriangleMesh mesh = world::read_mesh_input(path);
+    models::TriangleMesh mesh = world::load_mesh(path);
     if (mesh.triangles.empty()) {
-        error_in(path, "expected a mesh with triangles, got none");
+        throw_error_in(path, "expected a mesh with triangles, got none");
     }
     return mesh;
 }
 
-Findings found_between(
+MeshComparison measure_meshes(
     const models::TriangleMesh& a, const models::TriangleMesh& b, const MeshErrorOptions& options) {
     const base::Stopwatch watch;
     measure::DistanceOptions wanted;
@@ -61,7 +61,7 @@ Findings found_between(
     wanted.threads = options.threads;
     base::Progress progress("measuring", 4, options.quiet, "steps");
     wanted.progress = [&progress](int done, int) { progress.show(done); };
-    Findings found;
+    MeshComparison found;
     found.distance = measure::distance(a, b, wanted);
     progress.finish();
     found.defects = measure::defects(b);
@@ -76,26 +76,26 @@ Findings found_between(
 }
 
 /// One way, or both: lengths as fractions of the diagonal, then in units.
-Figures way_figures(const measure::OneWayDistance& way, const Findings& found) {
+JsonValue distance_results(const measure::OneWayDistance& way, const MeshComparison& found) {
     const auto fraction = [&](double length_m) {
-        return found.diagonal_m > 0.0 ? Figures(length_m / found.diagonal_m) : Figures();
+        return found.diagonal_m > 0.0 ? JsonValue(length_m / found.diagonal_m) : JsonValue();
     };
-    Figures figures;
-    figures["hausdorff_least"] = fraction(way.min_hausdorff_m);
-    figures["hausdorff_most"] = fraction(way.max_hausdorff_m);
-    figures["rms"] = fraction(way.rms_m);
-    figures["mean"] = fraction(way.mean_m);
-    figures["hausdorff_least_units"] = way.min_hausdorff_m;
-    figures["hausdorff_most_units"] = way.max_hausdorff_m;
-    figures["rms_units"] = way.rms_m;
-    figures["mean_units"] = way.mean_m;
+    JsonValue results;
+    results["hausdorff_least"] = fraction(way.min_hausdorff_m);
+    results["hausdorff_most"] = fraction(way.max_hausdorff_m);
+    results["rms"] = fraction(way.rms_m);
+    results["mean"] = fraction(way.mean_m);
+    results["hausdorff_least_units"] = way.min_hausdorff_m;
+    results["hausdorff_most_units"] = way.max_hausdorff_m;
+    results["rms_units"] = way.rms_m;
+    results["mean_units"] = way.mean_m;
     if (found.coloured) {
-        figures["colour_rms"] = way.colour_rms;
+        results["colour_rms"] = way.colour_rms;
     }
-    return figures;
+    return results;
 }
 
-measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
+measure::OneWayDistance two_sided_distance(const measure::MeshDistance& distance) {
     return {
         distance.min_hausdorff_m(),
         distance.max_hausdorff_m(),
@@ -104,56 +104,56 @@ measure::OneWayDistance both_ways(const measure::MeshDistance& distance) {
         distance.colour_rms()};
 }
 
-Figures defect_figures(const measure::MeshDefects& defects) {
-    Figures figures;
-    figures["boundary_edges"] = defects.boundary_edges;
-    figures["boundary_loops"] = defects.boundary_loops;
-    figures["non_manifold_edges"] = defects.non_manifold_edges;
-    figures["non_manifold_vertices"] = defects.non_manifold_vertices;
-    figures["turned_edges"] = defects.turned_edges;
-    figures["duplicate_faces"] = defects.duplicate_faces;
-    figures["degenerate_faces"] = defects.degenerate_faces;
-    figures["unreferenced_vertices"] = defects.unreferenced_vertices;
-    figures["shells"] = defects.shells;
-    figures["euler_characteristic"] = defects.euler_characteristic;
-    figures["genus"] = defects.genus;
-    return figures;
+JsonValue defect_results(const measure::MeshDefects& defects) {
+    JsonValue results;
+    results["boundary_edges"] = defects.boundary_edges;
+    results["boundary_loops"] = defects.boundary_loops;
+    results["non_manifold_edges"] = defects.non_manifold_edges;
+    results["non_manifold_vertices"] = defects.non_manifold_vertices;
+    results["turned_edges"] = defects.turned_edges;
+    results["duplicate_faces"] = defects.duplicate_faces;
+    results["degenerate_faces"] = defects.degenerate_faces;
+    results["unreferenced_vertices"] = defects.unreferenced_vertices;
+    results["shells"] = defects.shells;
+    results["euler_characteristic"] = defects.euler_characteristic;
+    results["genus"] = defects.genus;
+    return results;
 }
 
 void print_row(
     const std::string& name,
     const measure::MeshDistance& distance,
-    double measure::OneWayDistance::*figure,
+    double measure::OneWayDistance::*statistic,
     double unit) {
-    const auto both = both_ways(distance);
+    const auto both = two_sided_distance(distance);
     std::fputs(
         fmt::format(
             "{:<28} {:>12.5g} {:>12.5g} {:>12.5g}\n",
             name,
-            distance.there.*figure / unit,
-            distance.back.*figure / unit,
-            both.*figure / unit)
+            distance.there.*statistic / unit,
+            distance.back.*statistic / unit,
+            both.*statistic / unit)
             .c_str(),
         stdout);
 }
 
-void print_text(const Findings& found) {
+void print_text(const MeshComparison& found) {
     using Way = measure::OneWayDistance;
     std::fputs(
         fmt::format("{:<28} {:>12} {:>12} {:>12}\n", "", "A to B", "B to A", "larger").c_str(),
         stdout);
 
-    struct Kind {
+    struct LengthUnit {
         const char* name;
         double unit;
     };
 
-    for (const Kind& kind : {Kind{"of A's diagonal", found.diagonal_m}, Kind{"units", 1.0}}) {
+    for (const LengthUnit& kind : {LengthUnit{"of A's diagonal", found.diagonal_m}, LengthUnit{"units", 1.0}}) {
         if (!(kind.unit > 0.0)) {
             continue;
         }
-        const auto row = [&](const std::string& name, double Way::*figure) {
-            print_row(fmt::format("{}, {}", name, kind.name), found.distance, figure, kind.unit);
+        const auto row = [&](const std::string& name, double Way::*statistic) {
+            print_row(fmt::format("{}, {}", name, kind.name), found.distance, statistic, kind.unit);
         };
         row("largest >=", &Way::min_hausdorff_m);
         row("largest <=", &Way::max_hausdorff_m);
@@ -163,10 +163,10 @@ void print_text(const Findings& found) {
     if (found.coloured) {
         print_row("colour rms, of 0..1", found.distance, &Way::colour_rms, 1.0);
     }
-    const Figures defects = defect_figures(found.defects);
-    for (const auto& [name, figure] : std::get<Figures::Named>(defects.value())) {
+    const JsonValue defects = defect_results(found.defects);
+    for (const auto& [name, statistic] : std::get<JsonValue::JsonMembers>(defects.value())) {
         std::fputs(
-            fmt::format("B: {:<25} {:>12}\n", name, base::figure_text(figure)).c_str(), stdout);
+            fmt::format("B: {:<25} {:>12}\n", name, base::text_of_value(statistic)).c_str(), stdout);
     }
     std::fputs(
         fmt::format(
@@ -186,24 +186,24 @@ void mesh_error(const MeshErrorOptions& options) {
     const models::TriangleMesh a = read_surface(options.a);
     const models::TriangleMesh b = read_surface(options.b);
     const double read_ms = watch.ms();
-    const Findings found = found_between(a, b, options);
-    Figures figures;
-    figures["a"] = options.a;
-    figures["b"] = options.b;
-    figures["a_triangles"] = a.triangles.size();
-    figures["b_triangles"] = b.triangles.size();
-    figures["diagonal_units"] = found.diagonal_m;
-    figures["both"] = way_figures(both_ways(found.distance), found);
-    figures["a_to_b"] = way_figures(found.distance.there, found);
-    figures["b_to_a"] = way_figures(found.distance.back, found);
-    figures["defects_of_b"] = defect_figures(found.defects);
-    figures["flipped_area_share"] = found.flipped_area_share;
-    figures["samples"] = options.samples;
-    figures["threads"] = options.threads;
-    figures["read_ms"] = read_ms;
-    figures["measure_ms"] = found.measure_ms;
+    const MeshComparison found = measure_meshes(a, b, options);
+    JsonValue results;
+    results["a"] = options.a;
+    results["b"] = options.b;
+    results["a_triangles"] = a.triangles.size();
+    results["b_triangles"] = b.triangles.size();
+    results["diagonal_units"] = found.diagonal_m;
+    results["both"] = distance_results(two_sided_distance(found.distance), found);
+    results["a_to_b"] = distance_results(found.distance.there, found);
+    results["b_to_a"] = distance_results(found.distance.back, found);
+    results["defects_of_b"] = defect_results(found.defects);
+    results["flipped_area_share"] = found.flipped_area_share;
+    results["samples"] = options.samples;
+    results["threads"] = options.threads;
+    results["read_ms"] = read_ms;
+    results["measure_ms"] = found.measure_ms;
     if (options.json) {
-        base::print_figures(figures, true);
+        base::print_value(results, true);
     } else {
         print_text(found);
     }
@@ -233,15 +233,15 @@ std::vector<Option> options_of(MeshErrorOptions& options) {
         required(text_option(
             "A",
             "MESH",
-            "the original: " + world::built_in_meshes() +
+            "the original: " + world::built_in_mesh_names() +
                 " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
             options.a)),
         required(text_option("B", "MESH", "what was made of it", options.b)),
-        read_option(
+        value_option(
             {"tightness", "RATIO", "most / least of the largest distance", 1.000001, 100},
             options.tightness),
-        read_option({"samples", "N", "points each way, for rms and mean", 1, 1e9}, options.samples),
-        read_option({"threads", "N", "that measure [all processors]", 1, 256}, options.threads),
+        value_option({"samples", "N", "points each way, for rms and mean", 1, 1e9}, options.samples),
+        value_option({"threads", "N", "that measure [all processors]", 1, 256}, options.threads),
         flag("--json", "results as JSON", options.json),
         flag("--quiet", "no progress", options.quiet)};
 }

@@ -4,12 +4,12 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/commands/model_picture.h"
 #include "ui/world/aircraft_axes.h"
-#include "ui/world/mesh_input.h"
+#include "ui/world/mesh_loader.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +34,7 @@ struct ModelInfoOptions {
 models::TriangleMesh read_any_mesh(const std::string& file) {
     return models::meshfile::is_chain_file(file)
                ? std::move(models::meshfile::read_chain(file).levels.front().mesh)
-               : world::read_mesh_input(file, {.pictures = true});
+               : world::load_mesh(file, {.pictures = true});
 }
 
 void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
@@ -61,7 +61,7 @@ std::string scale_in_words(double length) {
     return "metres as read; no aircraft is so long";
 }
 
-void add_materials(base::Figures& figures, const models::TriangleMesh& mesh) {
+void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
     std::vector<std::pair<std::string, std::size_t>> lines; // how often each comes
     for (const models::Material& material : mesh.materials) {
         const glm::vec3& colour = material.colour;
@@ -75,23 +75,23 @@ void add_materials(base::Figures& figures, const models::TriangleMesh& mesh) {
             ++known->second;
         }
     }
-    figures["materials"] = base::Figures::list({});
+    results["materials"] = base::JsonValue::list({});
     for (const auto& [line, count] : lines) {
-        figures["materials"].push_back(
+        results["materials"].push_back(
             count == 1 ? line : fmt::format("{}, {} times", line, count));
     }
-    figures["vertex_colours"] = !mesh.colours.empty();
+    results["vertex_colours"] = !mesh.colours.empty();
 }
 
-void add_surface(base::Figures& figures, const models::TriangleMesh& mesh) {
+void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
     const std::size_t read = mesh.triangles.size();
     const models::repair::RepairedMesh repaired = models::repair::repaired(mesh);
     const models::measure::MeshDefects found = models::measure::defects(repaired.mesh);
-    figures["faces"] = read;
-    figures["vertices"] = mesh.vertices_m.size();
-    figures["shells"] = found.shells;
-    figures["closed"] = found.boundary_edges == 0;
-    figures["defects"] = models::repair::in_words(repaired.counts);
+    results["faces"] = read;
+    results["vertices"] = mesh.vertices_m.size();
+    results["shells"] = found.shells;
+    results["closed"] = found.boundary_edges == 0;
+    results["defects"] = models::repair::describe_counts(repaired.counts);
 }
 
 void show_model_info(const ModelInfoOptions& options) {
@@ -102,28 +102,28 @@ void show_model_info(const ModelInfoOptions& options) {
     models::TriangleMesh mesh = read_any_mesh(options.file);
     const world::AircraftAxes axes = world::aircraft_axes(options.axes, options.file, mesh);
     turn_into_body(mesh, axes.axes);
-    const models::Bounds bounds = models::bounds_of(mesh);
+    const models::BoundingBox bounds = models::bounds_of(mesh);
     const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
-    base::Figures figures;
-    figures["file"] = options.file;
-    figures["length_m"] = extent_m.x;
-    figures["span_m"] = extent_m.y;
-    figures["height_m"] = extent_m.z;
-    figures["scale"] = scale_in_words(extent_m.x);
-    figures["axes"] = axes.axes.text();
-    figures["axes_are"] = world::in_words(axes);
-    add_surface(figures, mesh);
-    add_materials(figures, mesh);
+    base::JsonValue results;
+    results["file"] = options.file;
+    results["length_m"] = extent_m.x;
+    results["span_m"] = extent_m.y;
+    results["height_m"] = extent_m.z;
+    results["scale"] = scale_in_words(extent_m.x);
+    results["axes"] = axes.axes.text();
+    results["axes_are"] = world::axes_text(axes);
+    add_surface(results, mesh);
+    add_materials(results, mesh);
     for (const std::string& note : mesh.notes) {
-        base::say(options.quiet, "note: " + note);
+        base::print_note(options.quiet, "note: " + note);
     }
     if (!options.picture.empty()) {
         constexpr int pane_px = 400;
         constexpr int height_px = 320;
         report::write_png(options.picture, three_views(mesh, pane_px, height_px).view());
-        figures["picture"] = options.picture;
+        results["picture"] = options.picture;
     }
-    base::print_figures(figures, options.json);
+    base::print_value(results, options.json);
 }
 
 Command model_info_command() {

@@ -1,4 +1,4 @@
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/packed_recording.h"
@@ -27,15 +27,15 @@ void pack(const PackOptions& options) {
         folder = folder.parent_path();
     }
     const std::filesystem::path file = options.out.value_or(folder.string() + ".zip");
-    const report::Packing packing = report::pack_recording(folder, file, options.with_terrain);
+    const report::PackResult packing = report::pack_recording(folder, file, options.with_terrain);
     for (const std::string& note : packing.notes) {
-        base::say(options.quiet, "note: " + note);
+        base::print_note(options.quiet, "note: " + note);
     }
     if (options.json) {
-        base::print_figures(
+        base::print_value(
             {{"file", file.string()}, {"files", packing.files}, {"notes", packing.notes}}, true);
     }
-    base::say(options.quiet, fmt::format("packed: {}, {} files", file.string(), packing.files));
+    base::print_note(options.quiet, fmt::format("packed: {}, {} files", file.string(), packing.files));
 }
 
 } // namespace
@@ -47,7 +47,7 @@ Command pack_command() {
         .summary = "Makes one file of a recording, to be reported and flown again anywhere",
         .options =
             {required(text_option("folder", "DIR", "folder of a recording", options->folder)),
-             showing("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
+             with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
              flag("--with-terrain", "pack the terrain file too", options->with_terrain),
              flag("--json", "what was packed as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},

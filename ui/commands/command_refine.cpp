@@ -3,13 +3,13 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
-#include "ui/world/mesh_input.h"
-#include "ui/world/refine_input.h"
+#include "ui/commands/value_option.h"
+#include "ui/world/mesh_loader.h"
+#include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/partition_mesh.h"
 #include "visuals/refine/progressive_file.h"
@@ -31,10 +31,10 @@ namespace refine = visuals::refine;
 
 namespace {
 
-using base::Figures;
+using base::JsonValue;
 
 struct RefineOptions {
-    world::RefineInput input;
+    world::RefineMeshOptions input;
     int base = 0;
     int vertices = 0; ///< 0: all
     std::string save;
@@ -126,7 +126,7 @@ visuals::refine::ColourBy colour_by(const RefineOptions& options) {
 void write_results(
     const refine::SelectiveRefiner& refiner,
     const RefineOptions& options,
-    bool has_made_up_colours) {
+    bool has_material_colours) {
     if (!options.partition.empty()) {
         const bool by_level = options.colour_by == "level";
         models::meshfile::write_mesh(
@@ -134,23 +134,23 @@ void write_results(
             visuals::refine::partition_mesh(
                 refiner,
                 by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
-        base::say(options.input.quiet, "partition: " + options.partition);
+        base::print_note(options.input.quiet, "partition: " + options.partition);
     }
     if (options.out.empty() && options.nodes.empty()) {
         return;
     }
     refine::ActiveMesh active = refine::active_mesh(refiner);
-    if (has_made_up_colours) {
+    if (has_material_colours) {
         active.mesh.colours.clear();
     }
     if (!options.out.empty()) {
         models::meshfile::write_mesh(
-            options.out, visuals::refine::coloured_active(active, colour_by(options)));
-        base::say(options.input.quiet, "active mesh: " + options.out);
+            options.out, visuals::refine::coloured_mesh(active, colour_by(options)));
+        base::print_note(options.input.quiet, "active mesh: " + options.out);
     }
     if (!options.nodes.empty()) {
         write_file(options.nodes, nodes_text(active));
-        base::say(options.input.quiet, "active nodes: " + options.nodes);
+        base::print_note(options.input.quiet, "active nodes: " + options.nodes);
     }
 }
 
@@ -159,22 +159,22 @@ void refine_all(
     refine::SelectiveRefiner& refiner,
     const RefineOptions& options,
     const std::optional<refine::RefineView>& view,
-    Figures& figures) {
+    JsonValue& results) {
     const base::Stopwatch watch;
     refine::refine_regions(refiner, options.regions);
     if (view) {
         refine::refine_for_view(refiner, *view, options.error_px);
     }
     const refine::RefinerCounts& counts = refiner.counts();
-    figures["requested_splits"] = counts.splits - counts.forced_by_rule;
-    figures["forced_by_rule"] = counts.forced_by_rule;
-    figures["turned_faces_before_repair"] = refiner.turned_faces();
+    results["requested_splits"] = counts.splits - counts.forced_by_rule;
+    results["forced_by_rule"] = counts.forced_by_rule;
+    results["turned_faces_before_repair"] = refiner.flipped_faces();
     refiner.repair();
-    figures["forced_by_repair"] = counts.forced_by_repair;
-    figures["turned_faces"] = refiner.turned_faces();
-    figures["vertices"] = refiner.active_count();
-    figures["faces"] = refiner.face_count();
-    figures["refine_ms"] = watch.ms();
+    results["forced_by_repair"] = counts.forced_by_repair;
+    results["turned_faces"] = refiner.flipped_faces();
+    results["vertices"] = refiner.active_count();
+    results["faces"] = refiner.face_count();
+    results["refine_ms"] = watch.ms();
 }
 
 void check_mesh_name(const char* option, const std::string& file) {
@@ -215,60 +215,60 @@ void refine_mesh(RefineOptions options) {
         }
     }
     const base::Stopwatch watch;
-    const world::RefineMesh input = world::read_refine_input(options.input);
+    const world::RefineMesh input = world::load_refine_mesh(options.input);
     const auto& mesh = input.mesh;
-    Figures figures;
-    figures["model"] = mesh->parts().name;
-    figures["original_vertices"] = mesh->leaf_count();
-    figures["original_faces"] = mesh->face_count();
-    figures["base_vertices"] = mesh->roots().size();
-    figures["hierarchy_bytes_a_vertex"] =
+    JsonValue results;
+    results["model"] = mesh->parts().name;
+    results["original_vertices"] = mesh->leaf_count();
+    results["original_faces"] = mesh->face_count();
+    results["base_vertices"] = mesh->roots().size();
+    results["hierarchy_bytes_a_vertex"] =
         static_cast<double>(mesh->bytes()) / static_cast<double>(mesh->leaf_count());
-    figures["load_ms"] = watch.ms();
+    results["load_ms"] = watch.ms();
     if (!options.save.empty()) {
         refine::write_progressive(options.save, *mesh);
-        base::say(options.input.quiet, "progressive mesh: " + options.save);
+        base::print_note(options.input.quiet, "progressive mesh: " + options.save);
     }
-    figures["rule"] = options.rule;
+    results["rule"] = options.rule;
     refine::SelectiveRefiner refiner(
         mesh, {.rule = rule_of(options.rule), .repair = !options.no_repair});
-    refine_all(refiner, options, view, figures);
-    write_results(refiner, options, input.has_made_up_colours);
-    base::print_figures(figures, options.json);
+    refine_all(refiner, options, view, results);
+    write_results(refiner, options, input.has_material_colours);
+    base::print_value(results, options.json);
 }
 
-std::vector<Option> what_options(RefineOptions& options) {
+std::vector<Option> model_options(RefineOptions& options) {
     constexpr double far_m = 1e9;
     return {
         required(text_option(
             "in",
             "MESH|FILE.pm",
-            "a mesh: " + world::built_in_meshes() +
+            "a mesh: " + world::built_in_mesh_names() +
                 " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
             options.input.file)),
-        read_option(
+        value_option(
             {"base", "N", "meshes: simplify to N vertices and no further [all the way]", 0, 1e9},
             options.base),
-        read_option(
+        value_option(
             {"vertices", "N", ".pm: read the coarser model of N vertices [all]", 0, 1e9},
             options.vertices),
         {.name = "--region",
          .form = "sphere X Y Z RADIUS",
          .meaning = "every original vertex inside is active (file axes, repeatable)",
-         .takes = Takes::SomeWords,
+         .arity = Arity::OneOrMore,
          .read = [&options](const Words& words) { options.regions = regions_from(words); },
-         .together = static_cast<int>(region_words)},
-        read_option(
+         .words_per_use = static_cast<int>(region_words)},
+        value_option(
             {"error-px", "PIXELS", "split what shows a larger error from --eye [none]", 0.0, 1e6},
             options.error_px),
-        read_option(
+        value_option(
             {"eye", "X,Y,Z", "where the view is from, file axes", -far_m, far_m}, options.eye_m),
-        read_option({"look", "X,Y,Z", "what it looks at", -far_m, far_m}, options.look_m),
-        read_option({"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg),
-        read_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
+        value_option({"look", "X,Y,Z", "what it looks at", -far_m, far_m}, options.look_m),
+        value_option({"fov", "DEGREES", "height of the view", 1.0, 170.0}, options.fov_deg),
+        value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
 }
 
-void add_how_options(std::vector<Option>& table, RefineOptions& options) {
+void add_method_options(std::vector<Option>& table, RefineOptions& options) {
     table.insert(
         table.end(),
         {choice_option(
@@ -305,7 +305,7 @@ Command refine_command() {
     Command command = {
         .name = "refine",
         .summary = "Makes progressive meshes and refines them where it is asked for",
-        .options = what_options(*options),
+        .options = model_options(*options),
         .footer =
             "Without --region and --error-px the active mesh is the base mesh.\n"
             "Keys of --json: model, original_vertices, original_faces, base_vertices,\n"
@@ -318,7 +318,7 @@ Command refine_command() {
             "ear.txt\n"
             "  octant refine bunny.pm --error-px 1 --eye 0,0.1,0.4 --look 0,0.1,0 --out seen.obj",
         .run = [options] { refine_mesh(*options); }};
-    add_how_options(command.options, *options);
+    add_method_options(command.options, *options);
     return command;
 }
 

@@ -1,6 +1,6 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/comparison.h"
@@ -30,21 +30,21 @@ struct ReportOptions {
     bool quiet = false;
 };
 
-base::Figures figures_of(const report::LoadedRecording& recording) {
-    base::Figures summary;
-    for (const report::Figure& figure : report::figures()) {
-        const double value = figure.value(recording.statistics);
-        if (figure.decimals == 0) {
-            summary[figure.key] = static_cast<int>(value);
+base::JsonValue results_of_run(const report::LoadedRecording& recording) {
+    base::JsonValue summary;
+    for (const report::Statistic& statistic : report::all_statistics()) {
+        const double value = statistic.value(recording.statistics);
+        if (statistic.decimals == 0) {
+            summary[statistic.key] = static_cast<int>(value);
         } else {
-            summary[figure.key] = value;
+            summary[statistic.key] = value;
         }
     }
     const auto known = [](const std::string& text) {
-        return text.empty() ? base::Figures() : base::Figures(text);
+        return text.empty() ? base::JsonValue() : base::JsonValue(text);
     };
     return {
-        {"folder", recording.called},
+        {"folder", recording.display_name},
         {"title", recording.run.title},
         {"host", recording.run.machine_info.host},
         {"frames", recording.flight.frames()},
@@ -67,7 +67,7 @@ void make_report(const ReportOptions& options) {
     for (const std::string& folder : options.folders) {
         recordings.push_back(report::load_recording(report::recording_folder(folder)));
         if (recordings.back().ended_early) {
-            base::say(
+            base::print_note(
                 options.quiet,
                 fmt::format(
                     "note: {} ended early, after {} frames",
@@ -83,21 +83,21 @@ void make_report(const ReportOptions& options) {
         options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
     write_file(
         file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
-    base::say(options.quiet, fmt::format("report: {}", file.string()));
+    base::print_note(options.quiet, fmt::format("report: {}", file.string()));
     const std::vector<std::string> faults =
-        gate ? report::gate_faults(recordings, *gate) : std::vector<std::string>();
+        gate ? report::gate_failures(recordings, *gate) : std::vector<std::string>();
     if (options.json) {
-        base::Figures list = base::Figures::list({});
+        base::JsonValue list = base::JsonValue::list({});
         std::ranges::for_each(
-            recordings, [&](const auto& each) { list.push_back(figures_of(each)); });
-        base::print_figures(
+            recordings, [&](const auto& each) { list.push_back(results_of_run(each)); });
+        base::print_value(
             {{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
     } else {
         for (const report::LoadedRecording& recording : recordings) {
             if (!recording.disagreement.empty()) {
                 const std::string line = fmt::format(
                     "{}: summary and rows disagree, as if rows were cut off: {}\n",
-                    printable(recording.called),
+                    printable(recording.display_name),
                     recording.disagreement);
                 std::fputs(line.c_str(), stdout);
             }
@@ -109,7 +109,7 @@ void make_report(const ReportOptions& options) {
     const bool cut = std::ranges::any_of(
         recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
     if (!faults.empty() || cut) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 
@@ -125,9 +125,9 @@ Command report_command() {
                  "folders",
                  "DIR...",
                  "folders of recordings, also of flights that were killed, or packed ones",
-                 Takes::SomeWords,
+                 Arity::OneOrMore,
                  options->folders)),
-             showing(
+             with_shown_default(
                  "report.html in the first folder",
                  text_option("--out", "FILE.html", "the page to write", options->out)),
              text_option(

@@ -3,12 +3,12 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/memory.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
-#include "ui/commands/simplify_work.h"
-#include "ui/world/mesh_input.h"
+#include "ui/commands/value_option.h"
+#include "ui/commands/simplify_run.h"
+#include "ui/world/mesh_loader.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ namespace meshfile = models::meshfile;
 
 namespace {
 
-void refuse_wrong_output(const SimplifyCommand& command, const std::string& name) {
+void check_output(const SimplifyArguments& command, const std::string& name) {
     const std::filesystem::path out = name;
     for (const std::string& input : command.files) {
         if (&input != &command.files.back() && is_same_file(input, out)) {
@@ -43,7 +43,7 @@ void refuse_wrong_output(const SimplifyCommand& command, const std::string& name
             "'{}'",
             printable(name)));
     }
-    if (!command.chain && !meshfile::is_written_mesh_file(out)) {
+    if (!command.chain && !meshfile::is_writable_mesh_file(out)) {
         throw Error(fmt::format(
             "OUT: expected a name that ends in .obj, .ply, .stl, .gltf, .glb, .ac or .wrl, got "
             "'{}'",
@@ -53,15 +53,15 @@ void refuse_wrong_output(const SimplifyCommand& command, const std::string& name
 }
 
 /// An option of the command line and whether it was given.
-struct GivenOption {
+struct NamedFlag {
     std::string_view name;
     bool is_given;
 };
 
 /// Throws Error where an option stands with one of others that would have no effect or contradict
 /// it.
-void refuse_together(std::string_view option, const std::vector<GivenOption>& others) {
-    for (const GivenOption& other : others) {
+void check_exclusive(std::string_view option, const std::vector<NamedFlag>& others) {
+    for (const NamedFlag& other : others) {
         if (other.is_given) {
             throw Error(fmt::format("{}: expected no {} with it, got both", option, other.name));
         }
@@ -69,7 +69,7 @@ void refuse_together(std::string_view option, const std::vector<GivenOption>& ot
 }
 
 /// Sets what the files are, by the options that say what is made of them.
-void assign_files(SimplifyCommand& command) {
+void assign_files(SimplifyArguments& command) {
     const std::size_t count = command.files.size();
     command.in = command.files.front();
     if (command.shared_border) {
@@ -85,7 +85,7 @@ void assign_files(SimplifyCommand& command) {
         throw Error("--out-dir: expected --shared-border with it, got none");
     }
     if (count == 1 && !command.chart.empty()) {
-        refuse_together(
+        check_exclusive(
             "--chart without OUT",
             {{"--faces", command.faces > 0},
              {"--vertices", command.vertices > 0},
@@ -97,10 +97,10 @@ void assign_files(SimplifyCommand& command) {
         throw Error(fmt::format("expected IN and OUT, got {} files", count));
     }
     command.out = command.files.back();
-    refuse_wrong_output(command, command.out);
+    check_output(command, command.out);
 }
 
-void refuse_wrong_chart(const SimplifyCommand& command) {
+void check_chart_options(const SimplifyArguments& command) {
     if (!command.chart.ends_with(".html")) {
         throw Error(fmt::format(
             "--chart: expected a name that ends in .html, got '{}'", printable(command.chart)));
@@ -118,7 +118,7 @@ void refuse_wrong_chart(const SimplifyCommand& command) {
 
 /// The outputs of --shared-border: the inputs' names in another folder.
 /// The folder is made, so that it is known before the work that all can be written.
-void refuse_wrong_folder(const SimplifyCommand& command) {
+void check_folder_options(const SimplifyArguments& command) {
     std::set<std::filesystem::path> names;
     for (const std::string& file : command.files) {
         const std::filesystem::path name = std::filesystem::path(file).filename();
@@ -126,7 +126,7 @@ void refuse_wrong_folder(const SimplifyCommand& command) {
             throw Error(fmt::format(
                 "--out-dir: expected another folder than that of '{}'", printable(file)));
         }
-        if (!meshfile::is_written_mesh_file(name)) {
+        if (!meshfile::is_writable_mesh_file(name)) {
             throw Error(fmt::format(
                 "--shared-border: expected meshes that can be written again, such as .obj or .ply, "
                 "got '{}'",
@@ -144,7 +144,7 @@ void refuse_wrong_folder(const SimplifyCommand& command) {
     }
 }
 
-void refuse_wrong_goals(const SimplifyCommand& command) {
+void check_goals(const SimplifyArguments& command) {
     if (!command.error.empty()) {
         error_m_from(command.error, 1.0);
     }
@@ -169,17 +169,17 @@ void refuse_wrong_goals(const SimplifyCommand& command) {
 }
 
 /// Options that have no effect in one of the ways to simplify.
-void refuse_unused(const SimplifyCommand& command) {
-    const GivenOption uv_error{"--uv-error", command.uv_error > 0.0};
-    const GivenOption normal_error{"--normal-error", command.normal_error > 0.0};
-    const GivenOption colour_error{"--colour-error", command.colour_error > 0.0};
-    const GivenOption effort{"--effort", command.effort >= 0};
-    const GivenOption steps{"--steps", command.steps >= 0};
-    const GivenOption max_seconds{"--max-seconds", command.max_seconds > 0.0};
-    const GivenOption chart{"--chart", !command.chart.empty()};
-    const GivenOption shared_border{"--shared-border", command.shared_border};
+void check_unused_options(const SimplifyArguments& command) {
+    const NamedFlag uv_error{"--uv-error", command.uv_error > 0.0};
+    const NamedFlag normal_error{"--normal-error", command.normal_error > 0.0};
+    const NamedFlag colour_error{"--colour-error", command.colour_error > 0.0};
+    const NamedFlag effort{"--effort", command.effort >= 0};
+    const NamedFlag steps{"--steps", command.steps >= 0};
+    const NamedFlag max_seconds{"--max-seconds", command.max_seconds > 0.0};
+    const NamedFlag chart{"--chart", !command.chart.empty()};
+    const NamedFlag shared_border{"--shared-border", command.shared_border};
     if (paper_measure(command.method)) {
-        refuse_together(
+        check_exclusive(
             "--method " + command.method,
             {uv_error,
              normal_error,
@@ -194,55 +194,55 @@ void refuse_unused(const SimplifyCommand& command) {
              {"--keep-seams-apart", command.keep_seams_apart},
              {"--lock-border", command.lock_border}});
     } else if (!command.method.empty()) {
-        refuse_together("--method " + command.method, {effort, steps});
+        check_exclusive("--method " + command.method, {effort, steps});
     }
     if (command.chain) {
-        refuse_together(
+        check_exclusive(
             "--chain", {uv_error, normal_error, colour_error, shared_border, max_seconds});
     }
     if (chart.is_given) {
-        refuse_together("--chart", {shared_border, max_seconds});
+        check_exclusive("--chart", {shared_border, max_seconds});
     }
     if (max_seconds.is_given) {
-        refuse_together("--max-seconds", {steps});
+        check_exclusive("--max-seconds", {steps});
     }
     // With several tries the effort limits each of them.
     const bool has_several_tries = !command.error.empty() || has_attribute_bound(command);
     if (effort.is_given && !has_several_tries) {
-        refuse_together("--effort", {steps, max_seconds});
+        check_exclusive("--effort", {steps, max_seconds});
     }
 }
 
-void refuse_faults(SimplifyCommand& command) {
+void check_simplify_options(SimplifyArguments& command) {
     assign_files(command);
-    refuse_wrong_goals(command);
-    refuse_unused(command);
+    check_goals(command);
+    check_unused_options(command);
     if (!command.polygons.empty() && !command.chain) {
         throw Error("--polygons: expected --chain with it, got none");
     }
     if (!command.chart.empty()) {
-        refuse_wrong_chart(command);
+        check_chart_options(command);
     }
     if (command.shared_border) {
-        refuse_wrong_folder(command);
+        check_folder_options(command);
     }
 }
 
-void run(SimplifyCommand command) {
-    refuse_faults(command);
-    base::give_memory_back();
-    base::Figures figures;
+void run(SimplifyArguments command) {
+    check_simplify_options(command);
+    base::release_free_memory();
+    base::JsonValue results;
     if (!command.shared_border) {
-        figures["in"] = command.in;
+        results["in"] = command.in;
     }
     if (!command.out.empty()) {
-        figures["out"] = command.out;
+        results["out"] = command.out;
     }
-    const bool is_reached = command.shared_border ? simplify_together(command, figures)
-                                                  : simplify_one(command, figures);
-    base::print_figures(figures, command.json);
+    const bool is_reached = command.shared_border ? simplify_with_shared_borders(command, results)
+                                                  : simplify_one(command, results);
+    base::print_value(results, command.json);
     if (!is_reached) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 
@@ -254,27 +254,27 @@ void add_group(std::vector<Option>& table, std::string_view heading, std::vector
     }
 }
 
-std::vector<Option> goal_options(SimplifyCommand& command) {
+std::vector<Option> goal_options(SimplifyArguments& command) {
     std::vector<Option> table{required(list_option(
         "files",
         "IN OUT",
-        "mesh to simplify: " + world::built_in_meshes() +
+        "mesh to simplify: " + world::built_in_mesh_names() +
             " or a file: .obj, .ply, .stl, .off, .gltf, .glb, .ac, .wrl; and the file to write, "
             "whose ending says how. With --shared-border only meshes; with --chart OUT may be "
             "left out",
-        Takes::SomeWords,
+        Arity::OneOrMore,
         command.files))};
     add_group(
         table,
         "How far (one of them)",
-        {read_option(
+        {value_option(
              {"faces",
               "N",
               "down to so many triangles; with --chain of the coarsest level [no goal]",
               1,
               2e9},
              command.faces),
-         read_option(
+         value_option(
              {"vertices", "N", "down to so many vertices [no goal]", 1, 2e9}, command.vertices),
          text_option(
              "--error",
@@ -285,28 +285,28 @@ std::vector<Option> goal_options(SimplifyCommand& command) {
     return table;
 }
 
-void add_bound_options(std::vector<Option>& table, SimplifyCommand& command) {
+void add_bound_options(std::vector<Option>& table, SimplifyArguments& command) {
     add_group(
         table,
         "What attributes may lose",
-        {read_option(
+        {value_option(
              {"uv-error",
               "U",
               "texture coordinates may be off by so much, 1 = the picture's side [no bound]",
               1e-9,
               1e9},
              command.uv_error),
-         read_option(
+         value_option(
              {"normal-error", "DEGREES", "normals may be off by so much [no bound]", 0.01, 180},
              command.normal_error),
-         read_option(
+         value_option(
              {"colour-error",
               "SHARE",
               "colours may be off by so much: a length in red, green and blue 0..1 [no bound]",
               1e-4,
               2},
              command.colour_error),
-         read_option(
+         value_option(
              {"colour-weight",
               "W",
               "what a colour difference of 1 counts as, in diagonals [0.015; as printed 0.1]",
@@ -315,7 +315,7 @@ void add_bound_options(std::vector<Option>& table, SimplifyCommand& command) {
              command.colour_weight)});
 }
 
-void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
+void add_constraint_options(std::vector<Option>& table, SimplifyArguments& command) {
     add_group(
         table,
         "What stays",
@@ -350,11 +350,11 @@ void add_keeping_options(std::vector<Option>& table, SimplifyCommand& command) {
              command.out_dir)});
 }
 
-void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
+void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
     add_group(
         table,
         "How much work",
-        {read_option(
+        {value_option(
              {"effort",
               "0..9",
               "how long to optimize: each one more doubles the steps, as long as some help; 5 and "
@@ -363,7 +363,7 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
               0,
               9},
              command.effort),
-         read_option(
+         value_option(
              {"max-seconds",
               "S",
               "stop optimizing after this time; a note gives the --steps that repeat the result. "
@@ -372,7 +372,7 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
               1e-3,
               1e6},
              command.max_seconds),
-         read_option(
+         value_option(
              {"steps",
               "N",
               "number of optimization steps, over all tries where --error or a bound needs "
@@ -388,7 +388,7 @@ void add_work_options(std::vector<Option>& table, SimplifyCommand& command) {
              "triangle or bidirectional [surface]",
              {"surface", "fast", "plane", "triangle", "bidirectional"},
              command.method),
-         read_option(
+         value_option(
              {"threads",
               "N",
               "number of threads; the result does not depend on it [all processors]",
@@ -446,7 +446,7 @@ constexpr const char* simplify_footer =
 } // namespace
 
 Command simplify_command() {
-    auto work = std::make_shared<SimplifyCommand>();
+    auto work = std::make_shared<SimplifyArguments>();
     Command command = {
         .name = "simplify",
         .summary = "Reduces triangles of a mesh and certifies how far the result is off",
@@ -454,7 +454,7 @@ Command simplify_command() {
         .footer = simplify_footer,
         .run = [work] { run(*work); }};
     add_bound_options(command.options, *work);
-    add_keeping_options(command.options, *work);
+    add_constraint_options(command.options, *work);
     add_work_options(command.options, *work);
     return command;
 }

@@ -1,6 +1,6 @@
 #include "ui/base/study_output.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/studies/draw_order/study_draw_order.h"
 #include "ui/studies/draw_order/study_flights.h"
@@ -36,19 +36,19 @@ std::vector<Option> study_options(base::StudyOutput& output, std::vector<Option>
 }
 
 Option size_option(settings::RunSettings& settings, std::string_view meaning) {
-    return read_option({"size", "WIDTHxHEIGHT", meaning, 16, 8192}, settings.view.size_px);
+    return value_option({"size", "WIDTHxHEIGHT", meaning, 16, 8192}, settings.view.size_px);
 }
 
 Option context_option(settings::RunSettings& settings) {
-    return read_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context);
+    return value_option({"context", "KIND", "who draws: osmesa or egl"}, settings.drawing.context);
 }
 
 Option jobs_option(int& jobs, std::string_view meaning) {
-    return read_option({"jobs", "N", meaning, 1, 1000}, jobs);
+    return value_option({"jobs", "N", meaning, 1, 1000}, jobs);
 }
 
 Command flights_command() {
-    auto options = std::make_shared<studies::draw_order::StudyOptions>();
+    auto options = std::make_shared<studies::draw_order::FlightStudyOptions>();
     return {
         .name = "flights",
         .summary = "Tables 5 and 6 of the 1989 paper: four paths, two aircraft, three methods",
@@ -90,7 +90,7 @@ Command flicker_command() {
                  "NAME|FILE",
                  "rugged ground: hills, canyon or a file",
                  options->rugged),
-             read_option(
+             value_option(
                  {"frames",
                   "N",
                   "frames of the path; a fifth of them at a fixed view",
@@ -104,18 +104,18 @@ Command flicker_command() {
     return command;
 }
 
-void hidden_surface(studies::draw_order::HiddenSurfaceStudy study, const std::string& only) {
+void hidden_surface(studies::draw_order::HiddenSurfaceStudyOptions study, const std::string& only) {
     const auto wants = [&](std::string_view part) { return only == part || only == "all"; };
     study.race = wants("race");
     study.pictures = wants("pictures");
     study.rays = wants("rays");
     if (!studies::draw_order::study_hidden_surface(study)) {
-        throw CheckSaidNo();
+        throw CheckFailed();
     }
 }
 
 std::vector<Option>
-hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::string& only) {
+hidden_surface_options(studies::draw_order::HiddenSurfaceStudyOptions& study, std::string& only) {
     return {
         choice_option(
             "--only",
@@ -124,7 +124,7 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
             "rays (rays) or all",
             {"race", "pictures", "rays", "all"},
             only),
-        read_option({"terrain", "NAME|FILE", "ground of all parts"}, study.settings.path.terrain),
+        value_option({"terrain", "NAME|FILE", "ground of all parts"}, study.settings.path.terrain),
         size_option(
             study.settings, "picture size of the comparison; the race has 640x480 and 1280x720"),
         context_option(study.settings),
@@ -134,12 +134,12 @@ hidden_surface_options(studies::draw_order::HiddenSurfaceStudy& study, std::stri
             "compare this one in place of f15 and 500md",
             study.aircraft),
         jobs_option(study.jobs, "views of a flight compared at once; the race is one at a time"),
-        read_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
-        read_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
+        value_option({"frames", "N", "timed frames of each race", 10, 100000}, study.race_frames),
+        value_option({"every", "N", "every Nth frame is compared", 1, 100000}, study.every)};
 }
 
 Command hidden_surface_command() {
-    auto study = std::make_shared<studies::draw_order::HiddenSurfaceStudy>();
+    auto study = std::make_shared<studies::draw_order::HiddenSurfaceStudyOptions>();
     auto only = std::make_shared<std::string>("all");
     study->settings.path.terrain = "canyon";
     Command command = {
@@ -166,7 +166,7 @@ Command pictures_command() {
             *options,
             {size_option(options->settings, "picture size in pixels"),
              context_option(options->settings),
-             read_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames),
+             value_option({"frames", "N", "pictures of each scene", 1, 1000}, options->frames),
              jobs_option(options->jobs, "scenes at once")}),
         .footer = "Example:\n  octant study pictures --out tables",
         .run = [options] { studies::draw_order::study_pictures(*options); }};
@@ -175,13 +175,13 @@ Command pictures_command() {
 std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& options) {
     settings::RunSettings& settings = options.settings;
     return {
-        read_option({"terrain", "NAME|FILE", "the ground"}, settings.path.terrain),
+        value_option({"terrain", "NAME|FILE", "the ground"}, settings.path.terrain),
         size_option(settings, "picture size in pixels"),
-        read_option({"triangles", "N", "budget [20000]", 1, 1e8}, settings.ground.triangles),
-        read_option(
+        value_option({"triangles", "N", "budget [20000]", 1, 1e8}, settings.ground.triangles),
+        value_option(
             {"error-px", "PIXELS", "screen-error: refined no further [0.25]", 0.001, 1e4},
             settings.ground.error_px),
-        read_option({"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames),
+        value_option({"frames", "N", "only the first of each path", 2, 1e7}, settings.time.frames),
         jobs_option(options.jobs, "flights at once"),
         flag("--shimmer", "draw, and measure shimmer too", options.shimmer),
         flag(
@@ -192,7 +192,7 @@ std::vector<Option> popping_options(studies::flicker::PoppingStudyOptions& optio
             "--scenery",
             "shimmer: with made-up trees and houses near the eye",
             settings.ground.scenery),
-        read_option({"every", "N", "shimmer: one pair of frames in N", 2, 100000}, options.every)};
+        value_option({"every", "N", "shimmer: one pair of frames in N", 2, 100000}, options.every)};
 }
 
 Command popping_command() {
@@ -222,9 +222,9 @@ Command shading_command() {
                  "FILE",
                  "mesh file to look at too, as it is and as it is refined for an eye; may be given "
                  "more than once",
-                 Takes::SomeWords,
+                 Arity::OneOrMore,
                  options->meshes),
-             read_option(
+             value_option(
                  {"size", "PIXELS", "side of the square pictures in pixels", 16, 2048},
                  options->size_px),
              jobs_option(options->jobs, "models at once; flights for times are one at a time")}),
@@ -247,10 +247,10 @@ Command refinement_command() {
                  "--mesh",
                  "FILE",
                  "a mesh (repeatable); none: made ground, 129 x 129",
-                 Takes::SomeWords,
+                 Arity::OneOrMore,
                  options->meshes),
-             read_option({"base", "N", "vertices of the base meshes", 4, 1000000}, options->base),
-             read_option({"frames", "N", "frames of the path", 20, 100000}, options->frames)}),
+             value_option({"base", "N", "vertices of the base meshes", 4, 1000000}, options->base),
+             value_option({"frames", "N", "frames of the path", 20, 100000}, options->frames)}),
         .footer = "Example:\n  octant study refinement --out tables --mesh bunny.ply --mesh "
                   "cow.obj",
         .run = [options] { studies::refinement::study_refinement(*options); }};
@@ -275,12 +275,12 @@ simplification_options(studies::simplification::SimplificationStudyOptions& opti
             "--mesh",
             "FILE",
             "one more mesh; may be repeated",
-            Takes::OneWordAgain,
+            Arity::Repeatable,
             options.meshes),
         {.name = "--faces",
          .form = "N",
          .meaning = "simplify to N faces; may be repeated [15, 5, 2.5 %]",
-         .takes = Takes::OneWordAgain,
+         .arity = Arity::Repeatable,
          .read = [&options](const Words& words) { options.faces = faces_from(words); }},
         text_option(
             "--peers",

@@ -1,11 +1,11 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
-#include "ui/commands/sweep_work.h"
+#include "ui/commands/value_option.h"
+#include "ui/commands/sweep_run.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
@@ -29,37 +29,37 @@ namespace fs = std::filesystem;
 
 void print_list(const sweep::Sweep& sweep, bool json) {
     if (json) {
-        base::Figures runs = base::Figures::list({});
-        for (const sweep::Run& run : sweep.runs) {
-            base::Figures varied;
+        base::JsonValue runs = base::JsonValue::list({});
+        for (const sweep::SweepRun& run : sweep.runs) {
+            base::JsonValue varied;
             for (const auto& [name, value] : run.varied) {
                 varied[name] = value;
             }
             runs.push_back({{"name", run.name}, {"repeat", run.repeat}, {"varied", varied}});
         }
-        base::print_figures({{"name", sweep.name}, {"runs", runs}}, true);
+        base::print_value({{"name", sweep.name}, {"runs", runs}}, true);
         return;
     }
-    for (const sweep::Run& run : sweep.runs) {
+    for (const sweep::SweepRun& run : sweep.runs) {
         std::fputs((run.name + "\n").c_str(), stdout);
     }
 }
 
 /// What the report says before its flights: those that are not done, and runs that differ though
 /// they must not.
-std::vector<report::HtmlTable> troubles(
-    const std::vector<sweep::RunResult>& results, const std::vector<std::string>& differences) {
+std::vector<report::HtmlTable> problem_table(
+    const std::vector<sweep::RunResult>& results, const std::vector<std::string>& hash_mismatches) {
     std::vector<report::HtmlTable> tables;
-    if (const auto missing = not_done(results); !missing.empty()) {
+    if (const auto missing = unfinished_runs(results); !missing.empty()) {
         tables.push_back(
             {"Flights that are not done", {"flight", "why"}, {}, "The same command flies them."});
         for (const std::size_t i : missing) {
             tables.back().rows.push_back({results[i].name, results[i].fault});
         }
     }
-    if (!differences.empty()) {
+    if (!hash_mismatches.empty()) {
         tables.push_back({"Runs that differ in nothing did not show the same", {"what"}, {}, ""});
-        for (const std::string& line : differences) {
+        for (const std::string& line : hash_mismatches) {
             tables.back().rows.push_back({line});
         }
     }
@@ -70,7 +70,7 @@ void write_results(
     const sweep::Sweep& sweep,
     const sweep::SweepFolder& folder,
     const std::vector<sweep::RunResult>& results,
-    const std::vector<std::string>& differences) {
+    const std::vector<std::string>& hash_mismatches) {
     write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
     std::vector<report::LoadedRecording> recordings;
     for (const sweep::RunResult& result : results) {
@@ -80,18 +80,18 @@ void write_results(
     }
     write_file(
         folder.path() / "report.html",
-        report::html_report(recordings, troubles(results, differences), folder.path()));
+        report::html_report(recordings, problem_table(results, hash_mismatches), folder.path()));
 }
 
 void print_end(
     const sweep::Sweep& sweep,
     const std::vector<sweep::RunResult>& results,
-    const std::vector<std::string>& differences,
-    const std::string& manner,
+    const std::vector<std::string>& hash_mismatches,
+    const std::string& machine_sharing,
     bool json) {
-    const std::size_t missing = not_done(results).size();
+    const std::size_t missing = unfinished_runs(results).size();
     if (json) {
-        base::Figures runs = base::Figures::list({});
+        base::JsonValue runs = base::JsonValue::list({});
         for (const sweep::RunResult& result : results) {
             runs.push_back(
                 {{"name", result.name},
@@ -102,18 +102,18 @@ void print_end(
                  {"picture_hash", result.picture_hash},
                  {"noise", result.noise}});
         }
-        base::print_figures(
+        base::print_value(
             {{"name", sweep.name},
-             {"flown", manner},
+             {"flown", machine_sharing},
              {"done", results.size() - missing},
              {"of", results.size()},
-             {"differences", differences},
+             {"differences", hash_mismatches},
              {"runs", runs}},
             true);
         return;
     }
     std::fputs(
-        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), manner)
+        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), machine_sharing)
             .c_str(),
         stdout);
     for (const sweep::RunResult& result : results) {
@@ -121,7 +121,7 @@ void print_end(
             std::fputs(fmt::format("failed: {}: {}\n", result.name, result.fault).c_str(), stdout);
         }
     }
-    for (const std::string& line : differences) {
+    for (const std::string& line : hash_mismatches) {
         std::fputs((line + "\n").c_str(), stdout);
     }
 }
@@ -147,7 +147,7 @@ void check_engine(const SweepOptions& options) {
     }
 }
 
-void fly_sweep(const SweepOptions& options) {
+void run_sweep(const SweepOptions& options) {
     check_engine(options);
     const sweep::Sweep sweep = sweep::read_sweep(options.file);
     if (options.list) {
@@ -166,14 +166,14 @@ void fly_sweep(const SweepOptions& options) {
         report::check_video(folder.video(sweep.runs.front().name));
     }
     const base::StopSignals stop_signals;
-    const FlownSweep flown = fly_what_is_not_done(options, sweep, folder);
-    const std::vector<std::string> differences = sweep::differences(sweep, flown.results);
-    write_results(sweep, folder, flown.results, differences);
-    print_end(sweep, flown.results, differences, flown.manner, options.json);
-    base::say(
+    const SweepResults flown = fly_unfinished_runs(options, sweep, folder);
+    const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, flown.results);
+    write_results(sweep, folder, flown.results, hash_mismatches);
+    print_end(sweep, flown.results, hash_mismatches, flown.machine_sharing, options.json);
+    base::print_note(
         quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
-    if (!differences.empty() || !not_done(flown.results).empty()) {
-        throw CheckSaidNo();
+    if (!hash_mismatches.empty() || !unfinished_runs(flown.results).empty()) {
+        throw CheckFailed();
     }
 }
 
@@ -186,7 +186,7 @@ Command sweep_command() {
         .summary = "Flies many flights, by a table of what they vary, and reports them together",
         .options =
             {required(text_option("file", "FILE.toml", "what is flown", options->file)),
-             showing(
+             with_shown_default(
                  "the sweep's name",
                  text_option("--out", "DIR", "folder of all of it", options->out)),
              flag("--list", "print the flights and fly none", options->list),
@@ -197,23 +197,23 @@ Command sweep_command() {
                  "parallel over ssh, all machines seeing the folder",
                  {"local", "slurm", "parallel"},
                  options->on),
-             read_option(
+             value_option(
                  {"retries", "N", "how often a flight that failed is tried again", 0, 100},
                  options->retries),
              flag(
                  "--share-cores",
                  "fly several at once on a machine; frame times then depend on each other",
                  options->engine.share_cores),
-             read_option(
+             value_option(
                  {"jobs", "N", "flights at once: here, on each machine, of the array", 1, 10000},
                  options->jobs),
-             read_option(
+             value_option(
                  {"tasks", "N", "tasks of the job array [one a flight, at most 1000]", 1, 100000},
                  options->tasks),
-             read_option(
+             value_option(
                  {"minutes", "N", "time limit of a task or a flight on engines [60]", 1, 100000},
                  options->minutes),
-             read_option(
+             value_option(
                  {"split",
                   "N",
                   "fly each flight in N parts, of consecutive frames, and put these together",
@@ -228,10 +228,10 @@ Command sweep_command() {
                  "--sbatch",
                  "OPTION",
                  "a further option of sbatch, such as --sbatch=--partition=long",
-                 Takes::OneWordAgain,
+                 Arity::Repeatable,
                  options->engine.sbatch_options),
              text_option("--hosts", "FILE", "GNU parallel's file of machines", options->hosts),
-             showing(
+             with_shown_default(
                  "this one",
                  text_option(
                      "--program",
@@ -249,7 +249,7 @@ Command sweep_command() {
             "  octant sweep long.toml --split 4 --share-cores --video\n"
             "Flights that are done are not flown again. Exit code 1: some failed, or runs that\n"
             "differ in nothing did not show the same.",
-        .run = [options] { fly_sweep(*options); }};
+        .run = [options] { run_sweep(*options); }};
 }
 
 } // namespace octant::ui::commands

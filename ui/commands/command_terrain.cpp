@@ -2,14 +2,14 @@
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
-#include "models/made/made_terrain.h"
+#include "models/procedural/procedural_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/report/png_file.h"
 #include "ui/settings/terrain_name.h"
@@ -37,13 +37,13 @@ struct TerrainOptions {
     bool verify = false;
     std::string picture;
     std::string kind = "hills";
-    models::made::MadeOptions made;
+    models::procedural::ProceduralTerrainOptions made;
     int seed = 1;
     std::string out;
 };
 
-base::Figures figures_of(const models::heights::HeightField& field) {
-    base::Figures figures;
+base::JsonValue results_of_run(const models::heights::HeightField& field) {
+    base::JsonValue results;
     double sum_m = 0.0;
     double steepest_rad = 0.0;
     for (int row = 0; row < field.rows(); ++row) {
@@ -55,40 +55,40 @@ base::Figures figures_of(const models::heights::HeightField& field) {
                     std::min(1.0, static_cast<double>(field.normal_at_sample(column, row).z))));
         }
     }
-    figures["name"] = field.name;
-    figures["columns"] = field.columns();
-    figures["rows"] = field.rows();
-    figures["spacing_m"] = field.spacing_m();
-    figures["extent_east_m"] = 2.0 * field.half_extent_m().x;
-    figures["extent_north_m"] = 2.0 * field.half_extent_m().y;
-    figures["lowest_m"] = field.lowest_m();
-    figures["highest_m"] = field.highest_m();
-    figures["mean_m"] = sum_m / field.columns() / field.rows();
-    figures["steepest_deg"] = deg_from_rad(steepest_rad);
-    figures["filled_voids"] = field.filled_voids;
+    results["name"] = field.name;
+    results["columns"] = field.columns();
+    results["rows"] = field.rows();
+    results["spacing_m"] = field.spacing_m();
+    results["extent_east_m"] = 2.0 * field.half_extent_m().x;
+    results["extent_north_m"] = 2.0 * field.half_extent_m().y;
+    results["lowest_m"] = field.lowest_m();
+    results["highest_m"] = field.highest_m();
+    results["mean_m"] = sum_m / field.columns() / field.rows();
+    results["steepest_deg"] = deg_from_rad(steepest_rad);
+    results["filled_voids"] = field.filled_voids;
     if (field.place) {
-        figures["latitude_deg"] = field.place->latitude_deg;
-        figures["longitude_deg"] = field.place->longitude_deg;
+        results["latitude_deg"] = field.place->latitude_deg;
+        results["longitude_deg"] = field.place->longitude_deg;
     }
-    return figures;
+    return results;
 }
 
 /// Adds what only the files themselves tell, which are read once more.
 void add_source(
     const models::heights::HeightField& field,
     const TerrainOptions& options,
-    base::Figures& figures) {
+    base::JsonValue& results) {
     const models::heights::HeightSource source(
         models::heights::map_inputs({options.terrain}), options.files);
-    figures["voids"] = source.count_voids();
-    figures["cell_m"] = source.cell_m().x;
-    figures["cell_north_m"] = source.cell_m().y;
+    results["voids"] = source.count_voids();
+    results["cell_m"] = source.cell_m().x;
+    results["cell_north_m"] = source.cell_m().y;
     if (!source.system_name().empty()) {
-        figures["system"] = source.system_name();
+        results["system"] = source.system_name();
     }
     const auto deviation =
         source.deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); });
-    add_trust(field.system, field.half_extent_m(), deviation, figures);
+    add_accuracy(field.system, field.half_extent_m(), deviation, results);
 }
 
 void show(const TerrainOptions& options) {
@@ -103,29 +103,29 @@ void show(const TerrainOptions& options) {
     }
     const models::heights::HeightField field =
         world::load_height_field(options.terrain, options.files);
-    base::Figures figures = figures_of(field);
+    base::JsonValue results = results_of_run(field);
     if (!settings::is_built_in_ground(options.terrain)) {
-        add_source(field, options, figures);
+        add_source(field, options, results);
     }
-    figures["notes"] = note_texts(field.notes);
+    results["notes"] = note_texts(field.notes);
     if (!options.picture.empty()) {
         const visuals::terrain::GroundSamples samples(field);
         report::write_png(options.picture, terrain::map_picture(samples, field.notes).view());
-        figures["picture"] = options.picture;
+        results["picture"] = options.picture;
     }
-    base::print_figures(figures, options.json);
+    base::print_value(results, options.json);
 }
 
 void make(TerrainOptions options) {
     options.made.seed = static_cast<std::uint64_t>(options.seed);
-    const auto field = models::made::made_terrain(options.kind, options.made);
+    const auto field = models::procedural::procedural_terrain(options.kind, options.made);
     if (!field) {
         throw Error(
             fmt::format("--kind: expected hills or canyon, got '{}'", printable(options.kind)));
     }
     models::heights::write_height_field(options.out, *field);
     if (options.json) {
-        base::print_figures(
+        base::print_value(
             {{"file", options.out},
              {"columns", field->columns()},
              {"rows", field->rows()},
@@ -134,7 +134,7 @@ void make(TerrainOptions options) {
              {"highest_m", field->highest_m()}},
             true);
     }
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format(
             "{}: {} x {} samples, {} m apart, {:.0f} to {:.0f} m",
@@ -179,10 +179,10 @@ Command make_command() {
         .summary = "Makes a terrain from a seed and writes it as GeoTIFF",
         .options =
             {text_option("--kind", "KIND", "hills (gentle) or canyon (rugged)", options->kind),
-             read_option({"size", "N", "samples a side", 2, 20000}, options->made.size),
-             read_option(
+             value_option({"size", "N", "samples a side", 2, 20000}, options->made.size),
+             value_option(
                  {"spacing", "METRES", "between samples", 0.1, 1000}, options->made.spacing_m),
-             read_option({"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed),
+             value_option({"seed", "S", "another seed, another terrain", 0, 1e9}, options->seed),
              required(text_option("--out", "FILE.tif", "the file to write", options->out)),
              flag("--json", "what was made as JSON", options->json),
              flag("--quiet", "no notes", options->quiet)},
@@ -201,24 +201,24 @@ std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>&
     return texts;
 }
 
-void add_trust(
-    const std::optional<models::heights::MapSystem>& system,
+void add_accuracy(
+    const std::optional<models::heights::CoordinateSystem>& system,
     const glm::dvec2& half_extent_m,
-    const std::optional<models::heights::Deviation>& deviation,
-    base::Figures& figures) {
+    const std::optional<models::heights::HeightDeviation>& deviation,
+    base::JsonValue& results) {
     if (!system) {
-        figures["system"] = "none named: cells count as metres";
+        results["system"] = "none named: cells count as metres";
     }
     const auto distortion =
         system ? models::heights::distortion_at_corners(*system, half_extent_m) : std::nullopt;
     if (distortion) {
-        figures["corner_scale_off_percent"] = distortion->scale_percent;
-        figures["corner_north_off_deg"] = distortion->turn_deg;
+        results["corner_scale_off_percent"] = distortion->scale_percent;
+        results["corner_north_off_deg"] = distortion->turn_deg;
     }
     if (deviation) {
-        figures["source_rms_m"] = deviation->rms_m;
-        figures["source_worst_m"] = deviation->worst_m;
-        figures["source_places"] = deviation->places;
+        results["source_rms_m"] = deviation->rms_m;
+        results["source_worst_m"] = deviation->worst_m;
+        results["source_places"] = deviation->places;
     }
 }
 

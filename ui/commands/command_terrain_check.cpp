@@ -1,7 +1,7 @@
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/command_terrain_parts.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
@@ -28,36 +28,36 @@ void check(CheckOptions options) {
     ui::terrain::TerrainCheck asked = options.check;
     asked.earth_radius_m = options.view.earth_radius_m;
     asked.by_error = options.mesh.mesh == visuals::scene::GroundMetric::ScreenError;
-    const ui::terrain::TerrainFaults faults = ui::terrain::check_terrain(*maker, asked);
+    const ui::terrain::TerrainCheckResult check_result = ui::terrain::check_terrain(*maker, asked);
     if (options.json) {
-        base::Figures figures;
-        figures["views"] = faults.views;
-        figures["drawn"] = faults.drawn;
-        figures["triangles"] = faults.triangles;
-        figures["cracked_views"] = faults.cracked_views;
-        figures["open_edges"] = faults.edges.open_edges;
-        figures["corners_on_edges"] = faults.edges.corners_on_edges;
-        figures["crowded_edges"] = faults.edges.crowded_edges;
-        figures["turned_triangles"] = faults.edges.turned_triangles;
-        figures["doubled_vertices"] = faults.edges.doubled_vertices;
-        figures["key_pixels"] = faults.key_pixels;
-        base::print_figures(figures, true);
+        base::JsonValue results;
+        results["views"] = check_result.views;
+        results["drawn"] = check_result.drawn;
+        results["triangles"] = check_result.triangles;
+        results["cracked_views"] = check_result.cracked_views;
+        results["open_edges"] = check_result.edges.open_edges;
+        results["corners_on_edges"] = check_result.edges.t_junctions;
+        results["crowded_edges"] = check_result.edges.overlapping_edges;
+        results["turned_triangles"] = check_result.edges.inverted_triangles;
+        results["doubled_vertices"] = check_result.edges.duplicate_vertices;
+        results["key_pixels"] = check_result.key_pixels;
+        base::print_value(results, true);
     } else {
         std::fputs(
             fmt::format(
                 "{} views, {} triangles, {} drawn: {} views with faults\n{}\n{} pixels of key "
                 "colour inside the ground\n",
-                faults.views,
-                faults.triangles,
-                faults.drawn,
-                faults.cracked_views,
-                faults.edges.text(),
-                faults.key_pixels)
+                check_result.views,
+                check_result.triangles,
+                check_result.drawn,
+                check_result.cracked_views,
+                check_result.edges.text(),
+                check_result.key_pixels)
                 .c_str(),
             stdout);
     }
-    if (faults.cracked_views > 0) {
-        throw CheckSaidNo();
+    if (check_result.cracked_views > 0) {
+        throw CheckFailed();
     }
 }
 
@@ -68,10 +68,10 @@ std::vector<Option> options_of(CheckOptions& options) {
     add_mesh_options(table, options.mesh);
     table.insert(
         table.end(),
-        {read_option({"views", "N", "random views", 1, 1e8}, asked.views),
-         read_option({"seed", "S", "another seed, other views", 0, 1e9}, asked.seed),
-         read_option({"every", "N", "only every Nth view of them is made", 1, 1e6}, asked.every),
-         read_option(
+        {value_option({"views", "N", "random views", 1, 1e8}, asked.views),
+         value_option({"seed", "S", "another seed, other views", 0, 1e9}, asked.seed),
+         value_option({"every", "N", "only every Nth view of them is made", 1, 1e6}, asked.every),
+         value_option(
              {"draw-every",
               "N",
               "every Nth view made is drawn over a key colour; 0 = none",

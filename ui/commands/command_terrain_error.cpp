@@ -1,6 +1,6 @@
 #include "sim/base/error.h"
 #include "ui/commands/command_terrain_parts.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/report/table_text.h"
 #include "ui/terrain/error_tables.h"
@@ -20,7 +20,7 @@ namespace {
 struct ErrorOptions {
     ui::terrain::GroundViewOptions view;
     ui::terrain::GroundMeshOptions mesh;
-    std::optional<double> solve_px;
+    std::optional<double> target_error_px;
     std::string eye_points;
     std::string map;
     bool compare = false;
@@ -29,11 +29,11 @@ struct ErrorOptions {
 };
 
 void show_error(ErrorOptions options) {
-    if (options.compare && !options.solve_px) {
+    if (options.compare && !options.target_error_px) {
         throw Error("--compare: expected --solve PIXELS beside it, got none");
     }
     const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
-    ui::terrain::ErrorRun run{options.view, options.mesh, {}, options.solve_px, options.quiet};
+    ui::terrain::ErrorMeasurement run{options.view, options.mesh, {}, options.target_error_px, options.quiet};
     if (options.eye_points.empty()) {
         run.cameras.push_back(ui::terrain::camera_of(options.view));
     } else {
@@ -65,13 +65,13 @@ std::vector<Option> options_of(ErrorOptions& options) {
     add_detail_options(table, options.mesh);
     table.insert(
         table.end(),
-        {read_option(
+        {value_option(
              {"solve",
               "PIXELS",
               "find the coarsest mesh whose 99.9th percentile is this",
               0.001,
               1e4},
-             options.solve_px),
+             options.target_error_px),
          text_option(
              "--eye-points",
              "FILE",

@@ -1,10 +1,10 @@
 #include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stopwatch.h"
 #include "ui/commands/command_terrain_parts.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
@@ -23,7 +23,7 @@ namespace octant::ui::commands {
 namespace {
 
 using visuals::groundfile::ImportStage;
-using visuals::terrain::GroundFacts;
+using visuals::terrain::GroundMetadata;
 using visuals::terrain::GroundShape;
 
 struct ImportCommand {
@@ -42,9 +42,9 @@ constexpr std::array<const char*, stage_count> stage_keys = {
     "scan_s", "read_s", "fill_s", "build_s", "fsync_s"};
 
 /// Times the stages, draws the progress line and says when work shall be made safe.
-class StageWatch {
+class StageProgress {
 public:
-    explicit StageWatch(bool quiet)
+    explicit StageProgress(bool quiet)
         : quiet_(quiet) {}
 
     bool operator()(ImportStage stage, double done) {
@@ -77,36 +77,36 @@ private:
     std::array<double, stage_count> seconds_{};
 };
 
-base::Figures figures_of(const GroundShape& shape, const GroundFacts& facts, std::uintmax_t bytes) {
+base::JsonValue results_of_run(const GroundShape& shape, const GroundMetadata& metadata, std::uintmax_t bytes) {
     const glm::dvec2 half_m(
         0.5 * (shape.columns - 1) * shape.spacing_m, 0.5 * (shape.rows - 1) * shape.spacing_m);
-    base::Figures figures;
-    figures["name"] = facts.name;
-    figures["columns"] = shape.columns;
-    figures["rows"] = shape.rows;
-    figures["spacing_m"] = shape.spacing_m;
-    figures["extent_east_m"] = (shape.columns - 1) * shape.spacing_m;
-    figures["extent_north_m"] = (shape.rows - 1) * shape.spacing_m;
-    figures["lowest_m"] = facts.lowest_m;
-    figures["highest_m"] = facts.highest_m;
-    figures["mean_m"] = facts.mean_m;
-    figures["height_unit_m"] = shape.height_unit_m;
-    figures["filled_voids"] = facts.filled_voids;
-    if (facts.place) {
-        figures["latitude_deg"] = facts.place->latitude_deg;
-        figures["longitude_deg"] = facts.place->longitude_deg;
+    base::JsonValue results;
+    results["name"] = metadata.name;
+    results["columns"] = shape.columns;
+    results["rows"] = shape.rows;
+    results["spacing_m"] = shape.spacing_m;
+    results["extent_east_m"] = (shape.columns - 1) * shape.spacing_m;
+    results["extent_north_m"] = (shape.rows - 1) * shape.spacing_m;
+    results["lowest_m"] = metadata.lowest_m;
+    results["highest_m"] = metadata.highest_m;
+    results["mean_m"] = metadata.mean_m;
+    results["height_unit_m"] = shape.height_unit_m;
+    results["filled_voids"] = metadata.filled_voids;
+    if (metadata.place) {
+        results["latitude_deg"] = metadata.place->latitude_deg;
+        results["longitude_deg"] = metadata.place->longitude_deg;
     }
-    add_trust(facts.system, half_m, facts.deviation, figures);
+    add_accuracy(metadata.system, half_m, metadata.deviation, results);
     const double samples = static_cast<double>(shape.columns) * shape.rows;
-    figures["samples"] = static_cast<std::int64_t>(samples);
-    figures["bytes"] = bytes;
-    figures["bytes_a_sample"] = static_cast<double>(bytes) / samples;
-    return figures;
+    results["samples"] = static_cast<std::int64_t>(samples);
+    results["bytes"] = bytes;
+    results["bytes_a_sample"] = static_cast<double>(bytes) / samples;
+    return results;
 }
 
 /// How the import is told of in one line.
 std::string line_of(const visuals::groundfile::ImportSummary& summary) {
-    const auto& deviation = summary.facts.deviation;
+    const auto& deviation = summary.metadata.deviation;
     const std::string off =
         deviation ? fmt::format(
                         ", {:.2g} m off its source (root mean square; at most {:.3g} m)",
@@ -118,42 +118,42 @@ std::string line_of(const visuals::groundfile::ImportSummary& summary) {
         summary.shape.columns,
         summary.shape.rows,
         summary.shape.spacing_m,
-        summary.facts.lowest_m,
-        summary.facts.highest_m,
+        summary.metadata.lowest_m,
+        summary.metadata.highest_m,
         off,
-        summary.facts.filled_voids,
+        summary.metadata.filled_voids,
         static_cast<double>(summary.bytes) / 1e6);
 }
 
 void import(const ImportCommand& command) {
     visuals::groundfile::GroundImportOptions options;
-    options.picture = command.files;
+    options.source_options = command.files;
     options.threads = command.threads;
-    StageWatch watch(command.quiet);
+    StageProgress watch(command.quiet);
     const base::Stopwatch whole;
     const auto summary = visuals::groundfile::import_ground(
         models::heights::map_inputs(command.inputs), command.out, options, std::ref(watch));
     const double whole_s = whole.s();
     watch.finish();
     if (!summary.note.empty()) {
-        base::say(command.quiet, summary.note);
+        base::print_note(command.quiet, summary.note);
     }
     for (const models::heights::MapNote& note : summary.notes) {
-        base::say(command.quiet, note.text);
+        base::print_note(command.quiet, note.text);
     }
     if (!command.json) {
-        base::say(
+        base::print_note(
             command.quiet, fmt::format("{}: {}, {:.2f} s", command.out, line_of(summary), whole_s));
         return;
     }
-    auto figures = figures_of(summary.shape, summary.facts, summary.bytes);
-    figures["seconds"] = whole_s;
+    auto results = results_of_run(summary.shape, summary.metadata, summary.bytes);
+    results["seconds"] = whole_s;
     for (std::size_t stage = 0; stage < stage_count; ++stage) {
-        figures[stage_keys[stage]] = watch.seconds(stage);
+        results[stage_keys[stage]] = watch.seconds(stage);
     }
-    figures["note"] = summary.note;
-    figures["notes"] = note_texts(summary.notes);
-    base::print_figures(figures, true);
+    results["note"] = summary.note;
+    results["notes"] = note_texts(summary.notes);
+    base::print_value(results, true);
 }
 
 } // namespace
@@ -165,10 +165,10 @@ void show_ground_file(const std::string& file, bool verify, bool json) {
     if (verify) {
         visuals::groundfile::verify_ground(file);
     }
-    auto figures = figures_of(ground.shape(), ground.facts(), std::filesystem::file_size(file));
-    figures["open_ms"] = open_ms;
-    figures["verified"] = verify;
-    base::print_figures(figures, json);
+    auto results = results_of_run(ground.shape(), ground.metadata(), std::filesystem::file_size(file));
+    results["open_ms"] = open_ms;
+    results["verified"] = verify;
+    base::print_value(results, json);
 }
 
 Command terrain_import_command() {
@@ -184,10 +184,10 @@ Command terrain_import_command() {
                  "what GDAL reads, folders, patterns and archives of it; the first counts where "
                  "they "
                  "overlap",
-                 Takes::SomeWords,
+                 Arity::OneOrMore,
                  options.inputs)),
              required(text_option("--out", "FILE.ground", "the file to write", options.out)),
-             read_option({"threads", "N", "that build", 1, 256}, options.threads),
+             value_option({"threads", "N", "that build", 1, 256}, options.threads),
              flag("--json", "figures as JSON on stdout", options.json),
              flag("--quiet", "no notes", options.quiet)},
         .footer =

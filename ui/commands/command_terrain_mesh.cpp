@@ -1,5 +1,5 @@
 #include "sim/base/output_file.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/commands/command_terrain_parts.h"
 #include "ui/commands/terrain_options.h"
@@ -29,20 +29,20 @@ void write_mesh(MeshOptions options) {
     const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
     const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
-    const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_as_asked(
+    const visuals::terrain::GroundMesh mesh = ui::terrain::mesh_from_options(
         *maker, ui::terrain::mesh_view(camera, options.view), options.mesh);
     write_file(options.out, ui::terrain::ply_of(mesh, camera.eye_m, options.ascii));
     if (options.json) {
-        base::Figures figures;
-        figures["file"] = options.out;
-        figures["triangles"] = mesh.counters.triangles;
-        figures["vertices"] = mesh.vertices.size();
-        figures["error_px"] = mesh.error_px;
-        figures["resolution_c"] = mesh.resolution;
-        base::print_figures(figures, true);
+        base::JsonValue results;
+        results["file"] = options.out;
+        results["triangles"] = mesh.counters.triangles;
+        results["vertices"] = mesh.vertices.size();
+        results["error_px"] = mesh.error_px;
+        results["resolution_c"] = mesh.resolution;
+        base::print_value(results, true);
         return;
     }
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format(
             "{}: {} triangles, {} vertices, {}",

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "ui/base/figures.h"
+#include "ui/base/json_value.h"
 #include "ui/commands/command.h"
 
 #include <glm/vec2.hpp>
@@ -22,11 +22,11 @@ Command terrain_check_command();
 
 /// Adds how far the system of a ground from files is from true at its corners, or what is taken for
 /// granted without one, and how far the ground lies from the files, as far as either is known.
-void add_trust(
-    const std::optional<models::heights::MapSystem>& system,
+void add_accuracy(
+    const std::optional<models::heights::CoordinateSystem>& system,
     const glm::dvec2& half_extent_m,
-    const std::optional<models::heights::Deviation>& deviation,
-    base::Figures& figures);
+    const std::optional<models::heights::HeightDeviation>& deviation,
+    base::JsonValue& results);
 
 /// What notes say.
 std::vector<std::string> note_texts(const std::vector<models::heights::MapNote>& notes);

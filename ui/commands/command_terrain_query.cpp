@@ -3,11 +3,11 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/commands/command_terrain_parts.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/terrain_options.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/terrain/terrain_answers.h"
+#include "ui/terrain/terrain_query.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
@@ -34,8 +34,8 @@ struct QueryOptions {
     bool json = false;
 };
 
-std::vector<ui::terrain::AskedPoint> asked_points(const QueryOptions& options) {
-    std::vector<ui::terrain::AskedPoint> points;
+std::vector<ui::terrain::QueryPoint> query_points(const QueryOptions& options) {
+    std::vector<ui::terrain::QueryPoint> points;
     for (const std::string& text : options.at) {
         const auto point = ui::terrain::point_from_text(text);
         if (!point) {
@@ -44,17 +44,17 @@ std::vector<ui::terrain::AskedPoint> asked_points(const QueryOptions& options) {
         points.push_back(*point);
     }
     if (!options.points.empty()) {
-        const std::vector<ui::terrain::AskedPoint> more = ui::terrain::read_points(options.points);
+        const std::vector<ui::terrain::QueryPoint> more = ui::terrain::read_points(options.points);
         points.insert(points.end(), more.begin(), more.end());
     }
     return points;
 }
 
 /// Answers from the files that a ground was made of.
-std::vector<ui::terrain::PointAnswer> answers_of_source(
+std::vector<ui::terrain::QueryPointResult> query_source(
     const QueryOptions& options,
     const visuals::terrain::GroundSamples& ground,
-    const std::vector<ui::terrain::AskedPoint>& points) {
+    const std::vector<ui::terrain::QueryPoint>& points) {
     const models::heights::HeightSource source(
         models::heights::map_inputs(options.source), options.view.files);
     if (!source.system() || source.columns() != ground.columns() ||
@@ -63,8 +63,8 @@ std::vector<ui::terrain::PointAnswer> answers_of_source(
             "--source: expected the maps, with a coordinate system, that {} is made of, got others",
             options.view.terrain));
     }
-    std::vector<ui::terrain::PointAnswer> answers;
-    for (const ui::terrain::AskedPoint& point : points) {
+    std::vector<ui::terrain::QueryPointResult> answers;
+    for (const ui::terrain::QueryPoint& point : points) {
         answers.push_back({point, source.height_at(point.x_m, point.y_m)});
     }
     return answers;
@@ -74,35 +74,35 @@ void query(QueryOptions options) {
     if (options.from_m.has_value() != options.to_m.has_value()) {
         throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
     }
-    const std::vector<ui::terrain::AskedPoint> points = asked_points(options);
+    const std::vector<ui::terrain::QueryPoint> points = query_points(options);
     if (points.empty() && !options.from_m) {
         throw Error("expected --at, --points or --from and --to, got none");
     }
     const terrain::LoadedGround ground = terrain::load_ground(options.view);
     const visuals::terrain::GroundSamples samples = ground.samples();
-    ui::terrain::Answers answers;
+    ui::terrain::QueryResults answers;
     if (options.as_drawn) {
         const visuals::scene::Camera camera = ui::terrain::camera_of(options.view);
         const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
         const visuals::terrain::MeshView view = ui::terrain::mesh_view(camera, options.view);
-        ui::terrain::DrawnGround drawn{{}, camera.eye_m, view.earth_radius_m};
-        drawn.surface.take(ui::terrain::mesh_as_asked(*maker, view, options.mesh), camera.eye_m);
-        answers.points = ui::terrain::answers_as_drawn(drawn, points);
+        ui::terrain::DrawnMesh drawn{{}, camera.eye_m, view.earth_radius_m};
+        drawn.surface.set_mesh(ui::terrain::mesh_from_options(*maker, view, options.mesh), camera.eye_m);
+        answers.points = ui::terrain::drawn_heights_at(drawn, points);
         if (options.from_m) {
-            answers.sight = ui::terrain::sight_as_drawn(drawn, *options.from_m, *options.to_m);
+            answers.sight = ui::terrain::drawn_line_of_sight(drawn, *options.from_m, *options.to_m);
         }
     } else {
-        answers.points = options.source.empty() ? ui::terrain::answers_of(samples, points)
-                                                : answers_of_source(options, samples, points);
+        answers.points = options.source.empty() ? ui::terrain::ground_heights_at(samples, points)
+                                                : query_source(options, samples, points);
         if (options.from_m) {
-            answers.sight = ui::terrain::sight_over(
+            answers.sight = ui::terrain::line_of_sight_answer(
                 samples,
                 *options.from_m,
                 *options.to_m,
                 options.flat ? 0.0 : ground.mean_radius_m());
         }
     }
-    std::fputs(ui::terrain::text_of_answers(answers, options.json).c_str(), stdout);
+    std::fputs(ui::terrain::query_text(answers, options.json).c_str(), stdout);
 }
 
 std::vector<Option> options_of(QueryOptions& options) {
@@ -115,7 +115,7 @@ std::vector<Option> options_of(QueryOptions& options) {
              "--at",
              "X,Y[,Z]",
              "ground height there; with Z also the height above it",
-             Takes::SomeWords,
+             Arity::OneOrMore,
              options.at),
          text_option(
              "--points", "FILE", "the same for each line of a CSV file x,y[,z]", options.points),
@@ -124,11 +124,11 @@ std::vector<Option> options_of(QueryOptions& options) {
              "FILE",
              "heights of points from these maps, of which the terrain is made, between their own "
              "samples",
-             Takes::SomeWords,
+             Arity::OneOrMore,
              options.source),
-         read_option(
+         value_option(
              {"from", "X,Y,Z", "where a line of sight begins", -far_m, far_m}, options.from_m),
-         read_option({"to", "X,Y,Z", "where it ends", -far_m, far_m}, options.to_m),
+         value_option({"to", "X,Y,Z", "where it ends", -far_m, far_m}, options.to_m),
          flag(
              "--flat",
              "lines of sight over a flat earth; else it curves, R = 6371 km (on the Moon 1737 km, "

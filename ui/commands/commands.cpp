@@ -12,7 +12,7 @@
 
 namespace octant::ui::commands {
 
-Program octant_program(std::vector<Command> of_windows) {
+Program octant_program(std::vector<Command> window_commands) {
     Program program{
         .about = "Octant: flies polygon aircraft along scripted paths over level-of-detail "
                  "terrain, and times it.",
@@ -48,8 +48,8 @@ Program octant_program(std::vector<Command> of_windows) {
     constexpr std::ptrdiff_t after_fly = 1;
     program.commands.insert(
         program.commands.begin() + after_fly,
-        std::make_move_iterator(of_windows.begin()),
-        std::make_move_iterator(of_windows.end()));
+        std::make_move_iterator(window_commands.begin()),
+        std::make_move_iterator(window_commands.end()));
     program.commands.push_back(manual_command(std::make_shared<const Program>(program)));
     return program;
 }

@@ -23,6 +23,6 @@ Command study_command();
 Command bench_command();
 
 /// All commands. Those that open windows are made by ui/window.
-Program octant_program(std::vector<Command> of_windows);
+Program octant_program(std::vector<Command> window_commands);
 
 } // namespace octant::ui::commands

@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/file_status.h"
 #include "ui/base/data_files.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/settings/settings_text.h"
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace octant::ui::commands {
 
-using visuals::draworder::Method;
+using visuals::draworder::OrderMethod;
 
 namespace {
 
 /// Throws Error where one file would be written over another, or over the model.
-void refuse_overwriting(const DrawOrderOptions& options) {
+void check_not_overwriting(const DrawOrderOptions& options) {
     const std::array<std::pair<const char*, std::string>, 3> written{
         {{"--export", options.export_file},
          {"--export-model", options.export_model},
@@ -35,7 +35,7 @@ void refuse_overwriting(const DrawOrderOptions& options) {
                     printable(file)));
             }
         }
-        if (is_same_file(file, options.model) && is_there(options.model)) {
+        if (is_same_file(file, options.model) && path_exists(options.model)) {
             throw Error(fmt::format(
                 "{}: expected another file than the model, got '{}'", name, printable(file)));
         }
@@ -43,7 +43,7 @@ void refuse_overwriting(const DrawOrderOptions& options) {
 }
 
 /// Throws Error for options that do not go together.
-void refuse_together(const DrawOrderOptions& options) {
+void check_exclusive(const DrawOrderOptions& options) {
     if (options.model.empty() == options.verify.empty()) {
         throw Error(
             options.model.empty()
@@ -59,7 +59,7 @@ void refuse_together(const DrawOrderOptions& options) {
             "--certificate: expected orders that this command finds, got those of --check '" +
             printable(options.check_file) + "'");
     }
-    if (options.order.method == Method::Paper) {
+    if (options.order.method == OrderMethod::Paper) {
         throw Error(
             "--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
             "all from a distance on, got --method paper");
@@ -75,13 +75,13 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
              fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")),
              options.model),
          text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
-         read_option(
+         value_option(
              {"method",
               "KIND",
               "paper (8 octants as printed), cells (octants divided further, exact from a distance "
               "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
              options.order.method),
-         read_option(
+         value_option(
              {"order-seconds",
               "SECONDS",
               "cells, tree: about so long is searched; then polygons are divided as by bsp",
@@ -93,7 +93,7 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
              "DIR",
              "keep the orders in this folder, and read them where the same model is ordered again",
              options.cache),
-         read_option(
+         value_option(
              {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
              options.order.min_distance_radii)});
 }
@@ -122,15 +122,15 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
           .form = "[FILE]",
           .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
                      "those just found",
-          .takes = Takes::PerhapsOneWord,
+          .arity = Arity::Optional,
           .read =
               [&options](const Words& words) {
                   options.check = true;
                   options.check_file = words.front();
               }},
-         showing(
-             fmt::format("{}", usual_rays),
-             read_option(
+         with_shown_default(
+             fmt::format("{}", default_rays),
+             value_option(
                  {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
                  options.rays)),
          flag("--json", "results as JSON", options.json),
@@ -144,12 +144,12 @@ void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& option
     add_result_options(table, options);
 }
 
-void refuse_impossible(const DrawOrderOptions& options) {
-    refuse_together(options);
+void check_draw_order_options(const DrawOrderOptions& options) {
+    check_exclusive(options);
     if (!options.verify.empty()) {
         return;
     }
-    refuse_overwriting(options);
+    check_not_overwriting(options);
     if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
         throw Error(fmt::format(
             "--export-model: expected a file name that ends in .obj, got '{}'",

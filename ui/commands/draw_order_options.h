@@ -9,7 +9,7 @@
 
 namespace octant::ui::commands {
 
-inline constexpr int usual_rays = 200000; ///< of a check
+inline constexpr int default_rays = 200000; ///< of a check
 
 struct DrawOrderOptions {
     std::string model;
@@ -32,6 +32,6 @@ void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& option
 
 /// Throws Error for options that do not go together, and where one file would be written over
 /// another or over the model.
-void refuse_impossible(const DrawOrderOptions& options);
+void check_draw_order_options(const DrawOrderOptions& options);
 
 } // namespace octant::ui::commands

@@ -1,6 +1,6 @@
 #include "ui/commands/flight_summary.h"
 
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/report/statistics.h"
 
 #include <cstdio>
@@ -9,18 +9,18 @@
 namespace octant::ui::commands {
 
 void print_summary(
-    const flight::FlightEnd& end,
-    const std::optional<flight::ReplayVerdict>& verdict,
+    const flight::FlightResult& end,
+    const std::optional<flight::ReplayComparison>& verdict,
     bool json,
-    const base::Figures::Named& further) {
+    const base::JsonValue::JsonMembers& extra_results) {
     if (json) {
-        base::Figures object;
-        for (const report::Figure& figure : report::figures()) {
-            const double value = figure.value(end.statistics);
-            if (figure.decimals == 0) {
-                object[figure.key] = static_cast<int>(value);
+        base::JsonValue object;
+        for (const report::Statistic& statistic : report::all_statistics()) {
+            const double value = statistic.value(end.statistics);
+            if (statistic.decimals == 0) {
+                object[statistic.key] = static_cast<int>(value);
             } else {
-                object[figure.key] = value;
+                object[statistic.key] = value;
             }
         }
         object["state_hash"] = fmt::format("{:016x}", end.state_hash);
@@ -29,15 +29,15 @@ void print_summary(
             object["replay"] = {
                 {"state_hash", verdict->state_hash}, {"picture_hash", verdict->picture_hash}};
         }
-        for (const auto& [name, figure] : further) {
-            object[name] = figure;
+        for (const auto& [name, statistic] : extra_results) {
+            object[name] = statistic;
         }
-        base::print_figures(object, true);
+        base::print_value(object, true);
         return;
     }
-    for (const report::Figure& figure : report::figures()) {
+    for (const report::Statistic& statistic : report::all_statistics()) {
         std::fputs(
-            fmt::format("{:<28} {}\n", figure.name, report::figure_text(figure, end.statistics))
+            fmt::format("{:<28} {}\n", statistic.name, report::statistic_text(statistic, end.statistics))
                 .c_str(),
             stdout);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/base/figures.h"
+#include "ui/base/json_value.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
 
@@ -8,12 +8,12 @@
 
 namespace octant::ui::commands {
 
-/// Prints the figures and hashes of a flight to standard output, as a table or as JSON; `further`
+/// Prints the figures and hashes of a flight to standard output, as a table or as JSON; `extra_results`
 /// figures only as JSON.
 void print_summary(
-    const flight::FlightEnd& end,
-    const std::optional<flight::ReplayVerdict>& verdict,
+    const flight::FlightResult& end,
+    const std::optional<flight::ReplayComparison>& verdict,
     bool json,
-    const base::Figures::Named& further = {});
+    const base::JsonValue::JsonMembers& extra_results = {});
 
 } // namespace octant::ui::commands

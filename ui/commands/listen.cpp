@@ -20,11 +20,11 @@ namespace octant::ui::commands {
 
 namespace {
 
-constexpr double look_every_s = 0.0005; ///< in steps, for the next packet
+constexpr double poll_interval_s = 0.0005; ///< in steps, for the next packet
 
 /// What came, for programs: every vehicle, and what its packets were.
-base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
-    base::Figures vehicles = base::Figures::list({});
+base::JsonValue::JsonMembers results_of_run(const sim::links::LiveTraffic& traffic) {
+    base::JsonValue vehicles = base::JsonValue::list({});
     for (const sim::links::VehicleReport& vehicle : traffic.vehicle_reports()) {
         vehicles.push_back(
             {{"protocol", std::string(sim::links::name_of(vehicle.protocol))},
@@ -37,7 +37,7 @@ base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
              {"altitude_m", vehicle.altitude_m},
              {"shown", vehicle.is_shown}});
     }
-    base::Figures packets = base::Figures::list({});
+    base::JsonValue packets = base::JsonValue::list({});
     for (const sim::links::PacketReport& form : traffic.packet_reports()) {
         packets.push_back(
             {{"from", sim::links::text_of(form.source)},
@@ -52,9 +52,9 @@ base::Figures::Named figures_of(const sim::links::LiveTraffic& traffic) {
 }
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
-class HeadlessRun {
+class HeadlessListener {
 public:
-    explicit HeadlessRun(const ListenOptions& options)
+    explicit HeadlessListener(const ListenOptions& options)
         : options_(options)
         , listener_(options.listener)
         , sender_(options.send)
@@ -62,19 +62,19 @@ public:
         , recorder_(options.record, options.settings, session_) {
         listener_.attach(session_);
         if (options.record.folder) {
-            listener_.record_into(*options.record.folder);
+            listener_.start_packet_recording(*options.record.folder);
         }
     }
 
-    flight::FlightEnd fly() {
-        tell_notes();
+    flight::FlightResult fly() {
+        print_new_messages();
         const double frame_s = 1.0 / options_.settings.time.rate_hz;
         began_s_ = listener_.now_s();
         double due_s = began_s_;
         const bool step = options_.listener.live.step;
         int frame = 0;
-        while (!base::StopSignals::came() && !is_over(frame)) {
-            wait_until(step ? listener_.now_s() + look_every_s : due_s);
+        while (!base::StopSignals::received() && !is_over(frame)) {
+            wait_until(step ? listener_.now_s() + poll_interval_s : due_s);
             const bool drawn = draw(due_s + frame_s);
             frame += drawn ? 1 : 0;
             due_s = std::max(due_s + frame_s, listener_.now_s() - frame_s);
@@ -82,8 +82,8 @@ public:
                 break;
             }
         }
-        if (base::StopSignals::came()) {
-            base::say(
+        if (base::StopSignals::received()) {
+            base::print_note(
                 options_.quiet,
                 fmt::format(
                     "note: ended by {} after {} pictures", base::StopSignals::name(), frame));
@@ -111,11 +111,11 @@ private:
     /// Returns false where there is nothing to draw.
     bool draw(double next_due_s) {
         const std::optional<double> time_s = listener_.take(session_);
-        for (const std::string& line : listener_.take_news()) {
-            base::say(options_.quiet, line);
+        for (const std::string& line : listener_.take_new_messages()) {
+            base::print_note(options_.quiet, line);
         }
         if (!time_s) {
-            listener_.call_hosts();
+            listener_.contact_hosts();
             return false;
         }
         report::FrameRecord record = session_.draw_at(*time_s, std::nullopt);
@@ -130,9 +130,9 @@ private:
         return true;
     }
 
-    void tell_notes() const {
+    void print_new_messages() const {
         for (const std::string& note : session_.world().notes) {
-            base::say(options_.quiet, fmt::format("note: {}", note));
+            base::print_note(options_.quiet, fmt::format("note: {}", note));
         }
     }
 
@@ -152,17 +152,17 @@ void listen_without_window(const ListenOptions& options) {
     if (options.record.video) {
         report::check_video(*options.record.video);
     }
-    HeadlessRun run(options);
-    const flight::FlightEnd end = run.fly();
+    HeadlessListener run(options);
+    const flight::FlightResult end = run.fly();
     for (const std::string& note : end.notes) {
-        base::say(options.quiet, note);
+        base::print_note(options.quiet, note);
     }
-    for (const std::string& missing : end.missing) {
-        base::say(false, missing);
+    for (const std::string& missing_programs : end.missing_programs) {
+        base::print_note(false, missing_programs);
     }
     for (const sim::links::PacketReport& form : run.traffic().packet_reports()) {
         if (form.is_wrong) {
-            base::say(
+            base::print_note(
                 options.quiet,
                 fmt::format(
                     "note: {} packets from {}: {}",
@@ -172,11 +172,11 @@ void listen_without_window(const ListenOptions& options) {
         }
     }
     if (const long untold = run.traffic().counts().untold; untold > 0) {
-        base::say(
+        base::print_note(
             options.quiet,
             fmt::format("note: {} packets more, of too many kinds to tell each", untold));
     }
-    print_summary(end, std::nullopt, options.json, figures_of(run.traffic()));
+    print_summary(end, std::nullopt, options.json, results_of_run(run.traffic()));
     if (!end.fault.empty()) {
         throw Error(end.fault);
     }

@@ -1,6 +1,6 @@
 #include "sim/base/error.h"
 #include "ui/commands/listen.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/settings_options.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace octant::ui::commands {
 namespace {
 
 /// Settings that say something about a path of our own.
-constexpr std::array<std::string_view, 9> of_paths{
+constexpr std::array<std::string_view, 9> path_only_settings{
     "path",
     "--heading",
     "--height-mode",
@@ -35,7 +35,7 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
             "ADDRESS",
             "listen on this IPv4 address of this machine; 0.0.0.0 = on all, for other machines too",
             input.bind),
-        read_option(
+        value_option(
             {"fdm-port",
              "PORT",
              "UDP port for FlightGear's FGNetFDM; 0 = any free one, -1 = closed [5550; none with "
@@ -43,21 +43,21 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
              -1,
              65535},
             input.fdm_port),
-        read_option(
+        value_option(
             {"mavlink-port",
              "PORT",
              "UDP port for MAVLink 1 and 2; -1 = closed [14550; none with --channel]",
              -1,
              65535},
             input.mavlink_port),
-        read_option(
+        value_option(
             {"dis-port",
              "PORT",
              "UDP port for DIS entity states; -1 = closed [3000; none with --channel]",
              -1,
              65535},
             input.dis_port),
-        read_option(
+        value_option(
             {"xplane-port",
              "PORT",
              "UDP port for X-Plane's DATA (groups 3, 17, 18, 20 and 21) and RREF; -1 = closed "
@@ -71,7 +71,7 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
             "ask the X-Plane there for its motion, at port 49000 where none is given; its DATA "
             "needs no asking",
             input.xplane_host),
-        read_option(
+        value_option(
             {"cigi-port",
              "PORT",
              "UDP port for hosts of CIGI 3.3, as their image generator; -1 = closed",
@@ -80,12 +80,12 @@ std::vector<Option> port_options(flight::LiveInputOptions& input) {
             input.cigi_port),
         text_option(
             "--cigi-host", "HOST:PORT", "who gets Start of Frame and answers", input.cigi_host),
-        read_option(
+        value_option(
             {"lines-port", "PORT", "TCP port for lines of named columns; -1 = closed", -1, 65535},
             input.lines_port)};
 }
 
-void take_from(const std::string& from, flight::LiveInputOptions& input) {
+void read_packet_source(const std::string& from, flight::LiveInputOptions& input) {
     if (from != "-") {
         sim::links::address_from_text("--from", from);
         input.only_from = from;
@@ -105,7 +105,7 @@ Option from_option(flight::LiveInputOptions& input) {
         .form = "-|ADDRESS",
         .meaning = "-: lines of named columns on standard input alone, no ports; an IPv4 address: "
                    "packets of that machine alone",
-        .read = [&input](const Words& words) { take_from(words.front(), input); }};
+        .read = [&input](const Words& words) { read_packet_source(words.front(), input); }};
 }
 
 Option channel_option(flight::ListenerOptions& listener) {
@@ -135,11 +135,11 @@ Option height_option(flight::LiveOptions& live) {
                    "over ours; offset: as msl, moved so that he begins as high above our ground "
                    "[msl on a map with a place, else offset]",
         .read = [&live](const Words& words) {
-            live.height = flight::live_height_from(words.front());
+            live.height = flight::live_height_mode_from(words.front());
             if (!live.height) {
                 throw Error(fmt::format(
                     "--height: expected {}, got '{}'",
-                    flight::live_height_names,
+                    flight::live_height_mode_names,
                     printable(words.front())));
             }
         }};
@@ -148,7 +148,7 @@ Option height_option(flight::LiveOptions& live) {
 /// What is shown of what comes.
 std::vector<Option> view_options(ListenOptions& options) {
     return {
-        read_option(
+        value_option(
             {"vehicles",
              "N",
              "show as many vehicles [16]: those beyond the --aircraft given look like the last one",
@@ -161,7 +161,7 @@ std::vector<Option> view_options(ListenOptions& options) {
             "what types of CIGI entities are: tables [[entity]] with type, aircraft and count; the "
             "aircraft are those of the file",
             options.entities),
-        read_option(
+        value_option(
             {"cigi-view",
              "N",
              "show this view of a CIGI host, and its next one in the --inset [the one of the "
@@ -170,7 +170,7 @@ std::vector<Option> view_options(ListenOptions& options) {
              0,
              65535},
             options.listener.live.view),
-        read_option(
+        value_option(
             {"delay",
              "S",
              "show what was so long ago: 0 goes on by velocity, more lies between packets",
@@ -188,7 +188,7 @@ std::vector<Option> settings_of_live(settings::RunSettings& settings) {
     std::vector<Option> table;
     add_setting_options(table, settings);
     std::erase_if(table, [](const Option& option) {
-        return std::ranges::find(of_paths, option.name) != of_paths.end();
+        return std::ranges::find(path_only_settings, option.name) != path_only_settings.end();
     });
     return table;
 }
@@ -213,7 +213,7 @@ std::vector<Option> listen_options(ListenOptions& options) {
              "--send",
              "fdm|dis|xplane|cigi|tacview:HOST:PORT",
              "send each picture's aircraft on to another program, as octant fly --send",
-             Takes::OneWordAgain,
+             Arity::Repeatable,
              options.send),
          flag("--quiet", "no notes", options.quiet)});
     append(table, settings_of_live(options.settings));

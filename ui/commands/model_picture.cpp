@@ -14,7 +14,7 @@ namespace octant::ui::commands {
 namespace {
 
 constexpr int samples_a_side = 2; ///< Of a pixel.
-constexpr glm::vec3 paper(0.93F, 0.94F, 0.96F);
+constexpr glm::vec3 background_colour(0.93F, 0.94F, 0.96F);
 
 /// The directions on the screen, body axes. `towards` points to the eye.
 struct View {
@@ -35,7 +35,7 @@ public:
         : width_(width)
         , height_(height)
         , depths_(cells(), -std::numeric_limits<double>::infinity())
-        , colours_(cells(), paper) {}
+        , colours_(cells(), background_colour) {}
 
     /// Corners: x and y in samples from the upper left corner, z towards the eye.
     void draw(const std::array<glm::dvec3, 3>& corners, const glm::vec3& colour) {
@@ -104,14 +104,14 @@ private:
 };
 
 /// Where a mesh comes to lie in the panes: its middle in theirs, at one scale for all.
-struct Fit {
+struct FittedScale {
     glm::dvec3 middle_m{0.0};
     double samples_per_m = 1.0;
 };
 
-Fit fit_of(const models::TriangleMesh& body, double width, double height) {
+FittedScale fitted_scale_of(const models::TriangleMesh& body, double width, double height) {
     constexpr double share = 0.92;
-    const models::Bounds bounds = models::bounds_of(body);
+    const models::BoundingBox bounds = models::bounds_of(body);
     const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
     double scale = std::numeric_limits<double>::infinity();
     for (const View& view : views) {
@@ -125,7 +125,7 @@ Fit fit_of(const models::TriangleMesh& body, double width, double height) {
 
 Pane pane_of(const models::TriangleMesh& body, const View& view, int width, int height) {
     Pane pane(width, height);
-    const Fit fit = fit_of(body, width, height);
+    const FittedScale fit = fitted_scale_of(body, width, height);
     for (std::size_t t = 0; t < body.triangles.size(); ++t) {
         std::array<glm::dvec3, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k) {

@@ -6,7 +6,7 @@
 
 namespace octant::ui::commands {
 
-Option showing(std::string shown_default, Option option) {
+Option with_shown_default(std::string shown_default, Option option) {
     option.shown_default = std::move(shown_default);
     return option;
 }
@@ -20,7 +20,7 @@ Option flag(std::string names, std::string meaning, bool& value) {
     return {
         .name = std::move(names),
         .meaning = std::move(meaning),
-        .takes = Takes::Nothing,
+        .arity = Arity::None,
         .read = [&value](const Words& words) { value = words.front() == "true"; }};
 }
 

@@ -12,12 +12,12 @@ namespace octant::ui::commands {
 using Words = std::vector<std::string>;
 
 /// How many words follow an option.
-enum class Takes {
-    Nothing,        ///< a flag: it is read as "true", its negation and `=false` as "false"
-    OneWord,        ///< and the option stands once
-    PerhapsOneWord, ///< one word or none; none is read as an empty one
-    OneWordAgain,   ///< one word each time that the option stands
-    SomeWords,      ///< one or more words each time
+enum class Arity {
+    None,        ///< a flag: it is read as "true", its negation and `=false` as "false"
+    One,        ///< and the option stands once
+    Optional, ///< one word or none; none is read as an empty one
+    Repeatable,   ///< one word each time that the option stands
+    OneOrMore,      ///< one or more words each time
 };
 
 /// One row of a command's table: an option, a flag or an argument without dashes.
@@ -26,18 +26,18 @@ struct Option {
     std::string name = {};
     std::string form = {}; ///< shown in help for its words: "METRES"
     std::string meaning = {};
-    Takes takes = Takes::OneWord;
+    Arity arity = Arity::One;
     /// Called once with all words of an option that stands in the command line; options are read in
     /// the order of the table. Throws Error.
     std::function<void(const Words&)> read = {};
     std::string shown_default = {}; ///< in help; empty = none
     bool required = false;
-    int together = 1;                ///< so many words belong together and are given together
+    int words_per_use = 1;                ///< so many words belong together and are given together
     std::string heading = "Options"; ///< above the option in help
 };
 
 /// The option with another default in help.
-Option showing(std::string shown_default, Option option);
+Option with_shown_default(std::string shown_default, Option option);
 
 /// The option as one without which the command refuses to work.
 Option required(Option option);
@@ -66,13 +66,13 @@ Option list_option(
     std::string name,
     std::string form,
     std::string meaning,
-    Takes takes,
+    Arity arity,
     std::vector<Text>& values) {
     return {
         .name = std::move(name),
         .form = std::move(form),
         .meaning = std::move(meaning),
-        .takes = takes,
+        .arity = arity,
         .read = [&values](const Words& words) { values.assign(words.begin(), words.end()); }};
 }
 

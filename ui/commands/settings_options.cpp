@@ -1,6 +1,6 @@
 #include "ui/commands/settings_options.h"
 
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/settings_file.h"
 
@@ -30,23 +30,23 @@ public:
 private:
     template <class Value>
     static Option option_of(const SettingInfo& info, Value& value) {
-        return read_option(info, value, info.name == "path" ? "" : "--");
+        return value_option(info, value, info.name == "path" ? "" : "--");
     }
 
     static Option option_of(const SettingInfo& info, bool& value) {
-        return showing(
+        return with_shown_default(
             value ? "true" : "false",
             flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
     }
 
     static Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
-        return showing(
+        return with_shown_default(
             values.front(),
             list_option(
                 fmt::format("--{}", info.name),
                 std::string(info.form),
                 std::string(info.meaning),
-                Takes::OneWordAgain,
+                Arity::Repeatable,
                 values));
     }
 
@@ -54,7 +54,7 @@ private:
 };
 
 /// Makes each of these options note its name when it is read.
-void note_given(std::span<Option> options, std::vector<std::string>& given) {
+void record_given_options(std::span<Option> options, std::vector<std::string>& given) {
     for (Option& option : options) {
         const std::string name = option.name.substr(0, option.name.find(','));
         option.read = [name, read = option.read, &given](const Words& words) {
@@ -80,7 +80,7 @@ void add_setting_options(
          }});
     settings::visit_settings(settings, OptionAdder(options));
     if (given != nullptr) {
-        note_given(std::span(options).subspan(own), *given);
+        record_given_options(std::span(options).subspan(own), *given);
     }
 }
 

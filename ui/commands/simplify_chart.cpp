@@ -41,7 +41,7 @@ report::Plot plot_of(const Levels& levels) {
 }
 
 /// What a screen reader says of the plot.
-std::string spoken(const Levels& levels) {
+std::string chart_alt_text(const Levels& levels) {
     std::string text;
     for (const ChartLevel& level : levels) {
         text +=
@@ -103,7 +103,7 @@ std::string chart_page(const std::string& mesh, const Levels& levels, double dia
             throw Error("--chart: expected gnuplot on PATH, got none");
         }
         figure = "<figure class=\"card\" style=\"background:#fff\">\n" +
-                 named_picture(*svg, name, spoken(levels)) + "</figure>\n";
+                 named_picture(*svg, name, chart_alt_text(levels)) + "</figure>\n";
     }
     return report::page_head(name, "one") + "<header><h1>" + report::escaped(name) +
            "</h1></header>\n" + figure + "<div class=\"card\">\n" +

@@ -1,6 +1,6 @@
 #include "ui/commands/terrain_options.h"
 
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/settings/path_fields.h"
 
 namespace octant::ui::commands {
@@ -23,28 +23,28 @@ void add_file_rows(
     double& spacing_m,
     std::optional<double>& height_scale,
     std::optional<std::string>& system,
-    models::heights::VoidMarks& voids,
+    models::heights::VoidValues& voids,
     std::optional<std::string>& band) {
     table.insert(
         table.end(),
-        {read_option(
+        {value_option(
              {"terrain-spacing", "METRES", "sample spacing of files that do not say", 0.01, 1e5},
              spacing_m),
-         read_option(
+         value_option(
              {"height-scale",
               "METRES",
               "metres a unit of heights, of files that name no unit [1]",
               1e-6,
               1e4},
              height_scale),
-         read_option(
+         value_option(
              {"terrain-system",
               "SYSTEM",
               "coordinate system of files that name none: EPSG:4326, a PROJ string, a .prj file or "
               "metres [degrees: WGS 84; else metres]"},
              system),
-         read_option(settings::void_info, voids),
-         read_option(settings::band_info, band)});
+         value_option(settings::void_info, voids),
+         value_option(settings::band_info, band)});
 }
 
 } // namespace
@@ -68,30 +68,30 @@ void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& op
     constexpr double far_m = 1e7;
     table.insert(
         table.end(),
-        {read_option(
+        {value_option(
              {"eye",
               "X,Y,Z",
               "eye point: metres east, north of the map centre, up from datum",
               -far_m,
               far_m},
              options.eye_m),
-         read_option(
+         value_option(
              {"look", "X,Y,Z", "a point in the middle of the picture", -far_m, far_m},
              options.look_m),
-         read_option(
+         value_option(
              {"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px),
-         read_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg),
+         value_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg),
          curved_option(options.curved)});
 }
 
 void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
     table.insert(
         table.end(),
-        {read_option(
+        {value_option(
              {"mesh", "KIND", "what decides: screen-error, midpoint or printed roughness"},
              options.mesh),
-         read_option({"fans", "KIND", "of midpoint and printed: partial or full"}, options.fans),
-         read_option(
+         value_option({"fans", "KIND", "of midpoint and printed: partial or full"}, options.fans),
+         value_option(
              {"roughness-c", "C", "of midpoint and printed: weight of roughness [20; 5]", 0.0, 1e5},
              options.roughness_c),
          flag(
@@ -103,12 +103,12 @@ void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& op
 void add_detail_options(std::vector<Option>& table, terrain::GroundMeshOptions& options) {
     table.insert(
         table.end(),
-        {read_option(
+        {value_option(
              {"error-px", "PIXELS", "refine to this error (screen-error)", 0.001, 1e4},
              options.error_px),
-         read_option(
+         value_option(
              {"triangles", "N", "refine to this many triangles", 1, 1e8}, options.triangles),
-         read_option(
+         value_option(
              {"resolution-c", "C", "refine to this C (midpoint, printed)", 1.0, 1e5},
              options.resolution_c)});
 }

@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t max_entities = 48; // of one packet that receivers take
-constexpr int max_missed_in_a_row = 5;    ///< frames, then a channel is not waited for
+constexpr int max_consecutive_missed = 5;    ///< frames, then a channel is not waited for
 
 links::CigiEntityControl
 entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
@@ -39,12 +39,12 @@ entity_of(const Session& session, std::size_t number, const links::Fix& fix) {
 
 /// How an entity goes on from this picture on: by its fix in this one, and by its states in the one
 /// before and in this one.
-links::CigiRate rate_of(
+links::CigiRateControl rate_of(
     std::size_t number,
     const links::Fix& fix,
     const sim::AircraftState& before,
     const sim::AircraftState& now) {
-    links::CigiRate rate;
+    links::CigiRateControl rate;
     rate.entity = static_cast<std::uint16_t>(number);
     rate.mps = fix.velocity_ned_mps.value_or(glm::dvec3(0.0));
     const double step_s = now.time_s - before.time_s;
@@ -57,7 +57,7 @@ links::CigiRate rate_of(
 }
 
 /// The camera from the first aircraft, along and about its body axes.
-links::CigiViewControl view_of(const scene::Camera& camera, const sim::AircraftState& aircraft) {
+links::CigiViewControl cigi_view_control_of(const scene::Camera& camera, const sim::AircraftState& aircraft) {
     const glm::dquat world_to_body = glm::conjugate(aircraft.body_to_world);
     const glm::dquat turned =
         world_to_body * camera.view_to_world * glm::conjugate(scene::body_from_view());
@@ -84,7 +84,7 @@ void CigiChannels::add(const std::string& target) {
     constexpr std::string_view prefix = "cigi:";
     std::string peer = target.substr(prefix.size());
     const std::size_t last = peer.rfind(':');
-    std::uint16_t own_port = usual_own_port;
+    std::uint16_t own_port = default_own_port;
     if (last != std::string::npos && peer.find(':') != last) {
         own_port = links::peer_from_text("--send", "0.0.0.0" + peer.substr(last)).port;
         peer.resize(last);
@@ -106,14 +106,14 @@ void CigiChannels::add(const std::string& target) {
 
 /// The channel that answers from there. Messages do not say which channel sends them: an address
 /// without a channel is the way back of the first one on that machine that does not answer yet.
-CigiChannels::Channel* CigiChannels::answering(const links::Source& source) {
+CigiChannels::Channel* CigiChannels::channel_of_source(const links::PacketSource& source) {
     auto channel = std::ranges::find(channels_, source, &Channel::peer);
     if (channel == channels_.end()) {
-        channel = std::ranges::find(channels_, std::optional(source), &Channel::answers_from);
+        channel = std::ranges::find(channels_, std::optional(source), &Channel::answer_source);
     }
     if (channel == channels_.end()) {
         channel = std::ranges::find_if(channels_, [&source](const Channel& each) {
-            const bool is_free = !each.answers_from || each.missed_in_a_row >= max_missed_in_a_row;
+            const bool is_free = !each.answer_source || each.consecutive_missed >= max_consecutive_missed;
             return is_free && each.peer.address == source.address;
         });
     }
@@ -121,41 +121,41 @@ CigiChannels::Channel* CigiChannels::answering(const links::Source& source) {
 }
 
 /// Takes what has come: who shows what.
-void CigiChannels::listen() {
-    heard_.clear();
-    socket_->drain(links::Protocol::Cigi, 0.0, heard_);
-    for (const links::Datagram& packet : heard_) {
+void CigiChannels::receive() {
+    received_.clear();
+    socket_->drain(links::Protocol::Cigi, 0.0, received_);
+    for (const links::Datagram& packet : received_) {
         const auto frame = links::start_of_frame_of(packet.bytes);
-        Channel* const channel = frame ? answering(packet.source) : nullptr;
+        Channel* const channel = frame ? channel_of_source(packet.source) : nullptr;
         if (channel != nullptr) {
-            channel->answers_from = packet.source;
-            channel->missed_in_a_row =
-                channel->shows == frame->host_frame ? channel->missed_in_a_row : 0;
-            channel->shows = frame->host_frame;
+            channel->answer_source = packet.source;
+            channel->consecutive_missed =
+                channel->shown_host_frame == frame->host_frame ? channel->consecutive_missed : 0;
+            channel->shown_host_frame = frame->host_frame;
             channel->ig_frame = frame->ig_frame;
         }
     }
 }
 
-bool CigiChannels::is_there(const Channel& channel) const {
-    return channel.shows == host_frame_;
+bool CigiChannels::has_answered(const Channel& channel) const {
+    return channel.shown_host_frame == host_frame_;
 }
 
-std::vector<std::string> CigiChannels::await_first(const std::function<void()>& meanwhile) {
+std::vector<std::string> CigiChannels::wait_for_first_frames(const std::function<void()>& meanwhile) {
     const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
     const auto all_answer = [this] {
-        listen();
+        receive();
         return std::ranges::all_of(
-            channels_, [](const Channel& channel) { return channel.answers_from.has_value(); });
+            channels_, [](const Channel& channel) { return channel.answer_source.has_value(); });
     };
     while (!channels_.empty() && !all_answer() && Clock::now() < end &&
-           !base::StopSignals::came()) {
+           !base::StopSignals::received()) {
         meanwhile();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     std::vector<std::string> lines;
     for (const Channel& channel : channels_) {
-        if (!channel.answers_from) {
+        if (!channel.answer_source) {
             lines.push_back(fmt::format(
                 "{}: no Start of Frame came to port {}; it is not waited for",
                 links::text_of(channel.peer),
@@ -181,12 +181,12 @@ CigiChannels::message_for(const Session& session, std::uint32_t last_ig_frame) c
     for (std::size_t i = 0; i < std::min(states.size(), max_entities); ++i) {
         const links::Fix fix = fix_of(session, states[i]);
         links::add_entity(message, entity_of(session, i, fix));
-        const bool was_there = before_.size() == states.size();
-        links::add_rate(message, rate_of(i, fix, was_there ? before_[i] : states[i], states[i]));
+        const bool was_there = previous_states_.size() == states.size();
+        links::add_rate(message, rate_of(i, fix, was_there ? previous_states_[i] : states[i], states[i]));
     }
     links::add_view_definition(
         message, frustum_of(session.camera(), glm::dvec2(session.settings().view.size_px)));
-    links::add_view_control(message, view_of(session.camera(), states.front()));
+    links::add_view_control(message, cigi_view_control_of(session.camera(), states.front()));
     return message.take();
 }
 
@@ -194,35 +194,35 @@ void CigiChannels::send(const Session& session) {
     if (channels_.empty()) {
         return;
     }
-    listen();
+    receive();
     ++host_frame_;
     for (Channel& channel : channels_) {
         channel.message = message_for(session, channel.ig_frame);
         socket_->send(channel.peer, channel.message);
     }
-    before_.assign(session.states().begin(), session.states().end());
+    previous_states_.assign(session.states().begin(), session.states().end());
 }
 
 /// To those that are not there, and to those behind relays, of which it is not known whose answers
 /// are whose.
-void CigiChannels::send_again() {
+void CigiChannels::resend() {
     for (Channel& channel : channels_) {
-        const bool is_relayed = channel.answers_from && *channel.answers_from != channel.peer;
-        if (channel.answers_from && (is_relayed || !is_there(channel))) {
+        const bool is_relayed = channel.answer_source && *channel.answer_source != channel.peer;
+        if (channel.answer_source && (is_relayed || !has_answered(channel))) {
             socket_->send(channel.peer, channel.message);
-            ++channel.sent_again;
+            ++channel.resent;
         }
     }
 }
 
 /// Whether those that answer and missed at most so many frames in a row show what was sent last.
-bool CigiChannels::all_are_there(int max_missed) const {
+bool CigiChannels::all_have_answered(int max_missed) const {
     return std::ranges::all_of(channels_, [&](const Channel& channel) {
-        return !channel.answers_from || channel.missed_in_a_row > max_missed || is_there(channel);
+        return !channel.answer_source || channel.consecutive_missed > max_missed || has_answered(channel);
     });
 }
 
-int CigiChannels::await_pictures() {
+int CigiChannels::wait_for_pictures() {
     if (channels_.empty()) {
         return -1;
     }
@@ -231,30 +231,30 @@ int CigiChannels::await_pictures() {
     constexpr double min_again_s = 0.02;
     constexpr double max_again_s = 0.3;
     const base::Stopwatch since_sent;
-    double again_s = std::clamp(2.0 * usual_wait_s_, min_again_s, max_again_s);
-    bool sent_again = false;
-    for (listen();; listen()) {
+    double again_s = std::clamp(2.0 * typical_wait_s_, min_again_s, max_again_s);
+    bool resent = false;
+    for (receive();; receive()) {
         const double waited_s = since_sent.s();
         const bool all = waited_s < max_wait_after_miss_s;
-        const bool there = all_are_there(all ? max_missed_in_a_row - 1 : 0);
+        const bool there = all_have_answered(all ? max_consecutive_missed - 1 : 0);
         if (there || waited_s > max_wait_s) {
-            usual_wait_s_ = std::max(sent_again ? 0.0 : waited_s, 0.9 * usual_wait_s_);
+            typical_wait_s_ = std::max(resent ? 0.0 : waited_s, 0.9 * typical_wait_s_);
             break;
         }
         if (waited_s > again_s) {
-            send_again();
-            sent_again = true;
+            resend();
+            resent = true;
             again_s *= 2.0;
         }
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     std::optional<std::uint32_t> skew;
     for (Channel& channel : channels_) {
-        if (channel.answers_from) {
-            const std::uint32_t behind = host_frame_ - channel.shows;
+        if (channel.answer_source) {
+            const std::uint32_t behind = host_frame_ - channel.shown_host_frame;
             skew = std::max(skew.value_or(0), behind);
             channel.missed += behind > 0 ? 1 : 0;
-            channel.missed_in_a_row = behind > 0 ? channel.missed_in_a_row + 1 : 0;
+            channel.consecutive_missed = behind > 0 ? channel.consecutive_missed + 1 : 0;
         }
     }
     constexpr std::uint32_t max_skew = 0x7fffffff;
@@ -264,13 +264,13 @@ int CigiChannels::await_pictures() {
 std::vector<std::string> CigiChannels::lines() const {
     std::vector<std::string> lines;
     for (const Channel& channel : channels_) {
-        if (channel.missed > 0 || channel.sent_again > 0) {
+        if (channel.missed > 0 || channel.resent > 0) {
             lines.push_back(fmt::format(
                 "{}: {} of {} frames not shown in time; {} messages sent again",
-                links::text_of(channel.answers_from.value_or(channel.peer)),
+                links::text_of(channel.answer_source.value_or(channel.peer)),
                 channel.missed,
                 host_frame_,
-                channel.sent_again));
+                channel.resent));
         }
     }
     return lines;

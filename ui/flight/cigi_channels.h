@@ -21,7 +21,7 @@ namespace octant::ui::flight {
 class CigiChannels {
 public:
     /// Where Start of Frame comes in, unless a channel says otherwise.
-    static constexpr std::uint16_t usual_own_port = 8005;
+    static constexpr std::uint16_t default_own_port = 8005;
 
     /// Adds "cigi:HOST:PORT" or "cigi:HOST:PORT:OWN", OWN the port on which they answer. Throws
     /// Error.
@@ -31,7 +31,7 @@ public:
 
     /// Waits until each has sent a Start of Frame, for ten seconds at most, and does `meanwhile`
     /// again and again. Returns a line for each that has not.
-    std::vector<std::string> await_first(const std::function<void()>& meanwhile);
+    std::vector<std::string> wait_for_first_frames(const std::function<void()>& meanwhile);
 
     /// Sends the last picture to all. Does not wait.
     void send(const Session& session);
@@ -41,45 +41,45 @@ public:
     /// waited for a tenth of a second a frame, after five such frames no more until it answers.
     /// Returns how many host frames the channel that is the furthest behind is behind, those among
     /// them that are not waited for; -1 where none has ever answered.
-    int await_pictures();
+    int wait_for_pictures();
 
     /// What happened to the frames of each channel, a line each; none where all were shown at once.
     std::vector<std::string> lines() const;
 
 private:
     struct Channel {
-        sim::links::Source peer;
+        sim::links::PacketSource peer;
         /// Where its answers come from: another port than `peer` where a relay lies between.
         /// Nothing = it has never answered.
-        std::optional<sim::links::Source> answers_from = {};
+        std::optional<sim::links::PacketSource> answer_source = {};
         /// The host frame that it shows.
-        std::uint32_t shows = 0;
+        std::uint32_t shown_host_frame = 0;
         /// The number of its own frame.
         std::uint32_t ig_frame = 0;
         /// Frames in a row that it did not show in time.
-        int missed_in_a_row = 0;
+        int consecutive_missed = 0;
         long missed = 0;
-        long sent_again = 0;
+        long resent = 0;
         /// What was sent last.
         std::vector<std::byte> message = {};
     };
 
-    Channel* answering(const sim::links::Source& source);
-    bool is_there(const Channel& channel) const;
-    void listen();
-    bool all_are_there(int max_missed) const;
-    void send_again();
+    Channel* channel_of_source(const sim::links::PacketSource& source);
+    bool has_answered(const Channel& channel) const;
+    void receive();
+    bool all_have_answered(int max_missed) const;
+    void resend();
     std::vector<std::byte> message_for(const Session& session, std::uint32_t last_ig_frame) const;
 
     std::vector<Channel> channels_;
-    std::uint16_t own_port_ = usual_own_port;
+    std::uint16_t own_port_ = default_own_port;
     std::optional<sim::links::UdpPort> socket_;
-    std::vector<sim::links::Datagram> heard_;
+    std::vector<sim::links::Datagram> received_;
     std::uint32_t host_frame_ = 0;
     /// How long pictures were waited for of late, at most, where nothing was lost.
-    double usual_wait_s_ = 0.25;
+    double typical_wait_s_ = 0.25;
     /// The states in the picture that was sent last.
-    std::vector<sim::AircraftState> before_;
+    std::vector<sim::AircraftState> previous_states_;
 };
 
 } // namespace octant::ui::flight

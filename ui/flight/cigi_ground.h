@@ -1,23 +1,23 @@
 #pragma once
 
 #include "sim/links/cigi_image_generator.h"
-#include "ui/flight/live_place.h"
+#include "ui/flight/live_georeference.h"
 #include "ui/world/world.h"
 
 namespace octant::ui::flight {
 
 /// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is
 /// known nothing is inside the database. World and place must outlive this.
-class CigiOverWorld final : public sim::links::CigiGround {
+class WorldCigiGround final : public sim::links::CigiGround {
 public:
-    CigiOverWorld(const world::World& world, const LivePlace& place)
+    WorldCigiGround(const world::World& world, const LiveGeoreference& place)
         : world_(world)
         , place_(place) {}
 
-    std::optional<sim::links::CigiSurface> below(const glm::dvec3& place) const override;
+    std::optional<sim::links::CigiSurfacePoint> below(const glm::dvec3& place) const override;
 
     /// Looked for in steps of at most 2 m, or of a ten-thousandth of the line, then halved.
-    std::optional<Met> first_met(const glm::dvec3& from, const glm::dvec3& to) const override;
+    std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const override;
 
     double distance_m(const glm::dvec3& from, const glm::dvec3& to) const override;
 
@@ -25,12 +25,12 @@ public:
 
 private:
     const EarthFrame& frame() const;
-    glm::dvec3 world_from(const glm::dvec3& place) const;
-    glm::dvec3 place_from(const glm::dvec3& at_m) const;
+    glm::dvec3 world_position(const glm::dvec3& place) const;
+    glm::dvec3 geodetic_position(const glm::dvec3& at_m) const;
     std::optional<double> height_m(const glm::dvec3& at_m) const;
 
     const world::World& world_;
-    const LivePlace& place_;
+    const LiveGeoreference& place_;
 };
 
 } // namespace octant::ui::flight

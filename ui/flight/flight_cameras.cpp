@@ -16,11 +16,11 @@ std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings) 
         return world.scene.ground->height_at(x_m, y_m);
     };
     Simulation simulation(world);
-    simulation.begin_at(times.at_s.front());
+    simulation.begin_at(times.times_s.front());
     scene::Subject subject = world.scene.model_of(0).subject;
     subject.radius_m = simulation.formation().framed_radius_m(subject.radius_m);
     std::vector<FlightCamera> cameras;
-    for (const double time_s : times.at_s) {
+    for (const double time_s : times.times_s) {
         simulation.advance_to(time_s);
         const sim::AircraftState& state = simulation.states().front();
         cameras.push_back(

@@ -4,7 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "ui/base/json_name.h"
+#include "ui/base/json_file_name.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
 #include "ui/flight/track_files.h"
@@ -13,7 +13,7 @@
 #include "ui/report/loaded_recording.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/damage_tally.h"
+#include "visuals/groundfile/tile_damage_log.h"
 
 #include <algorithm>
 #include <chrono>
@@ -33,19 +33,19 @@ std::string adaptation_text(const StressSettings& stress) {
         "terrain: {} to {} triangles; left alone at a stress of {:.2f} to {:.2f}, else brought to "
         "the middle by at most {:.1f} % down and {:.1f} % up a frame; stress filtered over "
         "{:.1f} s, for the control with no frame above {:.1f} and carried over to each new target",
-        stress.lowest,
-        stress.highest,
+        stress.min_triangles,
+        stress.max_triangles,
         stress.min_stress,
         stress.max_stress,
-        100.0 * stress.largest_fall,
-        100.0 * stress.largest_rise,
+        100.0 * stress.max_fall,
+        100.0 * stress.max_rise,
         stress.filter_s,
         stress.max_counted_stress);
 }
 
 } // namespace
 
-report::PictureView view_of(const visuals::scene::Picture& picture) {
+report::PixelView pixel_view_of(const visuals::scene::Picture& picture) {
     return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
 }
 
@@ -56,7 +56,7 @@ report::RunInfo run_info(
     const world::Flight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
-    info.settings_json = settings::settings_json(world::as_recorded(settings, folder)).dump(2);
+    info.settings_json = settings::settings_json(world::settings_in_recording(settings, folder)).dump(2);
     info.version = base::program_version();
     info.commit = base::program_commit();
     info.program_hash = base::program_hash();
@@ -75,16 +75,16 @@ report::RunInfo run_info(
         info.facts.emplace_back(
             "adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
     }
-    for (const flightpaths::LegBegin& leg : flight.legs) {
+    for (const flightpaths::LegStart& leg : flight.legs) {
         info.legs.push_back({leg.label, leg.time_s});
     }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
-    info.files = world::files_to_keep(settings, session.world().aircraft.order_files);
+    info.files = world::files_to_copy(settings, session.world().aircraft.order_files);
     return info;
 }
 
-bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings) {
+bool is_already_recorded(const RecordOptions& options, const settings::RunSettings& settings) {
     std::error_code ignored;
     if (!options.folder || !report::is_run_file(*options.folder / "run.json") ||
         (options.video && !std::filesystem::is_regular_file(*options.video, ignored))) {
@@ -100,11 +100,11 @@ bool is_recorded(const RecordOptions& options, const settings::RunSettings& sett
         {"hash", base::program_hash()}};
     Json inputs = Json::object();
     for (const auto& [input, hash] : world::input_hashes(settings)) {
-        inputs[base::json_of_name(input)] = hash;
+        inputs[base::json_from_file_name(input)] = hash;
     }
     return run.contains("summary") && !run.contains("stopped") &&
            run.value("settings", Json()) ==
-               settings::settings_json(world::as_recorded(settings, *options.folder)) &&
+               settings::settings_json(world::settings_in_recording(settings, *options.folder)) &&
            run.value("inputs", Json()) == inputs && run.value("program", Json()) == program;
 }
 
@@ -131,8 +131,8 @@ FlightRecorder::FlightRecorder(
         if (options.replay_of) {
             info.facts.emplace_back("replay of", options.replay_of->filename().string());
         }
-        if (!options.swept.empty()) {
-            info.facts.emplace_back(report::swept_fact, options.swept);
+        if (!options.batch_context.empty()) {
+            info.facts.emplace_back(report::batch_context_fact, options.batch_context);
         }
         recording_.emplace(*options.folder, std::move(info));
         if (settings.path.name == settings::live_path) {
@@ -148,18 +148,18 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     flown_until_s_ = record.sim_time_s;
     record.picture_hash = session.hash_picture();
     if (recording_ && picture_every_ > 0) {
-        slow_pictures_.add(record, view_of(session.picture()));
+        slow_pictures_.add(record, pixel_view_of(session.picture()));
         if (record.frame % picture_every_ == 0) {
-            recording_->add_picture(record.frame, view_of(session.picture()));
+            recording_->add_picture(record.frame, pixel_view_of(session.picture()));
         }
     }
     if (video_) {
-        video_->add(view_of(session.picture()));
+        video_->add(pixel_view_of(session.picture()));
     }
     record.record_ms = writing.ms();
     if (recording_) {
         if (tracks_) {
-            tracks_->fly_until(record.sim_time_s);
+            tracks_->write_until(record.sim_time_s);
         }
         if (live_tracks_) {
             const StateSource& source = session.simulation().source();
@@ -171,10 +171,10 @@ void FlightRecorder::add(report::FrameRecord record, Session& session) {
     }
 }
 
-FlightEnd FlightRecorder::finish(const Session& session, const std::string& stopped) {
-    FlightEnd end;
+FlightResult FlightRecorder::finish(const Session& session, const std::string& stopped) {
+    FlightResult end;
     // A stopped flight may have simulated the next picture's time already.
-    end.state_hash = stopped.empty() ? session.state_hash() : session.picture_state_hash();
+    end.state_hash = stopped.empty() ? session.state_hash() : session.state_hash_of_last_picture();
     end.picture_hash = session.picture_hash();
     if (video_) {
         if (const auto fault = video_->finish()) {
@@ -188,7 +188,7 @@ FlightEnd FlightRecorder::finish(const Session& session, const std::string& stop
             {end.state_hash,
              end.picture_hash,
              report::read_cpu_times(),
-             visuals::groundfile::damage_lines(),
+             visuals::groundfile::tile_damage_messages(),
              stopped});
         slow_pictures_.write(*options_.folder);
         if (tracks_) {

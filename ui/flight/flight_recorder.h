@@ -3,7 +3,7 @@
 #include "ui/flight/session.h"
 #include "ui/flight/track_files.h"
 #include "ui/report/frame_times.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings.h"
@@ -22,25 +22,25 @@ struct RecordOptions {
     /// The recording whose rows are flown again.
     std::optional<std::filesystem::path> replay_of;
     /// How a sweep flies it beside others; empty = no sweep does.
-    std::string swept;
+    std::string batch_context;
 };
 
 /// What came out of a flight.
-struct FlightEnd {
+struct FlightResult {
     report::Statistics statistics;
     std::uint64_t state_hash = 0;
     std::uint64_t picture_hash = 0;
     /// Where results are.
     std::vector<std::string> notes;
     /// What was asked for and needs a program that is not here.
-    std::vector<std::string> missing;
+    std::vector<std::string> missing_programs;
     /// What went wrong beside the recording; empty = nothing.
     std::string fault;
 };
 
 /// True when the folder holds a finished recording of these settings and input files by this very
 /// program file, and the video is there where one was asked for.
-bool is_recorded(const RecordOptions& options, const settings::RunSettings& settings);
+bool is_already_recorded(const RecordOptions& options, const settings::RunSettings& settings);
 
 /// What run.json says of a flight that is recorded into a folder. Settings name files absolutely.
 report::RunInfo run_info(
@@ -52,7 +52,7 @@ report::RunInfo run_info(
 std::string write_report(const std::filesystem::path& folder);
 
 /// A picture as the report's files take it; refers to it.
-report::PictureView view_of(const visuals::scene::Picture& picture);
+report::PixelView pixel_view_of(const visuals::scene::Picture& picture);
 
 /// Writes a flight as it is flown: recording folder, pictures, video. Without a folder only the
 /// figures are kept.
@@ -69,18 +69,18 @@ public:
 
     /// Ends the recording and writes its report. `stopped` says what ended the flight before its
     /// last frame, empty = nothing did. Throws Error.
-    FlightEnd finish(const Session& session, const std::string& stopped = {});
+    FlightResult finish(const Session& session, const std::string& stopped = {});
 
 private:
     RecordOptions options_;
     int picture_every_ = 0;
-    std::optional<report::Recording> recording_;
+    std::optional<report::RecordingWriter> recording_;
     report::SlowPictures slow_pictures_;
-    std::optional<GrowingTracks> tracks_;
-    std::optional<LiveTracks> live_tracks_;
+    std::optional<StreamedTracks> tracks_;
+    std::optional<StreamedLiveTracks> live_tracks_;
     std::optional<report::VideoPipe> video_;
     /// The times of frames where there is no folder.
-    report::FrameTimes times_;
+    report::FrameTimeHistogram times_;
     double flown_until_s_ = 0.0;
 };
 

@@ -24,7 +24,7 @@ std::uint32_t id_at(const scene::Picture& picture, int x, int y) {
 }
 
 /// Whether a number occurs in the picture within `reach` pixels of a place, in either direction.
-bool occurs_around(
+bool occurs_in_neighbourhood(
     const scene::Picture& picture, const glm::ivec2& at, int reach, std::uint32_t id) {
     for (int v = std::max(at.y - reach, 0); v <= std::min(at.y + reach, picture.height - 1); ++v) {
         for (int u = std::max(at.x - reach, 0); u <= std::min(at.x + reach, picture.width - 1);
@@ -38,11 +38,11 @@ bool occurs_around(
 }
 
 /// Draws a frame by depth, three times as large, when it is asked for.
-class LargeReference {
+class EnlargedReference {
 public:
     static constexpr int scale = 3; // odd: the middles of the pixels are middles here too
 
-    LargeReference(const settings::RunSettings& settings, const world::World& world)
+    EnlargedReference(const settings::RunSettings& settings, const world::World& world)
         : settings_(settings)
         , world_(world) {
         settings_.view.size_px *= scale;
@@ -50,7 +50,7 @@ public:
 
     const scene::Picture& picture(int frame) {
         if (!session_) {
-            session_ = std::make_unique<Session>(settings_, Shows::PolygonNumbers, nullptr, world_);
+            session_ = std::make_unique<Session>(settings_, PictureContent::PolygonIds, nullptr, world_);
         }
         session_->draw(frame);
         return session_->picture();
@@ -75,15 +75,15 @@ IdDifference difference_of(const scene::Picture& picture, const scene::Picture& 
                 continue;
             }
             ++difference.differing;
-            if (!occurs_around(reference, {x, y}, 1, id)) {
-                difference.apart.emplace_back(x, y);
+            if (!occurs_in_neighbourhood(reference, {x, y}, 1, id)) {
+                difference.unmatched.emplace_back(x, y);
             }
         }
     }
     return difference;
 }
 
-long wrong_among(
+long count_wrong_ids(
     std::span<const glm::ivec2> pixels,
     const scene::Picture& picture,
     const scene::Picture& large_reference,
@@ -91,41 +91,41 @@ long wrong_among(
     return std::ranges::count_if(pixels, [&](const glm::ivec2& pixel) {
         const glm::ivec2 middle = pixel * scale + scale / 2;
         const int reach = scale + scale / 2;
-        return !occurs_around(large_reference, middle, reach, id_at(picture, pixel.x, pixel.y));
+        return !occurs_in_neighbourhood(large_reference, middle, reach, id_at(picture, pixel.x, pixel.y));
     });
 }
 
-ComparedSettings compared_settings(const settings::RunSettings& settings) {
-    ComparedSettings compared{settings, settings};
-    for (settings::RunSettings* one : {&compared.painted, &compared.by_depth}) {
+ComparisonSettings comparison_settings(const settings::RunSettings& settings) {
+    ComparisonSettings compared{settings, settings};
+    for (settings::RunSettings* one : {&compared.painted, &compared.depth_buffered}) {
         one->surface.shadows = false;
         one->view.samples = 1;
     }
-    settings::RunSettings& by_depth = compared.by_depth;
-    by_depth.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
+    settings::RunSettings& depth_buffered = compared.depth_buffered;
+    depth_buffered.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
     // What is seen through has no numbers, and no depth.
-    by_depth.surface.effects = false;
-    by_depth.air.clouds = 0.0;
-    by_depth.view.path_ribbon = false;
+    depth_buffered.surface.effects = false;
+    depth_buffered.air.clouds = 0.0;
+    depth_buffered.view.path_ribbon = false;
     return compared;
 }
 
-ComparedWorlds compared_worlds(const settings::RunSettings& settings) {
-    const auto [painted, by_depth] = compared_settings(settings);
+ComparisonWorlds load_comparison_worlds(const settings::RunSettings& settings) {
+    const auto [painted, depth_buffered] = comparison_settings(settings);
     world::World world = world::load_world(painted);
-    world::World other = world::load_world(by_depth, world::DrawnBy::Processor, &world);
+    world::World other = world::load_world(depth_buffered, world::RenderDevice::Cpu, &world);
     return {std::move(world), std::move(other)};
 }
 
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
-    const ComparedWorlds& worlds,
+    const ComparisonWorlds& worlds,
     int every,
-    const std::function<void(int compared, int frames)>& seen) {
-    const auto [painted, by_depth] = compared_settings(settings);
-    Session painter(painted, Shows::PolygonNumbers, nullptr, worlds.painted);
-    Session reference(by_depth, Shows::PolygonNumbers, nullptr, worlds.by_depth);
-    LargeReference large(by_depth, worlds.by_depth);
+    const std::function<void(int compared, int frames)>& on_frame) {
+    const auto [painted, depth_buffered] = comparison_settings(settings);
+    Session painter(painted, PictureContent::PolygonIds, nullptr, worlds.painted);
+    Session reference(depth_buffered, PictureContent::PolygonIds, nullptr, worlds.depth_buffered);
+    EnlargedReference large(depth_buffered, worlds.depth_buffered);
     IdComparison sum;
     const int frames = (painter.frames() + every - 1) / every;
     for (int frame = 0; frame < painter.frames(); frame += every) {
@@ -134,22 +134,22 @@ IdComparison compare_with_depth_buffer(
         const IdDifference difference = difference_of(painter.picture(), reference.picture());
         sum.pixels += difference.pixels;
         sum.differing += difference.differing;
-        if (!difference.apart.empty()) {
-            sum.apart += static_cast<long>(difference.apart.size());
-            sum.wrong += wrong_among(
-                difference.apart, painter.picture(), large.picture(frame), LargeReference::scale);
+        if (!difference.unmatched.empty()) {
+            sum.unmatched += static_cast<long>(difference.unmatched.size());
+            sum.wrong += count_wrong_ids(
+                difference.unmatched, painter.picture(), large.picture(frame), EnlargedReference::scale);
         }
         sum.cuts += record.cuts;
         sum.unordered += record.unordered;
         sum.frames_with_cuts += record.cuts > 0 ? 1 : 0;
-        seen(++sum.frames, frames);
+        on_frame(++sum.frames, frames);
     }
     return sum;
 }
 
 namespace {
 
-scene::Picture number_picture(Session& session, const settings::RunSettings& settings) {
+scene::Picture draw_id_picture(Session& session, const settings::RunSettings& settings) {
     // Meshed by the session's settings, so that all pictures show the same triangles.
     const planning::Scene& scene = session.world().scene;
     planning::Planner planner(
@@ -157,9 +157,9 @@ scene::Picture number_picture(Session& session, const settings::RunSettings& set
         settings,
         scene.ground->mesher(
             landscape::mesh_settings(session.settings(), scene.ground_texture != nullptr)));
-    planner.settle(session.camera());
+    planner.reset_detail(session.camera());
     planning::IdPlan ids(scene);
-    const auto renderer = session.renderer().beside(settings.view.size_px, 1);
+    const auto renderer = session.renderer().sibling(settings.view.size_px, 1);
     renderer->load_models(ids.models());
     const planning::PlannedFrame frame =
         planner.plan({session.camera(), session.states(), session.triangle_target()});
@@ -174,15 +174,15 @@ scene::Picture number_picture(Session& session, const settings::RunSettings& set
 PixelCheck check_pixels(Session& session) {
     settings::RunSettings alone = session.settings();
     alone.view.inset.reset();
-    const auto [painted, by_depth] = compared_settings(alone);
-    settings::RunSettings large = by_depth;
-    large.view.size_px *= LargeReference::scale;
-    const scene::Picture picture = number_picture(session, painted);
-    const IdDifference difference = difference_of(picture, number_picture(session, by_depth));
+    const auto [painted, depth_buffered] = comparison_settings(alone);
+    settings::RunSettings large = depth_buffered;
+    large.view.size_px *= EnlargedReference::scale;
+    const scene::Picture picture = draw_id_picture(session, painted);
+    const IdDifference difference = difference_of(picture, draw_id_picture(session, depth_buffered));
     PixelCheck check{.pixels = difference.pixels, .differing = difference.differing};
-    if (!difference.apart.empty()) {
-        check.wrong = wrong_among(
-            difference.apart, picture, number_picture(session, large), LargeReference::scale);
+    if (!difference.unmatched.empty()) {
+        check.wrong = count_wrong_ids(
+            difference.unmatched, picture, draw_id_picture(session, large), EnlargedReference::scale);
     }
     return check;
 }

@@ -18,7 +18,7 @@ struct IdDifference {
     /// Pixels that show another number than the reference's.
     long differing = 0;
     /// Pixels whose number is in none of the reference's 3 x 3 pixels around them.
-    std::vector<glm::ivec2> apart;
+    std::vector<glm::ivec2> unmatched;
 };
 
 /// Compares two pictures of the same size (asserted).
@@ -27,7 +27,7 @@ difference_of(const visuals::scene::Picture& picture, const visuals::scene::Pict
 
 /// How many of the pixels have a number that is in none of the 3 x 3 pixels around them in a
 /// reference that was drawn `scale` times as large.
-long wrong_among(
+long count_wrong_ids(
     std::span<const glm::ivec2> pixels,
     const visuals::scene::Picture& picture,
     const visuals::scene::Picture& large_reference,
@@ -38,7 +38,7 @@ struct IdComparison {
     long pixels = 0;
     long differing = 0;
     /// Pixels whose number is in none of the reference's 3 x 3 pixels around them.
-    long apart = 0;
+    long unmatched = 0;
     /// Of the pixels apart, those whose number a reference of three times the size does not have
     /// there either.
     long wrong = 0;
@@ -51,33 +51,33 @@ struct IdComparison {
 
 /// The settings of a run that is compared pixel by pixel, as it is painted and by a depth buffer:
 /// one sample a pixel and no shadows, which have no numbers.
-struct ComparedSettings {
+struct ComparisonSettings {
     settings::RunSettings painted;
-    settings::RunSettings by_depth;
+    settings::RunSettings depth_buffered;
 };
 
-ComparedSettings compared_settings(const settings::RunSettings& settings);
+ComparisonSettings comparison_settings(const settings::RunSettings& settings);
 
 /// What both ways of drawing show, loaded. It serves all views of the same flight.
-struct ComparedWorlds {
+struct ComparisonWorlds {
     world::World painted;
-    world::World by_depth;
+    world::World depth_buffered;
 };
 
 /// Throws Error.
-ComparedWorlds compared_worlds(const settings::RunSettings& settings);
+ComparisonWorlds load_comparison_worlds(const settings::RunSettings& settings);
 
 /// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing
 /// hidden surfaces and with the depth buffer, and compares. Renderers round corners to 1/256 pixel,
 /// so that along an edge either of two polygons may be seen, and a tip be lost: where a number is
 /// missing, the reference is drawn again three times as large. Shadows are left out. `worlds` are
-/// those of the settings, but for the view's. `seen` is told of each frame that was compared and of
+/// those of the settings, but for the view's. `on_frame` is told of each frame that was compared and of
 /// how many there are. Throws Error.
 IdComparison compare_with_depth_buffer(
     const settings::RunSettings& settings,
-    const ComparedWorlds& worlds,
+    const ComparisonWorlds& worlds,
     int every,
-    const std::function<void(int compared, int frames)>& seen);
+    const std::function<void(int compared, int frames)>& on_frame);
 
 /// What the last picture of a session's window got wrong against a depth buffer.
 struct PixelCheck {

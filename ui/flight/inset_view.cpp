@@ -46,37 +46,37 @@ scene::PixelRect inset_rectangle(const glm::ivec2& picture_px) {
 
 InsetView::InsetView(const settings::RunSettings& settings, const planning::Scene& scene)
     : scene_(scene) {
-    place(settings);
+    update_rectangle(settings);
     planner_.emplace(scene_, settings_);
 }
 
-void InsetView::place(const settings::RunSettings& settings) {
+void InsetView::update_rectangle(const settings::RunSettings& settings) {
     assert(settings.view.inset);
     rectangle_ = inset_rectangle(settings.view.size_px);
-    look(settings);
+    apply_look(settings);
 }
 
-void InsetView::follow(const settings::RunSettings& settings) {
+void InsetView::apply_settings(const settings::RunSettings& settings) {
     std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
     const landscape::GroundMesher* const before = mesher.get();
     const bool same_control = scene::same_detail_control(settings.ground, settings_.ground);
     planner_.reset();
-    place(settings);
-    mesher = landscape::mesher_after(
+    update_rectangle(settings);
+    mesher = landscape::reuse_or_make_mesher(
         std::move(mesher),
         *scene_.ground,
         landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
-    settles_ = settles_ || !same_control || mesher.get() != before;
+    must_reset_detail_ = must_reset_detail_ || !same_control || mesher.get() != before;
     planner_.emplace(scene_, settings_, std::move(mesher));
 }
 
-void InsetView::look(const settings::RunSettings& settings) {
+void InsetView::apply_look(const settings::RunSettings& settings) {
     settings_ = inset_settings(settings, {rectangle_.width, rectangle_.height});
 }
 
-void InsetView::relight(const settings::RunSettings& settings) {
-    look(settings);
-    settles_ = !planner_->relight() || settles_;
+void InsetView::set_sun(const settings::RunSettings& settings) {
+    apply_look(settings);
+    must_reset_detail_ = !planner_->set_sun() || must_reset_detail_;
 }
 
 const scene::FramePlan& InsetView::plan(
@@ -84,27 +84,27 @@ const scene::FramePlan& InsetView::plan(
     std::span<const sim::AircraftState> states,
     std::span<const planning::TurnedPart> turned,
     std::optional<double> smooth_share) {
-    settle(camera);
+    reset_detail(camera);
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
     request.turned = turned;
     return planner_->plan(request).plan;
 }
 
-void InsetView::pass_over(
+void InsetView::advance_without_drawing(
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
     std::span<const planning::TurnedPart> turned) {
-    settle(camera);
+    reset_detail(camera);
     planning::PlanRequest request{camera, states};
     request.turned = turned;
-    planner_->pass_over(request);
+    planner_->advance_without_drawing(request);
 }
 
 /// Before the first picture.
-void InsetView::settle(const scene::Camera& camera) {
-    if (std::exchange(settles_, false)) {
-        planner_->settle(camera);
+void InsetView::reset_detail(const scene::Camera& camera) {
+    if (std::exchange(must_reset_detail_, false)) {
+        planner_->reset_detail(camera);
     }
 }
 

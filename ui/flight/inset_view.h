@@ -29,13 +29,13 @@ public:
 
     /// Takes other settings over, and the ground that the scene has now. The ground's detail goes
     /// on where both it and its control are the same.
-    void follow(const settings::RunSettings& settings);
+    void apply_settings(const settings::RunSettings& settings);
 
     /// Takes other settings over where only a look has changed.
-    void look(const settings::RunSettings& settings);
+    void apply_look(const settings::RunSettings& settings);
 
     /// The same where the sun has moved, too, with the ground that the scene has now.
-    void relight(const settings::RunSettings& settings);
+    void set_sun(const settings::RunSettings& settings);
 
     /// Settings of the view alone: its camera and its size.
     const settings::RunSettings& settings() const { return settings_; }
@@ -43,8 +43,8 @@ public:
     visuals::scene::PixelRect rectangle() const { return rectangle_; }
 
     /// Begins the work on the ground of the next picture, as Planner::prepare.
-    void prepare(const visuals::scene::Camera& camera, const visuals::landscape::Beside& beside) {
-        planner_->prepare(camera, std::nullopt, beside);
+    void begin_next_mesh(const visuals::scene::Camera& camera, const visuals::landscape::IdleThreadRunner& on_idle_thread) {
+        planner_->begin_next_mesh(camera, std::nullopt, on_idle_thread);
     }
 
     /// Returns when nothing is being prepared, as Planner::wait.
@@ -57,22 +57,22 @@ public:
         std::span<const visuals::planning::TurnedPart> turned,
         std::optional<double> smooth_share);
 
-    /// Planner::pass_over, of what plan() would have been given.
-    void pass_over(
+    /// Planner::advance_without_drawing, of what plan() would have been given.
+    void advance_without_drawing(
         const visuals::scene::Camera& camera,
         std::span<const sim::AircraftState> states,
         std::span<const visuals::planning::TurnedPart> turned);
 
 private:
-    void settle(const visuals::scene::Camera& camera);
-    void place(const settings::RunSettings& settings);
+    void reset_detail(const visuals::scene::Camera& camera);
+    void update_rectangle(const settings::RunSettings& settings);
 
     const visuals::planning::Scene& scene_;
     settings::RunSettings settings_;
     visuals::scene::PixelRect rectangle_;
     std::optional<visuals::planning::Planner> planner_;
     /// Whether the ground's detail is still to be set for a first picture.
-    bool settles_ = true;
+    bool must_reset_detail_ = true;
 };
 
 } // namespace octant::ui::flight

@@ -34,7 +34,7 @@ public:
     void attach(Session& session);
 
     /// From now on keeps what repeats the flight in this folder. Throws Error.
-    void record_into(const std::filesystem::path& folder);
+    void start_packet_recording(const std::filesystem::path& folder);
 
     /// Takes what has come up to now; in steps, up to the next packet that moves something. Returns
     /// the time for which the next picture is to be drawn; in steps nothing where there is none
@@ -47,7 +47,7 @@ public:
 
     /// In steps: sends a Start of Frame where hosts wait for a first one, at most ten a second, and
     /// where one has sent its last message again.
-    void call_hosts();
+    void contact_hosts();
 
     /// Ends the recording, if there is one. Throws Error (disk full).
     void finish();
@@ -58,11 +58,11 @@ public:
     double now_s() const { return input_.now_s(); }
 
     /// Nothing can come any more, and all that came was taken.
-    bool has_ended() const { return waiting_.empty() && input_.has_ended(); }
+    bool has_ended() const { return pending_.empty() && input_.has_ended(); }
 
     /// What a person should be told who reads along: what is waited for, each sender and fault when
     /// it first comes, and how things stand every ten seconds. After take().
-    std::vector<std::string> take_news();
+    std::vector<std::string> take_new_messages();
 
     /// What is waited for, and what comes.
     std::vector<std::string> lines() const;
@@ -70,22 +70,22 @@ public:
     const LiveFlight& live() const { return *live_; }
 
 private:
-    bool take_waiting();
-    bool is_sent_again(const sim::links::Datagram& packet);
+    bool take_pending();
+    bool is_retransmission(const sim::links::Datagram& packet);
 
     ListenerOptions options_;
     LiveInput input_;
     std::unique_ptr<LiveFlight> live_;
     std::optional<PacketWriter> writer_;
-    std::deque<sim::links::Datagram> waiting_;
-    double words_at_s_ = 0.0;
+    std::deque<sim::links::Datagram> pending_;
+    double overlay_at_s_ = 0.0;
     /// Nothing = nothing has been told yet.
-    std::optional<double> told_at_s_;
-    double called_at_s_ = 0.0;
+    std::optional<double> reported_at_s_;
+    double hosts_contacted_at_s_ = 0.0;
     std::uint32_t cigi_frames_ = 0;
     /// In steps, of a host of CIGI.
     sim::links::Datagram last_message_;
-    bool answer_again_ = false;
+    bool answers_retransmission_ = false;
     long pictures_ = 0;
 };
 

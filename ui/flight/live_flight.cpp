@@ -1,7 +1,7 @@
 #include "ui/flight/live_flight.h"
 
 #include "sim/hidden_height.h"
-#include "ui/flight/cigi_air.h"
+#include "ui/flight/cigi_atmosphere.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t no_aircraft = std::numeric_limits<std::size_t>::max();
 
 constexpr std::array<std::pair<LiveChannel, std::string_view>, 3> channels{
     {{LiveChannel::Front, "front"}, {LiveChannel::Left, "left"}, {LiveChannel::Right, "right"}}};
@@ -41,21 +41,21 @@ LiveFlight::LiveFlight(const LiveOptions& options, const world::World& world)
     , cigi_ground_(world, place_)
     , traffic_(
           [this](const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
-              return place_.world_from(key, fix);
+              return place_.world_position(key, fix);
           },
           &cigi_ground_,
           ellipsoid_below(world.ground_place)) {}
 
 void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) {
-    of_vehicles_.resize(states.size());
-    const std::size_t shown = options_.step ? traffic_.show_newest(time_s, of_vehicles_)
-                                            : traffic_.show(time_s, options_.delay_s, of_vehicles_);
-    give_places(shown);
+    vehicle_states_.resize(states.size());
+    const std::size_t shown = options_.step ? traffic_.show_newest(time_s, vehicle_states_)
+                                            : traffic_.show(time_s, options_.delay_s, vehicle_states_);
+    assign_aircraft(shown);
     for (std::size_t i = 1; i < states.size(); ++i) {
-        states[i].position_m = glm::dvec3(0.0, 0.0, sim::hidden_height_m);
+        states[i].position_m = glm::dvec3(0.0, 0.0, sim::absent_height_m);
     }
     for (std::size_t i = 0; i < shown; ++i) {
-        states[places_[i].aircraft] = of_vehicles_[i];
+        states[slots_[i].aircraft] = vehicle_states_[i];
     }
     for (sim::AircraftState& state : states) {
         state.time_s = time_s;
@@ -64,13 +64,13 @@ void LiveFlight::states_at(double time_s, std::span<sim::AircraftState> states) 
 }
 
 bool LiveFlight::is_flown(std::size_t aircraft) const {
-    return std::ranges::find(places_, aircraft, &Place::aircraft) != places_.end();
+    return std::ranges::find(slots_, aircraft, &VehicleSlot::aircraft) != slots_.end();
 }
 
 /// The aircraft that shows what this vehicle is said to be: the free ones from its own number on,
 /// for entities of a type that has a shape those of that shape first.
 std::size_t
-LiveFlight::free_place(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
+LiveFlight::free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const {
     const std::vector<std::uint32_t>& models = world_.scene.aircraft;
     const bool has_number =
         key.protocol == sim::links::Protocol::Cigi && key.vehicle < models.size();
@@ -92,19 +92,19 @@ LiveFlight::free_place(const sim::links::VehicleKey& key, std::optional<std::uin
 
 /// Gives the first vehicles an aircraft each; those that have one keep it while they are of one
 /// type.
-void LiveFlight::give_places(std::size_t vehicles) {
+void LiveFlight::assign_aircraft(std::size_t vehicles) {
     for (std::size_t i = 0; i < vehicles; ++i) {
         const sim::links::VehicleKey& key = traffic_.vehicles()[i].key();
         const bool is_entity = key.protocol == sim::links::Protocol::Cigi;
         const auto type = is_entity
                               ? traffic_.cigi().type_of(static_cast<std::uint16_t>(key.vehicle))
                               : std::nullopt;
-        if (i == places_.size()) {
-            places_.push_back({nowhere, type});
-            places_[i].aircraft = free_place(key, type);
-        } else if (type && type != places_[i].type && !options_.shapes.empty()) {
-            places_[i] = {nowhere, type};
-            places_[i].aircraft = free_place(key, type);
+        if (i == slots_.size()) {
+            slots_.push_back({no_aircraft, type});
+            slots_[i].aircraft = free_aircraft(key, type);
+        } else if (type && type != slots_[i].type && !options_.shapes.empty()) {
+            slots_[i] = {no_aircraft, type};
+            slots_[i].aircraft = free_aircraft(key, type);
         }
     }
 }
@@ -118,14 +118,14 @@ std::optional<std::size_t> LiveFlight::aircraft_of(std::uint16_t entity) const {
                    vehicle.key().vehicle == entity;
         });
     const auto number = static_cast<std::size_t>(found - vehicles.begin());
-    return number < places_.size() ? std::optional(places_[number].aircraft) : std::nullopt;
+    return number < slots_.size() ? std::optional(slots_[number].aircraft) : std::nullopt;
 }
 
 /// Turns the articulated parts; in steps as far as their packets say and no further.
 void LiveFlight::turn_parts(double time_s) {
     turned_.clear();
-    const double at_s = options_.step ? 0.0 : time_s - options_.delay_s;
-    for (const sim::links::CigiTurnedPart& part : traffic_.cigi().parts().turned(at_s)) {
+    const double times_s = options_.step ? 0.0 : time_s - options_.delay_s;
+    for (const sim::links::CigiPartPose& part : traffic_.cigi().parts().turned(times_s)) {
         if (const auto aircraft = aircraft_of(part.entity)) {
             turned_.push_back(
                 {static_cast<std::uint32_t>(*aircraft), part.part, part.turn, part.offset_m});
@@ -135,14 +135,14 @@ void LiveFlight::turn_parts(double time_s) {
 
 scene::AirSettings LiveFlight::air_of(const scene::AirSettings& own) const {
     const sim::links::CigiImageGenerator& cigi = traffic_.cigi();
-    return air_of_host(own, cigi.atmosphere(), cigi.celestial(), place_.origin());
+    return air_from_cigi(own, cigi.atmosphere(), cigi.celestial(), place_.origin());
 }
 
 std::vector<std::string> LiveFlight::lines() const {
     std::vector<std::string> lines = traffic_.lines();
     const std::vector<std::string> of_place = place_.lines();
     lines.insert(lines.end(), of_place.begin(), of_place.end());
-    for (const Place& place : places_) {
+    for (const VehicleSlot& place : slots_) {
         if (place.type && !options_.shapes.empty() && !options_.shapes.contains(*place.type)) {
             lines.push_back(fmt::format(
                 "CIGI: --entities has no entity type {}: it is shown as {}",
@@ -160,15 +160,15 @@ std::vector<std::string> LiveFlight::lines() const {
 void LiveFlight::fill_in(report::FrameRecord& record, double finished_s) {
     const sim::links::TrafficCounts& now = traffic_.counts();
     const auto since = [&](long sim::links::TrafficCounts::*count) {
-        return static_cast<int>(now.*count - counted_.*count);
+        return static_cast<int>(now.*count - reported_counts_.*count);
     };
     record.packets = since(&sim::links::TrafficCounts::accepted);
     if (now.lost) {
-        record.packets_lost = static_cast<double>(*now.lost - counted_.lost.value_or(0));
+        record.packets_lost = static_cast<double>(*now.lost - reported_counts_.lost.value_or(0));
     }
     record.packets_late = since(&sim::links::TrafficCounts::late);
     record.packets_wrong = since(&sim::links::TrafficCounts::wrong);
-    counted_ = now;
+    reported_counts_ = now;
     if (traffic_.cigi().has_host()) {
         constexpr std::uint32_t positive = 0x7fffffff;
         record.host_frame = static_cast<int>(traffic_.cigi().host_frame() & positive);

@@ -3,7 +3,7 @@
 #include "sim/base/earth_frame.h"
 #include "sim/links/live_traffic.h"
 #include "ui/flight/cigi_ground.h"
-#include "ui/flight/live_place.h"
+#include "ui/flight/live_georeference.h"
 #include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
 #include "ui/world/world.h"
@@ -32,7 +32,7 @@ std::string_view name_of(LiveChannel channel);
 /// How motion from outside is shown.
 struct LiveOptions {
     double delay_s = 0.0;
-    std::optional<LiveHeight> height;
+    std::optional<LiveHeightMode> height;
     /// Each packet that moves something is one picture, of what it says and no more.
     bool step = false;
     LiveChannel channel = LiveChannel::Front;
@@ -53,7 +53,7 @@ public:
     LiveFlight(const LiveOptions& options, const world::World& world);
 
     /// Takes the next packet in the order in which they came.
-    sim::links::LiveTraffic::Taken take(const sim::links::Datagram& packet) {
+    sim::links::LiveTraffic::PacketOutcome take(const sim::links::Datagram& packet) {
         return traffic_.take(packet);
     }
 
@@ -67,7 +67,7 @@ public:
     void fill_in(report::FrameRecord& record, double finished_s);
 
     /// What was told for the first time since the last call.
-    std::vector<std::string> take_news() { return traffic_.take_news(); }
+    std::vector<std::string> take_new_messages() { return traffic_.take_new_messages(); }
 
     bool is_flown(std::size_t aircraft) const override;
 
@@ -80,12 +80,12 @@ public:
 
     visuals::scene::Camera camera(
         std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& usual,
+        const visuals::scene::Camera& default_camera,
         double aspect) const override;
 
     visuals::scene::Camera inset_camera(
         std::span<const sim::AircraftState> states,
-        const visuals::scene::Camera& usual,
+        const visuals::scene::Camera& default_camera,
         double aspect) const override;
 
     std::span<const visuals::planning::TurnedPart> turned_parts() const override { return turned_; }
@@ -101,11 +101,11 @@ public:
 
     const sim::links::LiveTraffic& traffic() const { return traffic_; }
 
-    const LivePlace& place() const { return place_; }
+    const LiveGeoreference& place() const { return place_; }
 
 private:
     /// Which aircraft shows a vehicle.
-    struct Place {
+    struct VehicleSlot {
         std::size_t aircraft = 0;
         /// The type of an entity; nothing for other vehicles.
         std::optional<std::uint16_t> type;
@@ -116,25 +116,25 @@ private:
         std::uint16_t number, std::span<const sim::AircraftState> states, double aspect) const;
     std::optional<std::string> frustum_line() const;
     std::size_t
-    free_place(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;
-    void give_places(std::size_t vehicles);
+    free_aircraft(const sim::links::VehicleKey& key, std::optional<std::uint16_t> type) const;
+    void assign_aircraft(std::size_t vehicles);
     std::optional<std::size_t> aircraft_of(std::uint16_t entity) const;
     void turn_parts(double time_s);
 
     LiveOptions options_;
     const world::World& world_;
-    LivePlace place_;
-    CigiOverWorld cigi_ground_;
+    LiveGeoreference place_;
+    WorldCigiGround cigi_ground_;
     sim::links::LiveTraffic traffic_;
-    sim::links::TrafficCounts counted_;
+    sim::links::TrafficCounts reported_counts_;
     /// The time of the newest packet in the last frame.
     double newest_s_ = -1.0;
     /// By vehicle, as far as they are shown.
-    std::vector<Place> places_;
+    std::vector<VehicleSlot> slots_;
     std::vector<visuals::planning::TurnedPart> turned_;
     /// Width over height of the pictures.
     double aspect_ = 1.0;
-    std::vector<sim::AircraftState> of_vehicles_;
+    std::vector<sim::AircraftState> vehicle_states_;
 };
 
 } // namespace octant::ui::flight

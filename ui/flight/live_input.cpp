@@ -17,15 +17,15 @@ namespace links = sim::links;
 LiveInput::LiveInput(const LiveInputOptions& options)
     : bind_(options.bind) {
     const std::uint32_t address = links::address_from_text("--bind", options.bind);
-    const auto usual = [&](std::uint16_t port) { return options.is_channel ? -1 : int{port}; };
+    const auto default_port = [&](std::uint16_t port) { return options.is_channel ? -1 : int{port}; };
     const auto open = [&](links::Protocol protocol, int port) {
         if (port >= 0) {
             ports_.push_back({protocol, links::UdpPort(address, static_cast<std::uint16_t>(port))});
         }
     };
-    open(links::Protocol::Fdm, options.fdm_port.value_or(usual(links::fdm_port)));
-    open(links::Protocol::MavLink, options.mavlink_port.value_or(usual(links::mavlink_port)));
-    open(links::Protocol::Dis, options.dis_port.value_or(usual(links::dis_port)));
+    open(links::Protocol::Fdm, options.fdm_port.value_or(default_port(links::fdm_port)));
+    open(links::Protocol::MavLink, options.mavlink_port.value_or(default_port(links::mavlink_port)));
+    open(links::Protocol::Dis, options.dis_port.value_or(default_port(links::dis_port)));
     if (!options.xplane_host.empty()) {
         const bool has_port = options.xplane_host.find(':') != std::string::npos;
         xplane_ = Peer{
@@ -41,7 +41,7 @@ LiveInput::LiveInput(const LiveInputOptions& options)
     open(
         links::Protocol::XPlane,
         options.xplane_port.value_or(
-            xplane_ ? int{links::xplane_port} : usual(links::xplane_port)));
+            xplane_ ? int{links::xplane_port} : default_port(links::xplane_port)));
     if (options.cigi_port >= 0) {
         cigi_ = Peer{ports_.size(), links::peer_from_text("--cigi-host", options.cigi_host)};
         open(links::Protocol::Cigi, options.cigi_port);
@@ -58,31 +58,31 @@ LiveInput::LiveInput(const LiveInputOptions& options)
 }
 
 LiveInput::~LiveInput() {
-    if (asked_s_) {
-        ask_xplane(0);
+    if (requested_s_) {
+        request_xplane_data(0);
     }
 }
 
-void LiveInput::ask_xplane(int per_second) {
+void LiveInput::request_xplane_data(int per_second) {
     for (const std::vector<std::byte>& request : links::xplane_requests(per_second)) {
         ports_[xplane_->port].socket.send(xplane_->host, request);
     }
 }
 
 /// An X-Plane that is silent may have begun anew, and forgotten what it was asked for.
-void LiveInput::ask_silent_xplane() {
+void LiveInput::request_silent_xplane_data() {
     constexpr double patience_s = 2.0;
     constexpr int per_second = 60;
     const double now = now_s();
     for (const links::Datagram& packet : packets_) {
         if (packet.protocol == links::Protocol::XPlane &&
             packet.source.address == xplane_->host.address) {
-            heard_s_ = packet.arrival_s;
+            received_s_ = packet.arrival_s;
         }
     }
-    if (!asked_s_ || now - std::max(*asked_s_, heard_s_) > patience_s) {
-        ask_xplane(per_second);
-        asked_s_ = now;
+    if (!requested_s_ || now - std::max(*requested_s_, received_s_) > patience_s) {
+        request_xplane_data(per_second);
+        requested_s_ = now;
     }
 }
 
@@ -106,7 +106,7 @@ std::vector<links::Datagram>& LiveInput::drain() {
                !limit_.admits(packet.source, packet.arrival_s);
     });
     if (xplane_) {
-        ask_silent_xplane();
+        request_silent_xplane_data();
     }
     if (standard_input_) {
         standard_input_->drain(now_s(), packets_);

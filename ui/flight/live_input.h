@@ -75,19 +75,19 @@ private:
     /// Of ports_, and to whom it sends.
     struct Peer {
         std::size_t port = 0;
-        sim::links::Source host;
+        sim::links::PacketSource host;
     };
 
-    void ask_xplane(int per_second);
-    void ask_silent_xplane();
+    void request_xplane_data(int per_second);
+    void request_silent_xplane_data();
 
     std::string bind_;
     std::vector<Port> ports_;
     std::optional<Peer> cigi_;
     std::optional<Peer> xplane_;
     /// When the X-Plane was last asked, and when it last sent anything.
-    std::optional<double> asked_s_;
-    double heard_s_ = 0.0;
+    std::optional<double> requested_s_;
+    double received_s_ = 0.0;
     std::optional<sim::links::LineServer> line_server_;
     std::optional<sim::links::StandardInput> standard_input_;
     std::optional<std::uint32_t> only_from_;

@@ -1,6 +1,6 @@
 #include "ui/flight/make_renderer.h"
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "visuals/gl/make_renderer.h"
 
 #include <utility>

@@ -86,7 +86,7 @@ private:
             return std::nullopt;
         }
         if (*size > max_bytes_a_record) {
-            refuse(fmt::format("a record of at most {} bytes, got {}", max_bytes_a_record, *size));
+            throw_bad_record(fmt::format("a record of at most {} bytes, got {}", max_bytes_a_record, *size));
         }
         if (bytes_.size() - at_ < *size) {
             return std::nullopt;
@@ -111,7 +111,7 @@ private:
         case RecordKind::Picture: {
             const auto time_s = number<double>();
             if (time_s && !(*time_s > last_s_ && *time_s <= longest_s)) {
-                refuse(fmt::format(
+                throw_bad_record(fmt::format(
                     "a picture after {} s and up to {} s, got {}", last_s_, longest_s, *time_s));
             }
             complete_ = time_s.has_value();
@@ -119,7 +119,7 @@ private:
             return complete_;
         }
         }
-        refuse(fmt::format("a record of kind 1 to 4, got {}", *kind));
+        throw_bad_record(fmt::format("a record of kind 1 to 4, got {}", *kind));
     }
 
     bool next_packet(PacketFrame& frame) {
@@ -132,7 +132,7 @@ private:
             return false;
         }
         if (!(std::abs(*arrival_s) <= longest_s)) {
-            refuse(fmt::format("a time of arrival up to {} s, got {}", longest_s, *arrival_s));
+            throw_bad_record(fmt::format("a time of arrival up to {} s, got {}", longest_s, *arrival_s));
         }
         frame.packets.push_back(
             {links::Protocol{*protocol},
@@ -147,9 +147,9 @@ private:
         if (!bytes) {
             return false;
         }
-        frame.has_words = true;
+        frame.has_overlay_lines = true;
         for (const std::string_view line : split_lines(text_of(*bytes))) {
-            frame.words.emplace_back(line);
+            frame.overlay_lines.emplace_back(line);
         }
         return true;
     }
@@ -161,14 +161,14 @@ private:
         }
         frame.time_of_day = text_of(*bytes);
         if (!sim::solar_time_from_text(frame.time_of_day)) {
-            refuse(
+            throw_bad_record(
                 fmt::format("a time as YYYY-MM-DDTHH:MM, got '{}'", printable(frame.time_of_day)));
         }
         return true;
     }
 
-    [[noreturn]] void refuse(const std::string& expected) const {
-        error_in(file_, fmt::format("byte {}: expected {}", at_, expected));
+    [[noreturn]] void throw_bad_record(const std::string& expected) const {
+        throw_error_in(file_, fmt::format("byte {}: expected {}", at_, expected));
     }
 
     const std::filesystem::path& file_;
@@ -211,17 +211,17 @@ std::string text_of(const LiveOptions& options) {
 }
 
 LiveOptions options_of(const std::filesystem::path& file, std::string_view line) {
-    const auto words = split_words(line);
+    const auto overlay_lines = split_words(line);
     constexpr std::size_t most = 6; // older files have fewer
-    const bool has_channel = words.size() > 3;
+    const bool has_channel = overlay_lines.size() > 3;
     const auto delay_s =
-        words.size() >= 3 && words.size() <= most ? finite_number(words[0]) : std::nullopt;
-    const auto channel = live_channel_from(has_channel ? words[3] : name_of(LiveChannel::Front));
-    const std::string_view view = words.size() > 4 ? words[4] : none;
+        overlay_lines.size() >= 3 && overlay_lines.size() <= most ? finite_number(overlay_lines[0]) : std::nullopt;
+    const auto channel = live_channel_from(has_channel ? overlay_lines[3] : name_of(LiveChannel::Front));
+    const std::string_view view = overlay_lines.size() > 4 ? overlay_lines[4] : none;
     const auto number = number_up_to(view, std::numeric_limits<std::uint16_t>::max());
-    const auto shapes = shapes_from(words.size() == most ? words[most - 1] : none);
+    const auto shapes = shapes_from(overlay_lines.size() == most ? overlay_lines[most - 1] : none);
     if (!delay_s || !channel || (!number && view != none) || !shapes) {
-        error_at(
+        throw_error_at(
             file,
             1,
             fmt::format(
@@ -230,8 +230,8 @@ LiveOptions options_of(const std::filesystem::path& file, std::string_view line)
     }
     return {
         *delay_s,
-        live_height_from(words[1]),
-        words[2] == "step",
+        live_height_mode_from(overlay_lines[1]),
+        overlay_lines[2] == "step",
         *channel,
         number ? std::optional(static_cast<int>(*number)) : std::nullopt,
         *shapes};
@@ -247,7 +247,7 @@ std::string text_record(RecordKind kind, std::string_view text) {
 } // namespace
 
 PacketWriter::PacketWriter(const std::filesystem::path& folder, const LiveOptions& options)
-    : file_(folder / packets_name) {
+    : file_(folder / packets_file_name) {
     file_.append(fmt::format("{}{}\n", magic, text_of(options)));
     file_.flush();
 }
@@ -264,8 +264,8 @@ void PacketWriter::add(const links::Datagram& packet) {
     file_.append(text_of(packet.bytes));
 }
 
-void PacketWriter::add_words(const std::vector<std::string>& words) {
-    file_.append(text_record(RecordKind::Words, fmt::format("{}", fmt::join(words, "\n"))));
+void PacketWriter::add_overlay_lines(const std::vector<std::string>& overlay_lines) {
+    file_.append(text_record(RecordKind::Words, fmt::format("{}", fmt::join(overlay_lines, "\n"))));
 }
 
 void PacketWriter::add_time_of_day(const std::string& time_of_day) {
@@ -288,12 +288,12 @@ void PacketWriter::finish() {
 }
 
 PacketFile read_packets(const std::filesystem::path& folder) {
-    const auto file = folder / packets_name;
+    const auto file = folder / packets_file_name;
     const std::string bytes = read_file(file, largest_bytes);
     const std::string_view text = bytes;
     const std::size_t head = text.find('\n');
     if (!text.starts_with(magic) || head == std::string_view::npos) {
-        error_at(file, 1, fmt::format("expected '{}', got another beginning", magic));
+        throw_error_at(file, 1, fmt::format("expected '{}', got another beginning", magic));
     }
     PacketFile packets;
     packets.options = options_of(file, text.substr(magic.size(), head - magic.size()));

@@ -12,7 +12,7 @@
 namespace octant::ui::flight {
 
 /// The file of a live recording that repeats it: packets.bin beside run.json.
-inline constexpr const char* packets_name = "packets.bin";
+inline constexpr const char* packets_file_name = "packets.bin";
 
 /// Writes what a live flight was made of, as it comes: a line of text with the options, then
 /// records of packets, of lines written into pictures, of times of day that the sun shows, and of
@@ -24,7 +24,7 @@ public:
     PacketWriter(const std::filesystem::path& folder, const LiveOptions& options);
 
     void add(const sim::links::Datagram& packet);
-    void add_words(const std::vector<std::string>& words);
+    void add_overlay_lines(const std::vector<std::string>& overlay_lines);
     void add_time_of_day(const std::string& time_of_day);
 
     /// The picture for which all that was added since the last one counts. Throws Error (disk
@@ -35,7 +35,7 @@ public:
     void finish();
 
 private:
-    GrowingFile file_;
+    AppendedFile file_;
     long pictures_ = 0;
 };
 
@@ -43,8 +43,8 @@ private:
 struct PacketFrame {
     double time_s = 0.0;
     std::vector<sim::links::Datagram> packets;
-    bool has_words = false;
-    std::vector<std::string> words;
+    bool has_overlay_lines = false;
+    std::vector<std::string> overlay_lines;
     /// What the sun shows from this picture on; empty = as before.
     std::string time_of_day;
 };

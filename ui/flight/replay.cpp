@@ -1,7 +1,7 @@
 #include "ui/flight/replay.h"
 
 #include "sim/base/error.h"
-#include "ui/base/other_names.h"
+#include "ui/base/path_alias.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 
@@ -17,7 +17,7 @@ namespace {
 /// More than any control asks for.
 constexpr int max_triangles = 100000000;
 
-std::string compared(const Replay& replay, const std::string& recorded, const std::string& now) {
+std::string hash_verdict(const Replay& replay, const std::string& recorded, const std::string& now) {
     if (!replay.ended) {
         return "unknown";
     }
@@ -27,29 +27,29 @@ std::string compared(const Replay& replay, const std::string& recorded, const st
 } // namespace
 
 Replay read_replay(const std::filesystem::path& folder) {
-    constexpr std::array<std::string_view, 1> decisions{"triangle_target"};
+    constexpr std::array<std::string_view, 1> quality_targets{"triangle_target"};
     const report::RunFile run = report::read_run_file(folder / "run.json");
     const auto file = folder / "frames.csv";
-    const report::FrameFile rows = report::read_frame_csv(file, decisions);
+    const report::FrameFile rows = report::read_frame_csv(file, quality_targets);
     if (rows.records.empty()) {
-        error_in(file, "expected the rows of a flight, got none");
+        throw_error_in(file, "expected the rows of a flight, got none");
     }
     const bool in_a_window = std::ranges::any_of(
-        run.facts, [](const auto& fact) { return fact.first == report::flown_fact; });
+        run.facts, [](const auto& fact) { return fact.first == report::window_fact; });
     if (in_a_window) {
-        error_in(
+        throw_error_in(
             folder / "run.json",
             "expected a recording of octant fly, got one of a window, whose pictures follow the "
             "clock; --settings with this file repeats its flight");
     }
     Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
     for (const report::FrameRecord& row : rows.records) {
-        const auto frame = static_cast<int>(replay.decisions.size());
+        const auto frame = static_cast<int>(replay.quality_targets.size());
         if (row.frame != frame) {
-            error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
+            throw_error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
         }
         if (row.triangle_target < 1 || row.triangle_target > max_triangles) {
-            error_at(
+            throw_error_at(
                 file,
                 frame + 2,
                 fmt::format(
@@ -57,29 +57,29 @@ Replay read_replay(const std::filesystem::path& folder) {
                     max_triangles,
                     row.triangle_target));
         }
-        replay.decisions.push_back({row.triangle_target, row.smooth_target});
+        replay.quality_targets.push_back({row.triangle_target, row.smooth_target});
     }
     return replay;
 }
 
 void check_frames(const Replay& replay, int frames) {
-    const auto rows = static_cast<int>(replay.decisions.size());
+    const auto rows = static_cast<int>(replay.quality_targets.size());
     if (rows > frames) {
-        error_at(
+        throw_error_at(
             replay.folder / "frames.csv",
             frames + 2,
             fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
     }
 }
 
-ReplayVerdict
-verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
-    ReplayVerdict verdict;
-    verdict.state_hash = compared(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
+ReplayComparison
+compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
+    ReplayComparison verdict;
+    verdict.state_hash = hash_verdict(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
     verdict.picture_hash =
-        compared(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
+        hash_verdict(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
     verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
-    const std::string name = base::with_other_names(replay.folder.string());
+    const std::string name = base::with_path_aliases(replay.folder.string());
     verdict.line =
         replay.ended
             ? fmt::format(
@@ -87,7 +87,7 @@ verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture
             : fmt::format(
                   "nothing to compare with: {} was cut short after {} frames and has no hashes",
                   name,
-                  replay.decisions.size());
+                  replay.quality_targets.size());
     return verdict;
 }
 

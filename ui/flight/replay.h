@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/flight/decision.h"
+#include "ui/flight/quality_targets.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace octant::ui::flight {
 struct Replay {
     std::filesystem::path folder;
     /// By frame, at least one.
-    std::vector<Decision> decisions;
+    std::vector<QualityTargets> quality_targets;
     /// False where it was killed and has no hashes.
     bool ended = false;
     /// Sixteen hex digits.
@@ -30,7 +30,7 @@ Replay read_replay(const std::filesystem::path& folder);
 void check_frames(const Replay& replay, int frames);
 
 /// How a replay compares with its recording.
-struct ReplayVerdict {
+struct ReplayComparison {
     /// "same", "other" or "unknown" (the recording was killed).
     std::string state_hash;
     /// "same", "other" or "unknown", as state_hash.
@@ -41,7 +41,7 @@ struct ReplayVerdict {
     std::string line;
 };
 
-ReplayVerdict
-verdict_on(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
+ReplayComparison
+compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
 
 } // namespace octant::ui::flight

@@ -23,7 +23,7 @@ namespace links = sim::links;
 namespace {
 
 /// Of "tacview:PORT" or "tacview:ADDRESS:PORT".
-links::Source reader_address(const std::string& target) {
+links::PacketSource reader_address(const std::string& target) {
     const std::string rest = target.substr(target.find(':') + 1);
     return links::peer_from_text(
         "--send", rest.find(':') == std::string::npos ? "127.0.0.1:" + rest : rest);
@@ -63,7 +63,7 @@ Sender::Sender(const std::vector<std::string>& targets) {
     for (const std::string& target : targets) {
         const std::string_view text = target;
         if (text.starts_with("tacview:")) {
-            const links::Source own = reader_address(target);
+            const links::PacketSource own = reader_address(target);
             tacview_.emplace_back(own.address, own.port, "Octant");
             continue;
         }
@@ -71,18 +71,18 @@ Sender::Sender(const std::vector<std::string>& targets) {
             channels_.add(target);
             continue;
         }
-        const auto form = text.starts_with("fdm:")      ? std::optional(Form::Fdm)
-                          : text.starts_with("xplane:") ? std::optional(Form::XPlane)
-                          : text.starts_with("dis:")    ? std::optional(Form::Dis)
+        const auto packet_format = text.starts_with("fdm:")      ? std::optional(PacketFormat::Fdm)
+                          : text.starts_with("xplane:") ? std::optional(PacketFormat::XPlane)
+                          : text.starts_with("dis:")    ? std::optional(PacketFormat::Dis)
                                                         : std::nullopt;
-        if (!form) {
+        if (!packet_format) {
             throw Error(fmt::format(
                 "--send: expected fdm:HOST:PORT, xplane:HOST:PORT, dis:HOST:PORT, cigi:HOST:PORT "
                 "or tacview:PORT, got '{}'",
                 printable(target)));
         }
         const std::string peer = target.substr(target.find(':') + 1);
-        targets_.push_back({*form, links::peer_from_text("--send", peer)});
+        targets_.push_back({*packet_format, links::peer_from_text("--send", peer)});
     }
     if (!targets_.empty()) {
         socket_.emplace_back(0, std::uint16_t{0}); // any address of ours, any port
@@ -114,17 +114,17 @@ void Sender::send_dis(const Target& target, std::size_t number, links::Fix fix, 
     socket_.front().send(target.peer, links::encode_dis(entity, time_s));
 }
 
-std::vector<std::string> Sender::await_channels(const Session& session) {
-    tell_head(session);
-    return channels_.await_first([this] {
+std::vector<std::string> Sender::wait_for_channels(const Session& session) {
+    send_header(session);
+    return channels_.wait_for_first_frames([this] {
         for (links::TacviewServer& server : tacview_) {
             server.send({});
         }
     });
 }
 
-void Sender::tell_head(const Session& session) {
-    if (tacview_.empty() || std::exchange(head_told_, true)) {
+void Sender::send_header(const Session& session) {
+    if (tacview_.empty() || std::exchange(header_is_sent_, true)) {
         return;
     }
     for (links::TacviewServer& server : tacview_) {
@@ -134,7 +134,7 @@ void Sender::tell_head(const Session& session) {
 
 void Sender::send_tacview(const Session& session) {
     const auto states = session.states();
-    tell_head(session);
+    send_header(session);
     std::string text = fmt::format("#{:.3f}\n", states.front().time_s);
     for (std::size_t i = 0; i < states.size(); ++i) {
         const std::optional<links::Fix> fix = flown_fix(session, i);
@@ -163,15 +163,15 @@ void Sender::send(const Session& session) {
     channels_.send(session);
     for (const Target& target : targets_) {
         const auto states = session.states();
-        const std::size_t count = target.form == Form::Dis ? states.size() : 1;
+        const std::size_t count = target.packet_format == PacketFormat::Dis ? states.size() : 1;
         for (std::size_t i = 0; i < count; ++i) {
             const std::optional<links::Fix> fix = flown_fix(session, i);
             if (!fix) {
                 continue;
             }
-            if (target.form == Form::Fdm) {
+            if (target.packet_format == PacketFormat::Fdm) {
                 send_fdm(target, *fix);
-            } else if (target.form == Form::XPlane) {
+            } else if (target.packet_format == PacketFormat::XPlane) {
                 send_xplane(target, *fix, states[i].time_s);
             } else {
                 send_dis(target, i, *fix, states[i].time_s);

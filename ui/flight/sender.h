@@ -24,39 +24,39 @@ public:
     /// is needed. Throws Error.
     explicit Sender(const std::vector<std::string>& targets);
 
-    /// Waits for the channels of CIGI as CigiChannels::await_first() does; readers of Tacview's
+    /// Waits for the channels of CIGI as CigiChannels::wait_for_first_frames() does; readers of Tacview's
     /// telemetry are answered meanwhile. To be called before the first picture is sent.
-    std::vector<std::string> await_channels(const Session& session);
+    std::vector<std::string> wait_for_channels(const Session& session);
 
     /// Sends the states of the session's last picture. Does not wait; what the network does not
     /// take is lost.
     void send(const Session& session);
 
-    /// As CigiChannels::await_pictures().
-    int await_pictures() { return channels_.await_pictures(); }
+    /// As CigiChannels::wait_for_pictures().
+    int wait_for_pictures() { return channels_.wait_for_pictures(); }
 
     /// As CigiChannels::lines().
     std::vector<std::string> channel_lines() const { return channels_.lines(); }
 
 private:
-    enum class Form { Fdm, XPlane, Dis };
+    enum class PacketFormat { Fdm, XPlane, Dis };
 
     struct Target {
-        Form form;
-        sim::links::Source peer;
+        PacketFormat packet_format;
+        sim::links::PacketSource peer;
     };
 
     void send_fdm(const Target& target, const sim::links::Fix& fix);
     void send_xplane(const Target& target, const sim::links::Fix& fix, double time_s);
     void send_dis(const Target& target, std::size_t number, sim::links::Fix fix, double time_s);
 
-    void tell_head(const Session& session);
+    void send_header(const Session& session);
     void send_tacview(const Session& session);
 
     std::vector<Target> targets_;
     std::vector<sim::links::TacviewServer> tacview_;
     CigiChannels channels_;
-    bool head_told_ = false;
+    bool header_is_sent_ = false;
     /// Of X-Plane's local axes: where the first aircraft was sent first.
     std::optional<sim::links::Geodetic> origin_;
     /// One, where there is a target.

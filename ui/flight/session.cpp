@@ -1,9 +1,9 @@
 #include "ui/flight/session.h"
 
-#include "ui/base/idle_watch.h"
+#include "ui/base/off_cpu_timer.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
-#include "ui/world/sun_of_time.h"
+#include "ui/world/sun_at_time.h"
 #include "visuals/landscape/ground_texture_maker.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace scene = visuals::scene;
 namespace {
 
 std::unique_ptr<scene::Renderer>
-given_or_made(std::unique_ptr<scene::Renderer> given, const settings::RunSettings& settings) {
+given_or_make_renderer(std::unique_ptr<scene::Renderer> given, const settings::RunSettings& settings) {
     return given ? std::move(given) : make_renderer(settings);
 }
 
 /// The world of the settings, loaded unless one is given that differs in nothing but its view.
-world::World given_or_loaded(
-    std::optional<world::World> given, const settings::RunSettings& settings, world::DrawnBy by) {
+world::World loaded_or_load_world(
+    std::optional<world::World> given, const settings::RunSettings& settings, world::RenderDevice by) {
     if (!given) {
         return world::load_world(settings, by);
     }
@@ -37,32 +37,32 @@ world::World given_or_loaded(
 
 Session::Session(
     const settings::RunSettings& settings,
-    Shows shows,
+    PictureContent content,
     std::unique_ptr<scene::Renderer> renderer,
     std::optional<world::World> loaded)
     : settings_(settings)
-    , renderer_(given_or_made(std::move(renderer), settings))
-    , world_(given_or_loaded(std::move(loaded), settings, drawn_by()))
+    , renderer_(given_or_make_renderer(std::move(renderer), settings))
+    , world_(loaded_or_load_world(std::move(loaded), settings, render_device()))
     , pictures_(*renderer_, world_.scene, settings_)
     , times_(world::picture_times_of(settings_, world_.flight))
     , ground_height_(
           [this](double x_m, double y_m) { return world_.scene.ground->height_at(x_m, y_m); }) {
-    settings_ = world::with_sun_of_time(settings_, world_.ground_place);
-    pictures_.load_models(shows);
-    if (shows == Shows::World && world_.scene.ground_texture) {
+    settings_ = world::with_sun_at_time(settings_, world_.ground_place);
+    pictures_.load_models(content);
+    if (content == PictureContent::World && world_.scene.ground_texture) {
         renderer_->load_ground_texture(*world_.scene.ground_texture);
-        drop_texels();
+        release_texture_memory();
     }
     renderer_->warm_up();
     start_flight();
 }
 
-world::DrawnBy Session::drawn_by() const {
-    return renderer_->info().on_processor ? world::DrawnBy::Processor : world::DrawnBy::Gpu;
+world::RenderDevice Session::render_device() const {
+    return renderer_->info().on_processor ? world::RenderDevice::Cpu : world::RenderDevice::Gpu;
 }
 
 /// Frees the texels of the texture, which the renderer has.
-void Session::drop_texels() {
+void Session::release_texture_memory() {
     std::shared_ptr<const scene::GroundTexture>& texture = world_.scene.ground_texture;
     if (texture) {
         texture = std::make_shared<const scene::GroundTexture>(landscape::without_texels(*texture));
@@ -71,27 +71,27 @@ void Session::drop_texels() {
 
 void Session::start_flight() {
     simulation_.emplace(world_);
-    decider_.begin(settings_, rate_hz());
-    begin_at(times_.at_s.front());
+    quality_controller_.begin(settings_, rate_hz());
+    begin_at(times_.times_s.front());
     pictures_.begin(camera_of(settings_));
     if (source_ != nullptr) {
-        simulation_->follow(*source_);
+        simulation_->set_state_source(*source_);
     }
 }
 
-void Session::follow(StateSource& source) {
+void Session::set_state_source(StateSource& source) {
     source_ = &source;
-    simulation_->follow(source);
+    simulation_->set_state_source(source);
 }
 
 void Session::begin_at(double time_s) {
     simulation_->begin_at(time_s);
-    next_is_reached_ = false;
+    next_is_simulated_ = false;
 }
 
-void Session::replay(std::vector<Decision> decisions) {
-    times_.cut_to(decisions.size());
-    decider_.replay(std::move(decisions));
+void Session::replay(std::vector<QualityTargets> quality_targets) {
+    times_.truncate_to(quality_targets.size());
+    quality_controller_.replay(std::move(quality_targets));
 }
 
 scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
@@ -109,43 +109,43 @@ scene::Camera Session::camera_of(const settings::RunSettings& settings) const {
 }
 
 /// Chooses the cameras for the time that the simulation has reached.
-void Session::aim(Moment& moment) const {
-    moment.camera = camera_of(settings_);
+void Session::set_cameras(FrameState& frame_state) const {
+    frame_state.camera = camera_of(settings_);
     if (source_ != nullptr) {
         const glm::dvec2 size_px(settings_.view.size_px);
-        moment.camera =
-            source_->camera(simulation_->states(), moment.camera, size_px.x / size_px.y);
+        frame_state.camera =
+            source_->camera(simulation_->states(), frame_state.camera, size_px.x / size_px.y);
     }
     if (const settings::RunSettings* inset = pictures_.inset_settings()) {
         const glm::dvec2 size_px(inset->view.size_px);
-        moment.inset_camera = camera_of(*inset);
+        frame_state.inset_camera = camera_of(*inset);
         if (source_ != nullptr) {
-            moment.inset_camera = source_->inset_camera(
-                simulation_->states(), moment.inset_camera, size_px.x / size_px.y);
+            frame_state.inset_camera = source_->inset_camera(
+                simulation_->states(), frame_state.inset_camera, size_px.x / size_px.y);
         }
     }
 }
 
-void Session::reach(double time_s, int frame, Moment& moment) {
+void Session::simulate_to(double time_s, int frame, FrameState& frame_state) {
     simulation_->advance_to(time_s);
-    moment.time_s = time_s;
-    moment.states.assign(simulation_->states().begin(), simulation_->states().end());
+    frame_state.time_s = time_s;
+    frame_state.states.assign(simulation_->states().begin(), simulation_->states().end());
     if (source_ != nullptr) {
         const auto turned = source_->turned_parts();
-        moment.turned.assign(turned.begin(), turned.end());
+        frame_state.turned.assign(turned.begin(), turned.end());
     }
-    moment.state_hash = simulation_->state_hash();
-    aim(moment);
-    moment.triangle_target = decider_.triangle_target(frame);
+    frame_state.state_hash = simulation_->state_hash();
+    set_cameras(frame_state);
+    frame_state.triangle_target = quality_controller_.triangle_target(frame);
 }
 
 report::FrameRecord Session::draw(int frame) {
     const auto number = static_cast<std::size_t>(frame);
-    const bool last = number + 1 == times_.at_s.size();
-    const report::FrameRecord record = picture_of(
-        frame, times_.at_s[number], last ? std::optional<double>() : times_.at_s[number + 1]);
+    const bool last = number + 1 == times_.times_s.size();
+    const report::FrameRecord record = render_frame(
+        frame, times_.times_s[number], last ? std::optional<double>() : times_.times_s[number + 1]);
     if (last) {
-        simulation_->advance_to(std::max(times_.until_s, record.sim_time_s));
+        simulation_->advance_to(std::max(times_.last_step_s, record.sim_time_s));
     }
     return record;
 }
@@ -156,15 +156,15 @@ bool Session::ground_has_memory() const {
     return control != scene::DetailControl::Exact && control != scene::DetailControl::Fixed;
 }
 
-settings::FrameRange Session::begin_part(const settings::Part& part) {
+settings::FrameRange Session::begin_frame_range(const settings::FlightPart& part) {
     const settings::FrameRange range = settings::frames_of(part, frames());
-    times_.cut_to(static_cast<std::size_t>(range.end));
+    times_.truncate_to(static_cast<std::size_t>(range.end));
     for (int before = 0; before < range.first; ++before) {
-        reach(times_.at_s[static_cast<std::size_t>(before)], before, now_);
+        simulate_to(times_.times_s[static_cast<std::size_t>(before)], before, current_);
         if (ground_has_memory() || before + 1 == range.first) {
-            last_triangles_ = pictures_.plan(now_, smooth_target_, nullptr).ground.triangles;
+            last_triangles_ = pictures_.plan(current_, smooth_target_, nullptr).ground.triangles;
         } else {
-            pictures_.pass_over(now_, smooth_target_);
+            pictures_.advance_without_drawing(current_, smooth_target_);
         }
     }
     since_first_frame_ = base::Stopwatch();
@@ -172,10 +172,10 @@ settings::FrameRange Session::begin_part(const settings::Part& part) {
 }
 
 report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s) {
-    return picture_of(drawn_++, time_s, next_s);
+    return render_frame(frames_drawn_++, time_s, next_s);
 }
 
-report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<double> next_s) {
+report::FrameRecord Session::render_frame(int frame, double time_s, std::optional<double> next_s) {
     if (frame == 0) {
         since_first_frame_ = base::Stopwatch();
     }
@@ -188,29 +188,29 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     counters_.begin();
     const base::Stopwatch whole;
     base::Stopwatch stage;
-    if (next_is_reached_ && next_.time_s == time_s) {
-        std::swap(now_, next_);
+    if (next_is_simulated_ && next_.time_s == time_s) {
+        std::swap(current_, next_);
     } else {
-        reach(time_s, frame, now_);
+        simulate_to(time_s, frame, current_);
     }
-    next_is_reached_ = false;
+    next_is_simulated_ = false;
     record.sim_ms = stage.lap_ms();
 
-    smooth_target_ = decider_.smooth_target(frame);
-    const planning::PlanCounts counts = pictures_.plan(now_, smooth_target_, [&] {
+    smooth_target_ = quality_controller_.smooth_target(frame);
+    const planning::PlanCounts counts = pictures_.plan(current_, smooth_target_, [&] {
         record.refine_ms = stage.lap_ms();
         pictures_.wait_for_first_view();
         record.mesh_wait_ms = stage.lap_ms();
     });
     record.plan_ms = record.refine_ms + record.mesh_wait_ms + stage.lap_ms();
 
-    if (next_s && settings_.ground.mesh_ahead) {
-        reach(*next_s, frame + 1, next_);
-        next_is_reached_ = true;
+    if (next_s && settings_.ground.mesh_async) {
+        simulate_to(*next_s, frame + 1, next_);
+        next_is_simulated_ = true;
         record.sim_ms += stage.lap_ms();
-        pictures_.mesh_ahead(next_);
+        pictures_.mesh_async(next_);
     }
-    const base::IdleWatch idle;
+    const base::OffCpuTimer idle;
     pictures_.draw();
     record.draw_wait_ms = idle.ms();
     record.draw_ms = stage.lap_ms();
@@ -218,13 +218,13 @@ report::FrameRecord Session::picture_of(int frame, double time_s, std::optional<
     record.read_ms = stage.lap_ms();
     record.frame_ms = whole.ms();
     record.counters = counters_.lap();
-    record.state_hash = now_.state_hash;
+    record.state_hash = current_.state_hash;
     fill_in(counts, record);
     return record;
 }
 
 void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& record) {
-    record.triangle_target = now_.triangle_target;
+    record.triangle_target = current_.triangle_target;
     record.smooth_target = smooth_target_.value_or(-1);
     record.smooth_polygons = counts.smooth_polygons;
     record.aircraft_level = counts.aircraft_level;
@@ -232,28 +232,28 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
     record.refine_collapses = counts.refine_collapses;
     record.terrain_triangles = counts.ground.triangles;
     record.terrain_fans = counts.ground.fans;
-    record.fine_triangles = counts.ground.fine_triangles;
+    record.detail_triangles = counts.ground.detail_triangles;
     record.scenery_triangles = counts.ground.scenery_triangles;
     record.aircraft_polygons = counts.aircraft_polygons;
     record.draw_cell = counts.draw_cell;
     record.draw_calls = renderer_->draw_calls();
     record.shadow_triangles = counts.shadow_triangles;
-    record.veil_triangles = counts.veil_triangles;
+    record.transparent_triangles = counts.transparent_triangles;
     record.cuts = counts.cuts;
     record.unordered = counts.unordered;
     record.resolution_c = counts.ground.resolution;
     record.error_px = counts.ground.error_px;
     record.triangle_change = record.frame == 0 ? 0 : counts.ground.triangles - last_triangles_;
     last_triangles_ = counts.ground.triangles;
-    record.stress = decider_.learn(
+    record.stress = quality_controller_.add_frame(
         {record.frame_ms,
          record.terrain_triangles,
-         counts.may_be_smooth,
+         counts.smoothable_polygons,
          counts.smooth_polygons,
          record.warm_up});
     record.overrun = record.frame_ms > report::overrun_16_ms ? 1 : 0;
-    record.eye_m = now_.camera.eye_m;
-    record.aircraft_m = now_.states.front().position_m;
+    record.eye_m = current_.camera.eye_m;
+    record.aircraft_m = current_.states.front().position_m;
     record.aircraft_agl_m = record.aircraft_m.z -
                             ground_height_(record.aircraft_m.x, record.aircraft_m.y).value_or(0.0);
 }

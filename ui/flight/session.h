@@ -2,14 +2,14 @@
 
 #include "sim/base/ground_height.h"
 #include "ui/base/stopwatch.h"
-#include "ui/flight/decider.h"
-#include "ui/flight/moment.h"
-#include "ui/flight/picture_maker.h"
+#include "ui/flight/quality_controller.h"
+#include "ui/flight/frame_state.h"
+#include "ui/flight/frame_renderer.h"
 #include "ui/flight/simulation.h"
 #include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/kernel_counters.h"
-#include "ui/settings/part_text.h"
+#include "ui/settings/frame_part.h"
 #include "ui/settings/settings.h"
 #include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
@@ -43,7 +43,7 @@ public:
     /// Stays in its place: parts of it point at others.
     explicit Session(
         const settings::RunSettings& settings,
-        Shows shows = Shows::World,
+        PictureContent content = PictureContent::World,
         std::unique_ptr<visuals::scene::Renderer> renderer = nullptr,
         std::optional<world::World> loaded = std::nullopt);
     ~Session() = default;
@@ -59,18 +59,18 @@ public:
     const visuals::scene::Renderer& renderer() const { return *renderer_; }
 
     /// Number of frames of the run.
-    int frames() const { return static_cast<int>(times_.at_s.size()); }
+    int frames() const { return static_cast<int>(times_.times_s.size()); }
 
     /// Frames a second of simulated time, for video and stress.
     double rate_hz() const { return times_.rate_hz; }
 
     /// Flies as many frames as there are decisions, at most frames() (asserted), each as decided
     /// whatever the clock says. Before the first draw().
-    void replay(std::vector<Decision> decisions);
+    void replay(std::vector<QualityTargets> quality_targets);
 
     /// The source flies all aircraft from now on, whatever is loaded anew. It must outlive the
     /// session.
-    void follow(StateSource& source);
+    void set_state_source(StateSource& source);
 
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
     report::FrameRecord draw(int frame);
@@ -82,7 +82,7 @@ public:
     report::FrameRecord draw_at(double time_s, std::optional<double> next_s);
 
     /// How pictures are shown and what is written into them; to be changed between frames.
-    PictureMaker& pictures() { return pictures_; }
+    FrameRenderer& pictures() { return pictures_; }
 
     /// Changes what the next frames show. Loads what has to be loaded anew; the flight then starts
     /// again where its aircraft, path or ground are others. Throws Error and leaves everything as
@@ -91,19 +91,19 @@ public:
 
     /// Puts the sun where the settings' time or angles say: the ground's other colours are made
     /// beside the pictures to come. One at a time (asserted).
-    void relight_beside(const settings::RunSettings& settings);
+    void begin_set_sun(const settings::RunSettings& settings);
 
-    bool is_relighting() const { return relit_.valid(); }
+    bool is_setting_sun() const { return recoloured_ground_.valid(); }
 
-    /// Shows what relight_beside() made, if it is ready; returns whether it was. apply() gives up
+    /// Shows what begin_set_sun() made, if it is ready; returns whether it was. apply() gives up
     /// what is not shown yet where it loads or plans anything anew. Throws what that work threw.
-    bool take_light();
+    bool poll_set_sun();
 
     /// Before the first draw(): draws only this part of the frames, as if those before it had been
     /// drawn. What later pictures depend on is planned of them, and the last one whole. Returns the
     /// part's frames; frames() then ends with it. Throws Error where there are fewer frames than
     /// parts.
-    settings::FrameRange begin_part(const settings::Part& part);
+    settings::FrameRange begin_frame_range(const settings::FlightPart& part);
 
     /// To be changed between frames. Begin at another time by begin_at().
     Simulation& simulation() { return *simulation_; }
@@ -114,27 +114,27 @@ public:
     void begin_at(double time_s);
 
     /// The camera of the last picture.
-    const visuals::scene::Camera& camera() const { return now_.camera; }
+    const visuals::scene::Camera& camera() const { return current_.camera; }
 
     /// Simulation::state_hash when the last picture's time was reached.
-    std::uint64_t picture_state_hash() const { return now_.state_hash; }
+    std::uint64_t state_hash_of_last_picture() const { return current_.state_hash; }
 
     /// States of all aircraft in the last picture.
-    std::span<const sim::AircraftState> states() const { return now_.states; }
+    std::span<const sim::AircraftState> states() const { return current_.states; }
 
     /// Triangles of ground that the last picture aimed at.
-    int triangle_target() const { return now_.triangle_target; }
+    int triangle_target() const { return current_.triangle_target; }
 
     /// Reads the last picture where a presenter showed it; draws it once more if it went straight
     /// into a window.
-    void read_picture() { pictures_.read(now_, smooth_target_); }
+    void read_picture() { pictures_.read(current_, smooth_target_); }
 
     /// Picture of the last frame that was read, top row first.
     const visuals::scene::Picture& picture() const { return pictures_.picture(); }
 
     /// What `--adapt shading` has found out.
     const std::optional<visuals::shading::ShadingState>& shading() const {
-        return decider_.shading();
+        return quality_controller_.shading();
     }
 
     /// Over the aircraft states at every fixed step so far, to the end of the run once its last
@@ -148,46 +148,46 @@ public:
     std::uint64_t hash_picture();
 
 private:
-    world::DrawnBy drawn_by() const;
-    void drop_texels();
+    world::RenderDevice render_device() const;
+    void release_texture_memory();
     void start_flight();
     visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
-    void aim(Moment& moment) const;
-    void reach(double time_s, int frame, Moment& moment);
-    report::FrameRecord picture_of(int frame, double time_s, std::optional<double> next_s);
+    void set_cameras(FrameState& frame_state) const;
+    void simulate_to(double time_s, int frame, FrameState& frame_state);
+    report::FrameRecord render_frame(int frame, double time_s, std::optional<double> next_s);
     bool ground_has_memory() const;
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
-    void change_world(const settings::RunSettings& settings);
-    void change_picture(const settings::RunSettings& settings);
-    void change_light(const settings::RunSettings& settings, world::SceneGround ground);
+    void apply_world_change(const settings::RunSettings& settings);
+    void apply_picture_change(const settings::RunSettings& settings);
+    void apply_sun_change(const settings::RunSettings& settings, world::SceneGround ground);
     world::SceneGround ground_for(const settings::RunSettings& settings) const;
-    void put_ground(world::SceneGround ground);
+    void set_ground(world::SceneGround ground);
 
     settings::RunSettings settings_;
     std::unique_ptr<visuals::scene::Renderer> renderer_;
     world::World world_;
-    PictureMaker pictures_;
+    FrameRenderer pictures_;
     std::optional<Simulation> simulation_;
     world::PictureTimes times_;
     GroundHeight ground_height_;
-    Moment now_;
-    Moment next_;
-    bool next_is_reached_ = false;
+    FrameState current_;
+    FrameState next_;
+    bool next_is_simulated_ = false;
     /// Null where the path flies the aircraft.
     StateSource* source_ = nullptr;
-    Decider decider_;
+    QualityController quality_controller_;
     /// The smooth polygons of the last picture; nothing: by the settings' share.
     std::optional<int> smooth_target_;
     int last_triangles_ = 0;
     /// The number of pictures drawn by draw_at() so far.
-    int drawn_ = 0;
+    int frames_drawn_ = 0;
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
     /// The ground in the colours of another sun, which is made beside pictures, and the air that it
     /// belongs to. Comes last, as its work looks at the scene.
-    visuals::scene::AirSettings next_air_;
-    std::future<world::SceneGround> relit_;
+    visuals::scene::AirSettings recoloured_air_;
+    std::future<world::SceneGround> recoloured_ground_;
 };
 
 } // namespace octant::ui::flight

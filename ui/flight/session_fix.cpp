@@ -30,7 +30,7 @@ std::uint32_t ticks_at(double time_s) {
 links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     const glm::dvec3& at_m = state.position_m;
     const EarthFrame& frame = frame_of(session);
-    const GeoPlace place = frame.geo_from_local(glm::dvec2(at_m.x, at_m.y));
+    const GeoPosition place = frame.geo_from_local(glm::dvec2(at_m.x, at_m.y));
     links::Fix fix;
     fix.latitude_deg = place.latitude_deg;
     fix.longitude_deg = place.longitude_deg;
@@ -42,7 +42,7 @@ links::Fix fix_of(const Session& session, const sim::AircraftState& state) {
     fix.velocity_ned_mps =
         glm::dvec3(state.velocity_mps.y, state.velocity_mps.x, -state.velocity_mps.z);
     fix.ticks = ticks_at(state.time_s);
-    fix = links::in_axes_turned(fix, -frame.place_of(place).north_turn_rad);
+    fix = links::with_rotated_axes(fix, -frame.place_of(place).north_bearing_rad);
     fix.attitude.heading_rad = wrapped_to_two_pi(fix.attitude.heading_rad);
     return fix;
 }
@@ -53,7 +53,7 @@ std::optional<links::Fix> flown_fix(const Session& session, std::size_t aircraft
         return std::nullopt;
     }
     const links::Fix fix = fix_of(session, session.states()[aircraft]);
-    return links::fault_of(fix) == links::Fault::None ? std::optional(fix) : std::nullopt;
+    return links::error_of_fix(fix) == links::PacketError::None ? std::optional(fix) : std::nullopt;
 }
 
 } // namespace octant::ui::flight

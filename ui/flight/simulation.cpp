@@ -36,7 +36,7 @@ sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState
 }
 
 /// The highest ground below the next quarter of a minute of a straight flight.
-double highest_ahead_m(const visuals::landscape::Ground& ground, const sim::AircraftState& state) {
+double highest_ground_ahead_m(const visuals::landscape::Ground& ground, const sim::AircraftState& state) {
     constexpr double seconds_ahead = 15.0;
     constexpr double tried_every_s = 0.1;
     double highest_m = state.position_m.z;
@@ -54,7 +54,7 @@ Simulation::Simulation(const world::World& world)
     , formation_(world::formation_of(world.scene, world.flight))
     , states_(world.scene.aircraft.size()) {
     for (std::size_t i = 0; i < world.scene.aircraft.size(); ++i) {
-        reach_down_m_.push_back(planning::reach_below_m(world.scene.model_of(i)));
+        depth_below_origin_m_.push_back(planning::reach_below_m(world.scene.model_of(i)));
     }
     begin_at(world.flight.trajectory.start_s());
 }
@@ -67,7 +67,7 @@ void Simulation::begin_at(double time_s) {
     log_.clear();
     time_s_ = time_s;
     next_step_ = sim::step_at(time_s);
-    states_from(world_.flight.trajectory.state_at(time_s), time_s);
+    update_states(world_.flight.trajectory.state_at(time_s), time_s);
     rig_ = scene::advanced({}, states_.front());
 }
 
@@ -75,8 +75,8 @@ long Simulation::step() const {
     return next_step_ - 1;
 }
 
-void Simulation::states_from(const sim::AircraftState& leader, double time_s) {
-    world::states_beside(world_.flight, formation_, leader, time_s, states_);
+void Simulation::update_states(const sim::AircraftState& leader, double time_s) {
+    world::formation_states(world_.flight, formation_, leader, time_s, states_);
 }
 
 void Simulation::add_to_hash() {
@@ -87,8 +87,8 @@ void Simulation::add_to_hash() {
 
 void Simulation::take_step() {
     const double time_s = sim::time_of_step(next_step_);
-    states_from(world_.flight.trajectory.state_at(time_s), time_s);
-    step_done();
+    update_states(world_.flight.trajectory.state_at(time_s), time_s);
+    finish_step();
 }
 
 /// A step into the ground or off the map is not taken: the flight ends before it.
@@ -102,30 +102,30 @@ void Simulation::take_step_by_hand() {
     pilot_->step(controls_);
     sim::AircraftState state = pilot_->state();
     state.time_s = sim::time_of_step(next_step_);
-    states_from(state, state.time_s);
-    end_ = end_among(states_);
+    update_states(state, state.time_s);
+    end_ = flight_end_of(states_);
     if (end_) {
         levelling_.reset();
-        states_from(last_two_.back(), sim::time_of_step(step()));
+        update_states(last_two_.back(), sim::time_of_step(step()));
         return;
     }
     last_two_ = {last_two_.back(), state};
-    step_done();
+    finish_step();
 }
 
-void Simulation::step_done() {
+void Simulation::finish_step() {
     rig_ = scene::advanced(rig_, states_.front());
     add_to_hash();
-    if (logs_) {
+    if (is_logging_) {
         log_.push_back(states_.front());
     }
     ++next_step_;
 }
 
 std::optional<Simulation::End>
-Simulation::end_among(std::span<const sim::AircraftState> states) const {
+Simulation::flight_end_of(std::span<const sim::AircraftState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        if (world_.flight.others.contains(i)) {
+        if (world_.flight.other_trajectories.contains(i)) {
             continue;
         }
         const glm::dvec3& at_m = states[i].position_m;
@@ -133,7 +133,7 @@ Simulation::end_among(std::span<const sim::AircraftState> states) const {
         if (!ground_m) {
             return End::OffTheMap;
         }
-        if (at_m.z - *ground_m < reach_down_m_[i]) {
+        if (at_m.z - *ground_m < depth_below_origin_m_[i]) {
             return End::OnTheGround;
         }
     }
@@ -164,11 +164,11 @@ void Simulation::advance_to(double time_s) {
         }
     }
     if (!by_hand()) {
-        states_from(world_.flight.trajectory.state_at(time_s), time_s);
+        update_states(world_.flight.trajectory.state_at(time_s), time_s);
         return;
     }
     const double since_step_s = time_s - sim::time_of_step(step());
-    states_from(
+    update_states(
         between(
             last_two_.front(), last_two_.back(), std::clamp(since_step_s / sim::step_s, 0.0, 1.0)),
         time_s);
@@ -179,11 +179,11 @@ void Simulation::start_log() {
     assert(next_step_ > sim::step_at(time_s_));
     const std::vector<sim::AircraftState> shown = states_;
     const sim::AircraftState leader = at_last_step();
-    states_from(leader, sim::time_of_step(step()));
+    update_states(leader, sim::time_of_step(step()));
     hash_ = {};
     add_to_hash();
     states_ = shown;
-    logs_ = true;
+    is_logging_ = true;
     log_ = {leader};
 }
 
@@ -209,17 +209,17 @@ void Simulation::start_level() {
         kind,
         last_two_.back().position_m,
         euler_from_body_to_world(last_two_.back().body_to_world).heading_rad,
-        std::max(glm::length(last_two_.back().velocity_mps), kind.slowest_handed_over_mps));
+        std::max(glm::length(last_two_.back().velocity_mps), kind.min_handover_speed_mps));
     start.time_s = sim::time_of_step(step());
     if (end_ == End::OnTheGround) {
         constexpr double off_the_ground_m = 200.0;
-        start.position_m.z = highest_ahead_m(*world_.scene.ground, start) + off_the_ground_m;
+        start.position_m.z = highest_ground_ahead_m(*world_.scene.ground, start) + off_the_ground_m;
     }
     hand_to_pilot(kind, start);
 }
 
 void Simulation::hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start) {
-    pilot_ = sim::hand_flight(kind, start);
+    pilot_ = sim::make_piloted_flight(kind, start);
     kind_ = &kind;
     levelling_.reset();
     controls_ = {.throttle = pilot_->trim_throttle()};

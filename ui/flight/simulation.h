@@ -4,8 +4,8 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/hash.h"
-#include "sim/hand_flight.h"
-#include "sim/levelling.h"
+#include "sim/piloted_flight.h"
+#include "sim/levelling_autopilot.h"
 #include "ui/flight/state_source.h"
 #include "ui/world/formation.h"
 #include "ui/world/world.h"
@@ -37,7 +37,7 @@ public:
 
     /// From now on the source flies all aircraft: states and their hash are those of the very times
     /// that are asked for. It must outlive the simulation.
-    void follow(StateSource& source) { source_ = &source; }
+    void set_state_source(StateSource& source) { source_ = &source; }
 
     bool is_live() const { return source_ != nullptr; }
 
@@ -61,7 +61,7 @@ public:
     /// others fly it (asserted).
     void start_log();
 
-    void stop_log() { logs_ = false; }
+    void stop_log() { is_logging_ = false; }
 
     /// States of the first aircraft at every step since start_log().
     std::span<const sim::AircraftState> log() const { return log_; }
@@ -69,7 +69,7 @@ public:
     /// The last step at or before time_s().
     long step() const;
 
-    /// From the last step on the first aircraft is flown by hand as sim::hand_flight has it, from
+    /// From the last step on the first aircraft is flown by hand as sim::make_piloted_flight has it, from
     /// the state it is in.
     void take_over(const sim::AircraftKind& kind);
 
@@ -92,7 +92,7 @@ public:
     const sim::PilotControls& controls() const { return controls_; }
 
     /// By hand only (asserted).
-    const sim::HandFlight& pilot() const { return *pilot_; }
+    const sim::PilotedFlight& pilot() const { return *pilot_; }
 
     /// Why a flight by hand goes no further: the next step of one of its aircraft would do this.
     enum class End { OnTheGround, OffTheMap };
@@ -103,9 +103,9 @@ private:
     void take_step();
     void advance_live(double time_s);
     void take_step_by_hand();
-    void step_done();
-    std::optional<End> end_among(std::span<const sim::AircraftState> states) const;
-    void states_from(const sim::AircraftState& leader, double time_s);
+    void finish_step();
+    std::optional<End> flight_end_of(std::span<const sim::AircraftState> states) const;
+    void update_states(const sim::AircraftState& leader, double time_s);
     void add_to_hash();
     sim::AircraftState at_last_step() const;
     void hand_to_pilot(const sim::AircraftKind& kind, const sim::AircraftState& start);
@@ -113,18 +113,18 @@ private:
     const world::World& world_;
     world::Formation formation_;
     /// How far each aircraft reaches below its reference point.
-    std::vector<double> reach_down_m_;
+    std::vector<double> depth_below_origin_m_;
     double time_s_ = 0.0;
     long next_step_ = 0;
     std::vector<sim::AircraftState> states_;
     visuals::scene::RigMemory rig_;
     Hash hash_;
-    bool logs_ = false;
+    bool is_logging_ = false;
     std::vector<sim::AircraftState> log_;
-    std::unique_ptr<sim::HandFlight> pilot_;
+    std::unique_ptr<sim::PilotedFlight> pilot_;
     /// What is flown by hand; else null.
     const sim::AircraftKind* kind_ = nullptr;
-    std::optional<sim::Levelling> levelling_;
+    std::optional<sim::LevellingAutopilot> levelling_;
     sim::PilotControls controls_;
     /// By hand: the first aircraft's states at the last two steps.
     std::array<sim::AircraftState, 2> last_two_;

@@ -20,30 +20,30 @@ namespace octant::ui::flight {
 
 namespace {
 
-using Course = StressState::Course;
+using Trend = StressState::Trend;
 
 double middle_of_band(const StressSettings& settings) {
     return 0.5 * (settings.min_stress + settings.max_stress);
 }
 
 double time_constant_frames(const StressSettings& settings) {
-    return std::max(1000.0 * settings.filter_s / settings.share_ms, settings.filter_frames);
+    return std::max(1000.0 * settings.filter_s / settings.target_frame_ms, settings.filter_frames);
 }
 
 double filtered(double before, const StressSettings& settings, double stress) {
     return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (stress - before);
 }
 
-Course next_course(Course course, const StressSettings& settings, double stress, bool budget_used) {
+Trend next_trend(Trend trend, const StressSettings& settings, double stress, bool budget_used) {
     const double above_middle = stress - middle_of_band(settings);
-    const bool goes_on = std::abs(above_middle) > settings.rest_stress;
+    const bool goes_on = std::abs(above_middle) > settings.settled_stress;
     if (stress > settings.max_stress ||
-        (course == Course::Falling && goes_on && above_middle > 0.0)) {
-        return Course::Falling;
+        (trend == Trend::Falling && goes_on && above_middle > 0.0)) {
+        return Trend::Falling;
     }
     const bool has_room = stress < settings.min_stress ||
-                          (course == Course::Rising && goes_on && above_middle < 0.0);
-    return has_room && budget_used ? Course::Rising : Course::Held;
+                          (trend == Trend::Rising && goes_on && above_middle < 0.0);
+    return has_room && budget_used ? Trend::Rising : Trend::Held;
 }
 
 /// What the target is multiplied with.
@@ -51,8 +51,8 @@ double change_of_target(const StressSettings& settings, double stress) {
     const double share_of_way = 1.0 - std::exp(-2.0 / time_constant_frames(settings));
     return std::clamp(
         1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0),
-        1.0 - settings.largest_fall,
-        1.0 + settings.largest_rise);
+        1.0 - settings.max_fall,
+        1.0 + settings.max_rise);
 }
 
 } // namespace
@@ -64,16 +64,16 @@ int StressState::triangles() const {
 StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz) {
     const int budget = visuals::scene::triangle_target(settings);
     StressSettings settings_of_run;
-    settings_of_run.share_ms = 1000.0 / rate_hz;
-    settings_of_run.lowest = std::max(budget / 8, 1);
+    settings_of_run.target_frame_ms = 1000.0 / rate_hz;
+    settings_of_run.min_triangles = std::max(budget / 8, 1);
     constexpr int most = std::numeric_limits<int>::max();
-    settings_of_run.highest = budget > most / 4 ? most : 4 * budget;
+    settings_of_run.max_triangles = budget > most / 4 ? most : 4 * budget;
     return settings_of_run;
 }
 
-StressState starting_at(double triangles, const StressSettings& settings) {
+StressState initial_state(double triangles, const StressSettings& settings) {
     StressState state;
-    state.target = std::clamp<double>(triangles, settings.lowest, settings.highest);
+    state.target = std::clamp<double>(triangles, settings.min_triangles, settings.max_triangles);
     state.expected_stress = middle_of_band(settings);
     return state;
 }
@@ -87,19 +87,19 @@ StressState with_target(const StressState& state, int triangles) {
 
 StressState
 next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
-    assert(settings.share_ms > 0.0 && settings.lowest >= 1 && settings.highest >= settings.lowest);
+    assert(settings.target_frame_ms > 0.0 && settings.min_triangles >= 1 && settings.max_triangles >= settings.min_triangles);
     assert(settings.min_stress > 0.0 && settings.max_stress >= settings.min_stress);
     assert(settings.max_counted_stress > settings.max_stress && settings.filter_frames >= 1.0);
     assert(cost.frame_ms >= 0.0);
-    const double share_used = cost.frame_ms / settings.share_ms;
+    const double share_used = cost.frame_ms / settings.target_frame_ms;
     const double stress = filtered(
         state.expected_stress, settings, std::min(share_used, settings.max_counted_stress));
     const bool used = cost.triangles >= settings.used_share * state.target;
     StressState next;
     next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
-    next.course = next_course(state.course, settings, stress, used);
-    const double factor = next.course == Course::Held ? 1.0 : change_of_target(settings, stress);
-    next.target = std::clamp<double>(state.target * factor, settings.lowest, settings.highest);
+    next.trend = next_trend(state.trend, settings, stress, used);
+    const double factor = next.trend == Trend::Held ? 1.0 : change_of_target(settings, stress);
+    next.target = std::clamp<double>(state.target * factor, settings.min_triangles, settings.max_triangles);
     next.expected_stress = stress * next.target / state.target;
     return next;
 }

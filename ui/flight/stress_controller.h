@@ -7,14 +7,14 @@
 namespace octant::ui::flight {
 
 /// Every number by which the ground's triangle budget follows the frame time. "Stress", the word of
-/// image generators, is the share of its time that a frame uses: frame_ms / share_ms.
+/// image generators, is the share of its time that a frame uses: frame_ms / target_frame_ms.
 struct StressSettings {
     /// A frame's time, above zero.
-    double share_ms = 1000.0 / 60.0;
+    double target_frame_ms = 1000.0 / 60.0;
     /// The fewest triangles; at least 1.
-    int lowest = 1000;
-    /// The most triangles; at least `lowest`.
-    int highest = 100000;
+    int min_triangles = 1000;
+    /// The most triangles; at least `min_triangles`.
+    int max_triangles = 100000;
     /// The budget is left alone while the stress is between these.
     double min_stress = 0.75;
     double max_stress = 0.90;
@@ -26,10 +26,10 @@ struct StressSettings {
     /// The filter spans no fewer frames than these; at least 1.
     double filter_frames = 20;
     /// A course ends this near to the middle of the band; below half the band's width.
-    double rest_stress = 0.02;
+    double settled_stress = 0.02;
     /// The share of the target that it may lose from frame to frame.
-    double largest_fall = 0.02;
-    double largest_rise = 0.005;
+    double max_fall = 0.02;
+    double max_rise = 0.005;
     /// The target rises only while at least this share of it is drawn: a budget that nobody uses
     /// says nothing of what it would cost.
     double used_share = 0.9;
@@ -37,11 +37,11 @@ struct StressSettings {
 
 /// What is carried from one frame to the next: a value, so that a run can be replayed.
 struct StressState {
-    enum class Course { Held, Falling, Rising };
+    enum class Trend { Held, Falling, Rising };
 
     /// The triangles of the next frame, within the settings' limits.
     double target = 0.0;
-    Course course = Course::Held;
+    Trend trend = Trend::Held;
     /// Filtered, with the last frame measured; nothing before the first.
     std::optional<double> stress;
     /// What the control goes by: filtered too, but with long frames counted less and carried over
@@ -64,7 +64,7 @@ struct FrameCost {
 StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz);
 
 /// State before the first frame, at rest in the middle of the band.
-StressState starting_at(double triangles, const StressSettings& settings);
+StressState initial_state(double triangles, const StressSettings& settings);
 
 /// The state where somebody else chose the next frame's target, at least 1.
 StressState with_target(const StressState& state, int triangles);

@@ -32,7 +32,7 @@ sim::Trajectory flown(const sim::Trajectory& path, double until_s) {
 
 /// The part of a track file's text from `begin` on that was flown by a time: up to the first line
 /// that tells a later one. Such lines begin with digits in track.csv, with # in track.acmi.
-std::string_view flown_part(std::string_view text, std::size_t begin, double until_s) {
+std::string_view rows_until(std::string_view text, std::size_t begin, double until_s) {
     std::size_t at = begin;
     while (at < text.size()) {
         const std::size_t end = text.find('\n', at) + 1;
@@ -58,7 +58,7 @@ acmi_header(const world::World& world, const sim::Trajectory& flight, const Eart
     header.title = world.flight.title;
     header.kind = world.leader_kind;
     header.aircraft = world.scene.model_of(0).polygons.name;
-    for (const flightpaths::LegBegin& leg : world.flight.legs) {
+    for (const flightpaths::LegStart& leg : world.flight.legs) {
         if (leg.time_s >= flight.start_s() && leg.time_s <= flight.end_s() + rounding_s) {
             header.bookmarks.push_back(leg);
         }
@@ -83,18 +83,18 @@ void write_tracks(const std::filesystem::path& folder, const world::World& world
     write_tracks(folder, world, flown(world.flight.trajectory, until_s), world.ground_frame.get());
 }
 
-GrowingTracks::GrowingTracks(const std::filesystem::path& folder, const world::World& world)
+StreamedTracks::StreamedTracks(const std::filesystem::path& folder, const world::World& world)
     : tracks_{
-          Track{GrowingFile(folder / "track.csv"), flightpaths::track_csv(world.flight.trajectory)},
+          Track{AppendedFile(folder / "track.csv"), flightpaths::track_csv(world.flight.trajectory)},
           Track{
-              GrowingFile(folder / "track.acmi"),
+              AppendedFile(folder / "track.acmi"),
               flightpaths::track_acmi(
                   world.flight.trajectory,
                   acmi_header(world, world.flight.trajectory, world.ground_frame.get()))}} {}
 
-void GrowingTracks::fly_until(double time_s) {
+void StreamedTracks::write_until(double time_s) {
     for (Track& track : tracks_) {
-        const std::string_view flown = flown_part(track.text, track.written, time_s);
+        const std::string_view flown = rows_until(track.text, track.written, time_s);
         track.file.append(flown);
         track.written += flown.size();
     }
@@ -106,14 +106,14 @@ void GrowingTracks::fly_until(double time_s) {
     }
 }
 
-LiveTracks::LiveTracks(const std::filesystem::path& folder, const world::World& world)
+StreamedLiveTracks::StreamedLiveTracks(const std::filesystem::path& folder, const world::World& world)
     : csv_(folder / "track.csv")
     , acmi_(folder / "track.acmi")
     , header_(acmi_header(world, world.flight.trajectory, nullptr)) {
     csv_.append(flightpaths::track_csv_names());
 }
 
-void LiveTracks::add(const sim::AircraftState& state, bool is_flown, const EarthFrame* frame) {
+void StreamedLiveTracks::add(const sim::AircraftState& state, bool is_flown, const EarthFrame* frame) {
     csv_.append(flightpaths::track_csv_line(state));
     header_.frame = frame;
     if (is_flown_ || is_flown) {
@@ -127,7 +127,7 @@ void LiveTracks::add(const sim::AircraftState& state, bool is_flown, const Earth
     }
 }
 
-void LiveTracks::flush() {
+void StreamedLiveTracks::flush() {
     csv_.flush();
     acmi_.flush();
 }

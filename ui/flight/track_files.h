@@ -28,18 +28,18 @@ void write_tracks(
 
 /// The tracks of a flight along the world's path while it is flown: at any time the files hold what
 /// has been flown, so that those of a killed flight go no further than it came.
-class GrowingTracks {
+class StreamedTracks {
 public:
     /// Makes both files. Throws Error.
-    GrowingTracks(const std::filesystem::path& folder, const world::World& world);
+    StreamedTracks(const std::filesystem::path& folder, const world::World& world);
 
     /// Appends what was flown up to a time, not before earlier ones, and hands it to the system at
     /// the latest every second of it. Throws Error (disk full).
-    void fly_until(double time_s);
+    void write_until(double time_s);
 
 private:
     struct Track {
-        GrowingFile file;
+        AppendedFile file;
         /// Of the whole path.
         std::string text;
         std::size_t written = 0;
@@ -53,10 +53,10 @@ private:
 /// The tracks of a flight that others fly, which nobody knows beforehand: track.csv has the states
 /// of all pictures, track.acmi those since the first aircraft is flown, as its place on the earth
 /// is known by then. Both are handed to the system at the latest every second.
-class LiveTracks {
+class StreamedLiveTracks {
 public:
     /// Makes both files. Throws Error.
-    LiveTracks(const std::filesystem::path& folder, const world::World& world);
+    StreamedLiveTracks(const std::filesystem::path& folder, const world::World& world);
 
     /// Appends the first aircraft's state in a picture, later than the one before. `frame` says how
     /// the world lies on the earth, null where that is not known. Throws Error (disk full).
@@ -66,8 +66,8 @@ public:
     void flush();
 
 private:
-    GrowingFile csv_;
-    GrowingFile acmi_;
+    AppendedFile csv_;
+    AppendedFile acmi_;
     flightpaths::AcmiHeader header_;
     bool is_flown_ = false;
     std::optional<double> flushed_s_;

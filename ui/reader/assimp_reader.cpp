@@ -17,13 +17,13 @@ namespace octant::ui::reader {
 
 namespace {
 
-using models::no_index;
+using models::invalid_index;
 using models::meshfile::BakedPictures;
-using models::meshfile::Corner;
+using models::meshfile::CornerIndices;
 using models::meshfile::MeshBuilder;
 
-struct Surface {
-    std::uint32_t material = no_index;
+struct MaterialSurface {
+    std::uint32_t material = invalid_index;
     std::uint32_t picture = BakedPictures::none;
     bool two_sided = false;
 };
@@ -60,9 +60,9 @@ std::string picture_file_of(
     return (std::filesystem::absolute(mesh_file).parent_path() / name.C_Str()).string();
 }
 
-std::vector<Surface>
+std::vector<MaterialSurface>
 surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder& mesh) {
-    std::vector<Surface> surfaces;
+    std::vector<MaterialSurface> surfaces;
     for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
         const aiMaterial& from = *scene.mMaterials[i];
         aiString name;
@@ -76,7 +76,7 @@ surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder
             };
             material.colour = glm::vec3(part(colour.r), part(colour.g), part(colour.b));
         }
-        Surface surface;
+        MaterialSurface surface;
         surface.picture = picture_of(scene, from, mesh);
         if (surface.picture != BakedPictures::none && material.colour == glm::vec3(0.0F)) {
             material.colour = glm::vec3(1.0F);
@@ -94,7 +94,7 @@ glm::dvec3 vector_of(const aiVector3D& from) {
     return {from.x, from.y, from.z};
 }
 
-void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
+void add_mesh(const aiMesh& from, const MaterialSurface& surface, MeshBuilder& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
     const auto first_normal = static_cast<std::uint32_t>(mesh.normal_count());
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
@@ -109,7 +109,7 @@ void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
         }
     }
     mesh.set_two_sided(surface.two_sided);
-    std::vector<Corner> corners;
+    std::vector<CornerIndices> corners;
     for (unsigned f = 0; f < from.mNumFaces; ++f) {
         const aiFace& face = from.mFaces[f];
         if (face.mNumIndices < 3 || face.mNumIndices > models::meshfile::max_polygon_corners) {
@@ -118,8 +118,8 @@ void add_mesh(const aiMesh& from, const Surface& surface, MeshBuilder& mesh) {
         corners.clear();
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             const unsigned v = face.mIndices[k];
-            Corner corner{.vertex = first + v};
-            corner.normal = from.HasNormals() ? first_normal + v : no_index;
+            CornerIndices corner{.vertex = first + v};
+            corner.normal = from.HasNormals() ? first_normal + v : invalid_index;
             if (from.HasTextureCoords(0)) {
                 const aiVector3D& place = from.mTextureCoords[0][v];
                 corner.texture = mesh.add_texture_coordinates({place.x, place.y});
@@ -144,17 +144,17 @@ void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
         if (std::string_view(importer.GetErrorString()) == std::bad_alloc().what()) {
             throw std::bad_alloc();
         }
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
     }
-    const std::vector<Surface> surfaces = surfaces_of(*scene, file, mesh);
+    const std::vector<MaterialSurface> surfaces = surfaces_of(*scene, file, mesh);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const aiMesh& from = *scene->mMeshes[i];
         add_mesh(
             from,
-            from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : Surface(),
+            from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : MaterialSurface(),
             mesh);
     }
 }

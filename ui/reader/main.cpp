@@ -18,7 +18,7 @@ using namespace octant;
 
 namespace {
 
-constexpr int wrong_input = 2;
+constexpr int exit_invalid_input = 2;
 constexpr rlim_t max_bytes = rlim_t{4} << 30U;
 constexpr rlim_t max_file_bytes = rlim_t{2} << 30U;
 constexpr rlim_t max_cpu_s = 25;
@@ -73,7 +73,7 @@ int main(int count, char** words) {
         std::fputs(
             "octant-read-mesh assimp|osg pictures|- backs|- IN OUT.obj: started by octant\n",
             stderr);
-        return wrong_input;
+        return exit_invalid_input;
     }
     limit();
     try {
@@ -90,5 +90,5 @@ int main(int count, char** words) {
     } catch (const std::exception& fault) {
         std::fprintf(stderr, "%s\n", fault.what());
     }
-    return wrong_input;
+    return exit_invalid_input;
 }

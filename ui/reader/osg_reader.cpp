@@ -23,9 +23,9 @@ namespace octant::ui::reader {
 
 namespace {
 
-using models::no_index;
+using models::invalid_index;
 using models::meshfile::BakedPictures;
-using models::meshfile::Corner;
+using models::meshfile::CornerIndices;
 using models::meshfile::MeshBuilder;
 
 /// Collects the triangles of a geometry by their vertices.
@@ -39,9 +39,9 @@ struct Triangles {
     }
 };
 
-class Collecting : public osg::NodeVisitor {
+class MeshCollector : public osg::NodeVisitor {
 public:
-    Collecting(MeshBuilder& mesh, osg::NodeVisitor::TraversalMode children)
+    MeshCollector(MeshBuilder& mesh, osg::NodeVisitor::TraversalMode children)
         : osg::NodeVisitor(children)
         , mesh_(mesh) {}
 
@@ -90,7 +90,7 @@ private:
         const bool pictured =
             picture != BakedPictures::none && on_picture != nullptr && on_picture->size() >= count;
         for (const auto& triangle : triangles) {
-            std::array<Corner, 3> corners;
+            std::array<CornerIndices, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) {
                 if (triangle.at(k) >= count) {
                     return;
@@ -163,7 +163,7 @@ private:
             return static_cast<int>(std::min(std::max(value, 0.0F), 1.0F) * steps + 0.5F);
         };
         const std::array<int, 3> key{part(colour.r()), part(colour.g()), part(colour.b())};
-        const auto [at, is_new] = materials_.try_emplace(key, no_index);
+        const auto [at, is_new] = materials_.try_emplace(key, invalid_index);
         if (is_new) {
             at->second = mesh_.add_material(
                 {.name = fmt::format("colour-{}", materials_.size()),
@@ -181,12 +181,12 @@ private:
 void read_by_osg(const std::filesystem::path& file, MeshBuilder& mesh) {
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file.string());
     if (!node) {
-        error_in(file, "expected a scene that OpenSceneGraph can read, got none");
+        throw_error_in(file, "expected a scene that OpenSceneGraph can read, got none");
     }
-    Collecting shown(mesh, osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
+    MeshCollector shown(mesh, osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
     node->accept(shown);
     if (mesh.is_empty()) { // of switches that are all off
-        Collecting all(mesh, osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
+        MeshCollector all(mesh, osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
         node->accept(all);
     }
 }

@@ -51,7 +51,7 @@ std::string last_line(const std::string& text) {
     return std::string(last);
 }
 
-std::string ending_text(int status) {
+std::string exit_text(int status) {
     if (WIFSIGNALED(status)) {
         return fmt::format("ended by signal {}", WTERMSIG(status));
     }
@@ -95,11 +95,11 @@ std::optional<ChildProgram> ChildProgram::start(const std::vector<std::string>& 
     }
     child.input_ = ends[0];
     child.output_ = ::memfd_create("output", MFD_CLOEXEC);
-    child.complaints_ = ::memfd_create("complaints", MFD_CLOEXEC);
+    child.error_pipe_ = ::memfd_create("complaints", MFD_CLOEXEC);
     const int code =
-        child.output_ < 0 || child.complaints_ < 0
+        child.output_ < 0 || child.error_pipe_ < 0
             ? errno
-            : spawn(child.process_, words, {ends[1], child.output_, child.complaints_});
+            : spawn(child.process_, words, {ends[1], child.output_, child.error_pipe_});
     ::close(ends[1]);
     if (code == 0) {
         return child;
@@ -115,7 +115,7 @@ ChildProgram::~ChildProgram() {
     close_if_open(input_);
     wait();
     close_if_open(output_);
-    close_if_open(complaints_);
+    close_if_open(error_pipe_);
 }
 
 ChildProgram::ChildProgram(ChildProgram&& other) noexcept
@@ -123,7 +123,7 @@ ChildProgram::ChildProgram(ChildProgram&& other) noexcept
     , status_(other.status_)
     , input_(std::exchange(other.input_, -1))
     , output_(std::exchange(other.output_, -1))
-    , complaints_(std::exchange(other.complaints_, -1)) {}
+    , error_pipe_(std::exchange(other.error_pipe_, -1)) {}
 
 bool ChildProgram::send(std::string_view bytes) {
     while (!bytes.empty()) {
@@ -171,16 +171,16 @@ std::string ChildProgram::output() const {
     return all_of(output_);
 }
 
-ProgramEnding ChildProgram::finish() {
+ProgramResult ChildProgram::finish() {
     assert(process_ > 0);
     end_input();
     const int status = wait();
-    ProgramEnding ending;
+    ProgramResult ending;
     ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ending.output = all_of(output_);
-    ending.last_complaint = last_line(all_of(complaints_));
-    if (ending.last_complaint.empty() && !ending.succeeded) {
-        ending.last_complaint = ending_text(status);
+    ending.last_error_line = last_line(all_of(error_pipe_));
+    if (ending.last_error_line.empty() && !ending.succeeded) {
+        ending.last_error_line = exit_text(status);
     }
     return ending;
 }

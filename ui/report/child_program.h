@@ -9,10 +9,10 @@
 namespace octant::ui::report {
 
 /// How a program ended.
-struct ProgramEnding {
+struct ProgramResult {
     bool succeeded = false;     ///< exit code 0
     std::string output;         ///< all of its standard output
-    std::string last_complaint; ///< last line of its standard error, or how it ended
+    std::string last_error_line; ///< last line of its standard error, or how it ended
 };
 
 /// A program run beside ours, fed through its standard input; no shell is involved. It stands in a
@@ -48,7 +48,7 @@ public:
     std::string output() const;
 
     /// Ends the input and waits for the program. Once only.
-    ProgramEnding finish();
+    ProgramResult finish();
 
 private:
     ChildProgram() = default;
@@ -58,7 +58,7 @@ private:
     std::optional<int> status_; ///< once it has ended
     int input_ = -1;
     int output_ = -1;
-    int complaints_ = -1;
+    int error_pipe_ = -1;
 };
 
 } // namespace octant::ui::report

@@ -2,7 +2,7 @@
 
 #include "ui/report/comparison.h"
 #include "ui/report/flight_plots.h"
-#include "ui/report/flights_text.h"
+#include "ui/report/comparison_text.h"
 #include "ui/report/html_text.h"
 #include "ui/report/page_plot.h"
 
@@ -49,24 +49,24 @@ bool is_noisy(Recordings recordings, const Indices& runs) {
 
 /// How a variant is set against the first one: where both were quiet, a sure change is better or
 /// worse; where one was noisy, it may be the machine's.
-enum class Against { Itself, Quiet, Noisy };
+enum class Reference { Itself, Quiet, Noisy };
 
 /// Median of a variant's runs, and how it compares with the first variant's.
 std::string
-compared_cells(const std::vector<double>& before, const std::vector<double>& now, Against against) {
+compared_cells(const std::vector<double>& before, const std::vector<double>& now, Reference reference) {
     if (now.empty() || before.empty()) {
         return "<td class=\"number\">none</td><td></td>";
     }
     std::string html = number_cell(median_of(now), 3);
-    if (against == Against::Itself) {
+    if (reference == Reference::Itself) {
         return html + "<td class=\"soft\">compared with this one</td>";
     }
-    const Change change = change_between(before, now);
-    const bool judged = change.is_sure() && against == Against::Quiet;
-    const char* const mark = !judged ? "" : (change.share < 0.0 ? "better" : "worse");
+    const RelativeChange change = relative_change(before, now);
+    const bool is_decided = change.is_significant() && reference == Reference::Quiet;
+    const char* const mark = !is_decided ? "" : (change.share < 0.0 ? "better" : "worse");
     std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
     if (change.has_interval) {
-        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.least, 100.0 * change.most);
+        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.low, 100.0 * change.high);
     }
     return html + fmt::format("<td class=\"{}\">{}</td>", mark, text);
 }
@@ -86,19 +86,19 @@ std::string comparison_table(Recordings recordings, const std::vector<Indices>& 
         const bool is_first = &variant == &variants.front();
         const bool is_loud =
             is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
-        const Against against =
-            is_first ? Against::Itself : (is_loud ? Against::Noisy : Against::Quiet);
-        noisy = noisy || against == Against::Noisy;
+        const Reference reference =
+            is_first ? Reference::Itself : (is_loud ? Reference::Noisy : Reference::Quiet);
+        noisy = noisy || reference == Reference::Noisy;
         html += fmt::format(
             "<tr><td>{}</td><td class=\"number\">{}</td>",
             escaped(variant_label(recordings[variant.front()], names)),
             variant.size());
         for (const char* key : {"p50_ms", "p99_ms"}) {
-            const auto value = figure_named(key).value;
+            const auto value = statistic_named(key).value;
             html += compared_cells(
                 values_of(recordings, variants.front(), value),
                 values_of(recordings, variant, value),
-                against);
+                reference);
         }
         html += "</tr>\n";
     }
@@ -119,7 +119,7 @@ std::string title_of_group(const LoadedRecording& recording) {
 /// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant
 /// as there is room for.
 std::string
-overlaid(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
+overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
     constexpr std::size_t max_curves = 12;
     Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
     const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / variants.size());
@@ -137,7 +137,7 @@ overlaid(Recordings recordings, const std::vector<Indices>& variants, double cei
     }
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     plot.marks = recordings[variants.front().front()].run.legs;
-    const std::string html = page_plot(plot, PlotPlace::Wide);
+    const std::string html = page_plot(plot, PlotWidth::FullWidth);
     if (plot.series.size() == runs) {
         return html;
     }
@@ -166,7 +166,7 @@ std::string compared_flights_html(Recordings recordings) {
         if (variants.size() > 1) {
             html += comparison_table(recordings, variants);
         }
-        html += overlaid(recordings, variants, ceiling_of(recordings, group)) + "</div>\n";
+        html += overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)) + "</div>\n";
     }
     if (html.empty()) {
         return "<p class=\"note\">No two of these recordings are of the same flight on the same "

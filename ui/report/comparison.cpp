@@ -1,6 +1,6 @@
 #include "ui/report/comparison.h"
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
@@ -35,13 +35,13 @@ constexpr std::array<std::string_view, 17> flight_settings{
     "fov",
     "warm-up"};
 
-std::string value_in(const Rows& rows, std::string_view name) {
+std::string value_in(const NamedValues& rows, std::string_view name) {
     const auto found =
         std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
     return found == rows.end() ? std::string() : found->second;
 }
 
-double resampled_median(std::span<const double> values, Dice& dice) {
+double bootstrap_median(std::span<const double> values, RandomGenerator& dice) {
     std::vector<double> drawn;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto at = static_cast<std::size_t>(dice.next() * static_cast<double>(values.size()));
@@ -50,11 +50,11 @@ double resampled_median(std::span<const double> values, Dice& dice) {
     return median_of(std::move(drawn));
 }
 
-const Figure* figure_of(std::string_view name) {
-    const auto found = std::ranges::find_if(figures(), [&](const Figure& figure) {
-        return figure.key == name || figure.key == fmt::format("{}_ms", name);
+const Statistic* statistic_of(std::string_view name) {
+    const auto found = std::ranges::find_if(all_statistics(), [&](const Statistic& statistic) {
+        return statistic.key == name || statistic.key == fmt::format("{}_ms", name);
     });
-    return found == figures().end() || !found->less_is_better || found->decimals == 0 ? nullptr
+    return found == all_statistics().end() || !found->less_is_better || found->decimals == 0 ? nullptr
                                                                                       : &*found;
 }
 
@@ -68,7 +68,7 @@ double median_of(std::vector<double> values) {
 }
 
 std::vector<std::string>
-what_forbids_comparison(const LoadedRecording& first, const LoadedRecording& second) {
+settings_that_differ(const LoadedRecording& first, const LoadedRecording& second) {
     std::vector<std::string> names;
     for (const std::string_view name : flight_settings) {
         if (value_in(first.run.settings, name) != value_in(second.run.settings, name)) {
@@ -86,7 +86,7 @@ std::vector<std::vector<std::size_t>> comparable_groups(Recordings recordings) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         const auto found = std::ranges::find_if(groups, [&](const auto& group) {
-            return what_forbids_comparison(recordings[group.front()], recordings[i]).empty();
+            return settings_that_differ(recordings[group.front()], recordings[i]).empty();
         });
         if (found == groups.end()) {
             groups.push_back({i});
@@ -113,25 +113,25 @@ variants_of(Recordings recordings, std::span<const std::size_t> group) {
     return variants;
 }
 
-Change change_between(std::span<const double> before, std::span<const double> after) {
+RelativeChange relative_change(std::span<const double> before, std::span<const double> after) {
     constexpr std::size_t min_runs = 3;
     constexpr int resamples = 4000;
-    Change change;
+    RelativeChange change;
     change.share =
         median_of({after.begin(), after.end()}) / median_of({before.begin(), before.end()}) - 1.0;
     if (before.size() < min_runs || after.size() < min_runs) {
         return change;
     }
-    Dice dice(1979);
+    RandomGenerator dice(1979);
     std::vector<double> shares;
     for (int i = 0; i < resamples; ++i) {
-        const double old = resampled_median(before, dice);
-        shares.push_back(resampled_median(after, dice) / old - 1.0);
+        const double old = bootstrap_median(before, dice);
+        shares.push_back(bootstrap_median(after, dice) / old - 1.0);
     }
     std::ranges::sort(shares);
     change.has_interval = true;
-    change.least = nearest_rank(shares, 25);
-    change.most = nearest_rank(shares, 975);
+    change.low = nearest_rank(shares, 25);
+    change.high = nearest_rank(shares, 975);
     return change;
 }
 
@@ -140,8 +140,8 @@ Gate read_gate(const std::string& text) {
     for (const std::string_view part : split_fields(text, ',')) {
         const std::size_t equals = part.find('=');
         const bool whole = equals != std::string_view::npos && part.ends_with('%');
-        const Figure* const figure = whole ? figure_of(part.substr(0, equals)) : nullptr;
-        const auto percent = figure != nullptr
+        const Statistic* const statistic = whole ? statistic_of(part.substr(0, equals)) : nullptr;
+        const auto percent = statistic != nullptr
                                  ? finite_number(part.substr(equals + 1, part.size() - equals - 2))
                                  : std::nullopt;
         if (!percent || *percent < 0.0) {
@@ -150,18 +150,18 @@ Gate read_gate(const std::string& text) {
                 "'{}'",
                 printable(text)));
         }
-        gate.emplace_back(std::string(figure->key), *percent / 100.0);
+        gate.emplace_back(std::string(statistic->key), *percent / 100.0);
     }
     return gate;
 }
 
-std::vector<std::string> gate_faults(Recordings recordings, const Gate& gate) {
+std::vector<std::string> gate_failures(Recordings recordings, const Gate& gate) {
     std::vector<std::string> faults;
     const LoadedRecording& first = recordings.front();
     for (const LoadedRecording& recording : recordings.subspan(1)) {
-        const auto names = what_forbids_comparison(first, recording);
+        const auto names = settings_that_differ(first, recording);
         if (!names.empty()) {
-            error_in(
+            throw_error_in(
                 recording.folder,
                 fmt::format(
                     "expected a recording to be compared with {}, got one that differs in {}",
@@ -169,11 +169,11 @@ std::vector<std::string> gate_faults(Recordings recordings, const Gate& gate) {
                     fmt::join(names, ", ")));
         }
         for (const auto& [key, allowed] : gate) {
-            const Figure& figure = *figure_of(key);
-            const double before = figure.value(first.statistics);
-            const double after = figure.value(recording.statistics);
+            const Statistic& statistic = *statistic_of(key);
+            const double before = statistic.value(first.statistics);
+            const double after = statistic.value(recording.statistics);
             if (before <= 0.0 || after <= 0.0) {
-                error_in(recording.folder, "expected frames to compare, got none");
+                throw_error_in(recording.folder, "expected frames to compare, got none");
             }
             if (after / before - 1.0 > allowed) {
                 faults.push_back(fmt::format(

@@ -15,7 +15,7 @@ constexpr std::size_t max_pictures = 12;
 constexpr int widest_picture_px = 640;
 
 /// Mean of one channel over a square of side `side` with its top left corner at (x, y).
-std::byte square_mean(const PictureView& picture, int x, int y, int side, int channel) {
+std::byte square_mean(const PixelView& picture, int x, int y, int side, int channel) {
     unsigned sum = 0;
     for (int row = y; row < y + side; ++row) {
         const auto bytes = picture.row(row);
@@ -30,22 +30,22 @@ std::byte square_mean(const PictureView& picture, int x, int y, int side, int ch
 
 } // namespace
 
-std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most) {
-    assert(most >= 1);
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count) {
+    assert(max_count >= 1);
     std::vector<std::size_t> chosen;
-    if (count <= most) {
+    if (count <= max_count) {
         for (std::size_t i = 0; i < count; ++i) {
             chosen.push_back(i);
         }
         return chosen;
     }
-    for (std::size_t i = 0; i < most; ++i) {
-        chosen.push_back(most == 1 ? 0 : i * (count - 1) / (most - 1));
+    for (std::size_t i = 0; i < max_count; ++i) {
+        chosen.push_back(max_count == 1 ? 0 : i * (count - 1) / (max_count - 1));
     }
     return chosen;
 }
 
-Picture shrunk(const PictureView& picture, int widest) {
+Picture downscaled(const PixelView& picture, int widest) {
     assert(picture.is_whole() && widest >= 1);
     const int side =
         std::min((picture.width_px + widest - 1) / widest, std::max(1, picture.height_px));
@@ -64,7 +64,7 @@ Picture shrunk(const PictureView& picture, int widest) {
 std::string
 picture_html(const std::filesystem::path& picture, int widest, const std::string& caption) {
     try {
-        const Picture small = shrunk(read_png(picture).view(), widest);
+        const Picture small = downscaled(read_png(picture).view(), widest);
         return fmt::format(
             "<figure><img alt=\"{0}\" width=\"{1}\" height=\"{2}\" "
             "src=\"data:image/png;base64,{3}\"><figcaption>{0}</figcaption></figure>\n",

@@ -9,13 +9,13 @@
 
 namespace octant::ui::report {
 
-/// Indices of `most` (>= 1) of `count` things, evenly spaced, first and last among them; all when
+/// Indices of `max_count` (>= 1) of `count` things, evenly spaced, first and last among them; all when
 /// there are no more.
-std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most);
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count);
 
 /// The picture made smaller by a whole number, each pixel the mean of a square of the old ones, so
 /// that it is at most `widest_px` wide. A picture narrower than that stays as it is. RGB.
-Picture shrunk(const PictureView& picture, int widest_px);
+Picture downscaled(const PixelView& picture, int widest_px);
 
 /// A picture as a figure of a page, embedded, at most `widest_px` wide. One that cannot be read is
 /// named in its place.

@@ -18,7 +18,7 @@ public:
     void add(double x, double y);
 
     /// Its points in order, two a piece at the most, in at most so many pieces (>= 1).
-    PlotSeries series(std::size_t pieces = max_pieces) const;
+    PlotSeries series(std::size_t buckets = max_pieces) const;
 
 private:
     struct Point {
@@ -26,16 +26,16 @@ private:
         double y = 0.0;
     };
 
-    struct Piece {
-        Point least;
-        Point greatest;
+    struct Bucket {
+        Point lowest;
+        Point highest;
     };
 
-    static Piece joined(const Piece& a, const Piece& b);
+    static Bucket joined(const Bucket& a, const Bucket& b);
 
-    std::vector<Piece> pieces_;
-    std::size_t points_a_piece_ = 1;
-    std::size_t in_last_ = 0;
+    std::vector<Bucket> buckets_;
+    std::size_t points_per_bucket_ = 1;
+    std::size_t in_last_bucket_ = 0;
 };
 
 } // namespace octant::ui::report

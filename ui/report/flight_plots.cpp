@@ -26,7 +26,7 @@ PlotSeries named(PlotSeries series, const char* name, const char* colour) {
     return series;
 }
 
-Plot frame_time_plot(const FlightDigest& flight, double ceiling_ms) {
+Plot frame_time_plot(const FlightAccumulator& flight, double ceiling_ms) {
     Plot plot{"Frame time", time_label, "ms", {}, {}, 0.0, ceiling_ms};
     plot.series = {
         named(flight.warm_up_ms.series(), "warm-up", grey),
@@ -46,7 +46,7 @@ double round_up_to_125(double value) {
     return 10.0 * power;
 }
 
-Plot histogram_plot(const FrameTimes& times) {
+Plot histogram_plot(const FrameTimeHistogram& times) {
     Plot plot{"Histogram", "frame time, ms (last bar: all above)", "frames", {}, {}, 0.7, {}};
     const Statistics statistics = times.statistics();
     if (statistics.max_ms <= 0.0) {
@@ -149,14 +149,14 @@ double plot_ceiling_ms(const Statistics& statistics) {
     return 1.05 * (is_far_below ? needed_ms : std::max(room_for_level_ms, needed_ms));
 }
 
-std::vector<Plot> flight_plots(const FlightDigest& flight, double ceiling_ms) {
+std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms) {
     std::vector<Plot> plots = {
         frame_time_plot(flight, ceiling_ms),
         histogram_plot(flight.times()),
         stage_plot(flight.stages, ceiling_ms),
         triangle_plot(flight.triangles),
         change_plot(flight.triangle_change)};
-    if (flight.triangle_targets().moved()) {
+    if (flight.triangle_targets().varies()) {
         plots.push_back(target_plot(flight.triangle_target));
         plots.push_back(stress_plot(flight.stress));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/report/flight_digest.h"
+#include "ui/report/flight_accumulator.h"
 #include "ui/report/plots.h"
 #include "ui/report/statistics.h"
 
@@ -18,6 +18,6 @@ double plot_ceiling_ms(const Statistics& statistics);
 /// change; where the triangle target moved also that target and the stress. A long flight is
 /// thinned to some thousand points: curves keep every peak, the stages are those of the longest
 /// frame of some in a row.
-std::vector<Plot> flight_plots(const FlightDigest& flight, double ceiling_ms);
+std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms);
 
 } // namespace octant::ui::report

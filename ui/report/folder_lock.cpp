@@ -38,12 +38,12 @@ std::string own_name() {
 
 /// True while the locked file is the one of that name: its last holder may just have removed it.
 bool is_named(int descriptor, const fs::path& file) {
-    struct stat held {};
+    struct stat locked_status {};
 
-    struct stat named {};
+    struct stat named_status {};
 
-    return ::fstat(descriptor, &held) == 0 && ::stat(file.c_str(), &named) == 0 &&
-           held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+    return ::fstat(descriptor, &locked_status) == 0 && ::stat(file.c_str(), &named_status) == 0 &&
+           locked_status.st_ino == named_status.st_ino && locked_status.st_dev == named_status.st_dev;
 }
 
 /// The locked file, opened.
@@ -51,13 +51,13 @@ int locked(const fs::path& file) {
     for (;;) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (descriptor < 0) {
-            error_in(file, fmt::format("cannot be written: {}", std::strerror(errno)));
+            throw_error_in(file, fmt::format("cannot be written: {}", std::strerror(errno)));
         }
         const bool busy = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (busy) {
             const std::string holder = holder_in(descriptor);
             ::close(descriptor);
-            error_in(
+            throw_error_in(
                 file.parent_path(),
                 fmt::format(
                     "expected a folder that nobody records into, got one that {} records into",
@@ -81,7 +81,7 @@ FolderLock::FolderLock(const fs::path& folder)
         const std::string reason = std::strerror(errno);
         ::unlink(file_.c_str());
         ::close(descriptor_);
-        error_in(file_, "cannot be written: " + reason);
+        throw_error_in(file_, "cannot be written: " + reason);
     }
 }
 

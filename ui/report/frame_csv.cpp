@@ -91,7 +91,7 @@ constexpr std::array frame_columns{
     column<&R::record_ms>("record_ms", Kind::Number, milliseconds),
     column<&R::draw_calls>("draw_calls"),
     column<&R::shadow_triangles>("shadow_triangles"),
-    column<&R::veil_triangles>("veil_triangles"),
+    column<&R::transparent_triangles>("veil_triangles"),
     column<&R::cuts>("cuts"),
     column<&R::unordered>("unordered"),
     axis_column<&R::eye_m, 0>("eye_x_m"),
@@ -102,7 +102,7 @@ constexpr std::array frame_columns{
     axis_column<&R::aircraft_m, 2>("aircraft_z_m"),
     column<&R::aircraft_agl_m>("aircraft_agl_m", Kind::MayBeEmpty, 3),
     column<&R::triangle_target>("triangle_target"),
-    column<&R::fine_triangles>("fine_triangles"),
+    column<&R::detail_triangles>("fine_triangles"),
     column<&R::scenery_triangles>("scenery_triangles"),
     column<&R::error_px>("error_px", Kind::MayBeEmpty, 4),
     column<&R::latency_ms>("latency_ms", Kind::MayBeEmpty, milliseconds),
@@ -183,7 +183,7 @@ bool set_field(const CsvColumn& column, std::string_view text, FrameRecord& reco
     return value.has_value();
 }
 
-std::string_view wanted_by(Kind kind) {
+std::string_view is_required_by(Kind kind) {
     return kind == Kind::Whole ? "whole number" : kind == Kind::Hash ? "hash" : "number";
 }
 
@@ -191,7 +191,7 @@ std::string_view wanted_by(Kind kind) {
 std::vector<std::size_t> read_header(
     const std::filesystem::path& path,
     std::string_view line,
-    std::span<const std::string_view> further) {
+    std::span<const std::string_view> required_columns) {
     std::vector<std::size_t> order;
     for (const std::string_view name : split_fields(line, ',')) {
         const auto found =
@@ -201,16 +201,16 @@ std::vector<std::size_t> read_header(
         const auto column = static_cast<std::size_t>(found - frame_columns.begin());
         if (found != frame_columns.end() &&
             std::find(order.begin(), order.end(), column) != order.end()) {
-            error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
+            throw_error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
         }
         order.push_back(column);
     }
     for (std::size_t i = 0; i < frame_columns.size(); ++i) {
         const std::string_view name = frame_columns[i].name;
         const bool is_needed = frame_columns[i].required ||
-                               std::find(further.begin(), further.end(), name) != further.end();
+                               std::find(required_columns.begin(), required_columns.end(), name) != required_columns.end();
         if (is_needed && std::find(order.begin(), order.end(), i) == order.end()) {
-            error_at(
+            throw_error_at(
                 path,
                 1,
                 fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
@@ -226,7 +226,7 @@ FrameRecord read_line(
     const std::vector<std::size_t>& order) {
     const auto fields = split_fields(line, ',');
     if (fields.size() != order.size()) {
-        error_at(
+        throw_error_at(
             path,
             line_number,
             fmt::format("expected {} fields, got {}", order.size(), fields.size()));
@@ -238,12 +238,12 @@ FrameRecord read_line(
         }
         const CsvColumn& column = frame_columns[order[i]];
         if (!set_field(column, fields[i], record)) {
-            error_at(
+            throw_error_at(
                 path,
                 line_number,
                 fmt::format(
                     "expected a {} in column {}, got '{}'",
-                    wanted_by(column.kind),
+                    is_required_by(column.kind),
                     column.name,
                     printable(std::string(fields[i]))));
         }
@@ -266,7 +266,7 @@ std::string frame_csv_line(const FrameRecord& record) {
     return line + "\n";
 }
 
-FrameRecord as_written(const FrameRecord& record) {
+FrameRecord rounded_as_csv(const FrameRecord& record) {
     FrameRecord rounded;
     for (const CsvColumn& each : frame_columns) {
         if (each.kind == Kind::Hash) {
@@ -280,27 +280,27 @@ FrameRecord as_written(const FrameRecord& record) {
     return rounded;
 }
 
-FrameReader::FrameReader(fs::path path, std::span<const std::string_view> further)
+FrameReader::FrameReader(fs::path path, std::span<const std::string_view> required_columns)
     : path_(std::move(path))
     , lines_(path_) {
     const auto header = lines_.next();
-    torn_ = header && lines_.torn();
-    ended_ = !header || (torn_ && header_line().starts_with(*header));
+    is_truncated_ = header && lines_.is_truncated();
+    ended_ = !header || (is_truncated_ && header_line().starts_with(*header));
     if (!ended_) {
-        columns_ = read_header(path_, *header, further);
+        columns_ = read_header(path_, *header, required_columns);
     }
 }
 
 std::optional<FrameRecord> FrameReader::next() {
     const auto line = ended_ ? std::nullopt : lines_.next();
-    torn_ = line ? lines_.torn() : torn_;
-    if (!line || torn_) {
+    is_truncated_ = line ? lines_.is_truncated() : is_truncated_;
+    if (!line || is_truncated_) {
         ended_ = true;
         return std::nullopt;
     }
     FrameRecord record = read_line(path_, lines_.number(), *line, columns_);
     if (last_frame_ && record.frame <= *last_frame_) {
-        error_at(
+        throw_error_at(
             path_,
             lines_.number(),
             fmt::format("expected a frame after {}, got {}", *last_frame_, record.frame));
@@ -309,13 +309,13 @@ std::optional<FrameRecord> FrameReader::next() {
     return record;
 }
 
-FrameFile read_frame_csv(const fs::path& path, std::span<const std::string_view> further) {
-    FrameReader reader(path, further);
+FrameFile read_frame_csv(const fs::path& path, std::span<const std::string_view> required_columns) {
+    FrameReader reader(path, required_columns);
     FrameFile file;
     while (const auto record = reader.next()) {
         file.records.push_back(*record);
     }
-    file.torn = reader.torn();
+    file.is_truncated = reader.is_truncated();
     return file;
 }
 

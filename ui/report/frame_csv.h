@@ -22,40 +22,40 @@ std::string frame_csv_line(const FrameRecord& record);
 
 /// The record with its numbers rounded as its line gives them, so that figures computed now and
 /// figures computed from the file are the same bit for bit.
-FrameRecord as_written(const FrameRecord& record);
+FrameRecord rounded_as_csv(const FrameRecord& record);
 
 /// frames.csv row by row, in the memory of one of them: columns may stand in any order, unknown
 /// ones are skipped; those that every recording has had from the first (frame_csv.cpp marks them)
-/// and those of `further` must be there. An empty file has no rows. Frames must count upwards.
+/// and those of `required_columns` must be there. An empty file has no rows. Frames must count upwards.
 /// Throws Error "file:line: expected ..., got ..." for anything else.
 class FrameReader {
 public:
     explicit FrameReader(
-        std::filesystem::path path, std::span<const std::string_view> further = {});
+        std::filesystem::path path, std::span<const std::string_view> required_columns = {});
 
     /// The next row, nothing at the end.
     std::optional<FrameRecord> next();
 
     /// At the end: the last line was cut short (the program was killed) and left out.
-    bool torn() const { return torn_; }
+    bool is_truncated() const { return is_truncated_; }
 
 private:
     std::filesystem::path path_;
     LineReader lines_;
     std::vector<std::size_t> columns_; ///< the number of the column that each field belongs to
     std::optional<int> last_frame_;
-    bool torn_ = false;
+    bool is_truncated_ = false;
     bool ended_ = false;
 };
 
 /// What a frames.csv holds.
 struct FrameFile {
     std::vector<FrameRecord> records;
-    bool torn = false; ///< the last line was cut short (the program was killed) and left out
+    bool is_truncated = false; ///< the last line was cut short (the program was killed) and left out
 };
 
 /// All rows at once, as FrameReader has them; record i stands in line i + 2.
 FrameFile
-read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> further = {});
+read_frame_csv(const std::filesystem::path& path, std::span<const std::string_view> required_columns = {});
 
 } // namespace octant::ui::report

@@ -31,7 +31,7 @@ struct FrameRecord {
     double record_ms = 0.0;    ///< writing pictures and video, outside frame_ms
     int terrain_triangles = 0;
     int terrain_fans = 0;
-    int fine_triangles = 0;    ///< of terrain_triangles: detail below the samples
+    int detail_triangles = 0;    ///< of terrain_triangles: detail below the samples
     int scenery_triangles = 0; ///< of terrain_triangles: what stands on it, roads and a runway
     int aircraft_polygons = 0; ///< in the lists drawn, before back-face culling
     int draw_cell = 0;         ///< cell of the first aircraft's draw order
@@ -43,7 +43,7 @@ struct FrameRecord {
     int overrun = 0;    ///< 1 when frame_ms is above 16.67
     int draw_calls = 0; ///< of the graphics library, or steps painted where there is none
     int shadow_triangles = 0;
-    int veil_triangles = 0;
+    int transparent_triangles = 0;
     int cuts = 0;      ///< ground triangles and aircraft polygons painted again, cut by planes
     int unordered = 0; ///< aircraft painted by depth, as they meet others in too many places
     glm::dvec3 eye_m{0.0};

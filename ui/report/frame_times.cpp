@@ -7,7 +7,7 @@
 
 namespace octant::ui::report {
 
-void FrameTimes::add(double frame_ms) {
+void FrameTimeHistogram::add(double frame_ms) {
     ++counts_[frame_ms];
     if (frames_++ > 0) {
         change_ms_ += std::abs(frame_ms - last_ms_);
@@ -15,14 +15,14 @@ void FrameTimes::add(double frame_ms) {
     last_ms_ = frame_ms;
 }
 
-void FrameTimes::add(const FrameRecord& record) {
+void FrameTimeHistogram::add(const FrameRecord& record) {
     if (!record.warm_up) {
         add(record.frame_ms);
     }
 }
 
 /// The time of that rank, counted from 1 upwards.
-double FrameTimes::at_rank(std::uint64_t rank) const {
+double FrameTimeHistogram::at_rank(std::uint64_t rank) const {
     std::uint64_t passed = 0;
     for (const auto& [frame_ms, count] : counts_) {
         passed += count;
@@ -33,7 +33,7 @@ double FrameTimes::at_rank(std::uint64_t rank) const {
     return 0.0;
 }
 
-double FrameTimes::low_fps(int permille) const {
+double FrameTimeHistogram::low_fps(int permille) const {
     const std::uint64_t slowest = rank_of(frames_, permille);
     std::uint64_t left = slowest;
     double sum_ms = 0.0;
@@ -46,7 +46,7 @@ double FrameTimes::low_fps(int permille) const {
     return mean_ms > 0.0 ? 1000.0 / mean_ms : 0.0;
 }
 
-int FrameTimes::count_above(double limit_ms) const {
+int FrameTimeHistogram::count_above(double limit_ms) const {
     std::uint64_t count = 0;
     for (auto at = counts_.upper_bound(limit_ms); at != counts_.end(); ++at) {
         count += at->second;
@@ -54,7 +54,7 @@ int FrameTimes::count_above(double limit_ms) const {
     return static_cast<int>(count);
 }
 
-Statistics FrameTimes::statistics() const {
+Statistics FrameTimeHistogram::statistics() const {
     Statistics result;
     if (frames_ == 0) {
         return result;
@@ -90,7 +90,7 @@ Statistics FrameTimes::statistics() const {
 }
 
 Statistics statistics_of_times(std::span<const double> frame_ms) {
-    FrameTimes times;
+    FrameTimeHistogram times;
     for (const double each_ms : frame_ms) {
         times.add(each_ms);
     }
@@ -98,7 +98,7 @@ Statistics statistics_of_times(std::span<const double> frame_ms) {
 }
 
 Statistics statistics_of(std::span<const FrameRecord> records) {
-    FrameTimes times;
+    FrameTimeHistogram times;
     for (const FrameRecord& record : records) {
         times.add(record);
     }

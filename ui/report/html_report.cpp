@@ -4,10 +4,10 @@
 #include "ui/report/contact_sheet.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
-#include "ui/report/overruns.h"
+#include "ui/report/slow_frames.h"
 #include "ui/report/page_plot.h"
 #include "ui/report/page_script.h"
-#include "ui/report/several_page.h"
+#include "ui/report/comparison_page.h"
 #include "ui/report/slow_pictures.h"
 
 #include <algorithm>
@@ -96,25 +96,25 @@ std::string overview(const LoadedRecording& recording) {
     html += tile("Longest", fmt::format("{:.2f}", figures_ms.max_ms), "ms");
     html += tile("1 % low", fmt::format("{:.1f}", figures_ms.low_1pct_fps), "frames/s");
     html += tile("Above 16.67 ms", fmt::format("{}", figures_ms.overruns_16ms), "frames");
-    if (const TargetRange targets = recording.flight.triangle_targets(); targets.moved()) {
+    if (const TargetRange targets = recording.flight.triangle_targets(); targets.varies()) {
         html += tile(
             "Triangle target",
             fmt::format("{:.0f}", targets.mean),
-            fmt::format("mean of {} to {}", targets.least, targets.greatest));
+            fmt::format("mean of {} to {}", targets.min_triangles, targets.max_triangles));
     }
     return html + "</dl>\n";
 }
 
-std::string figures_table(const LoadedRecording& recording) {
+std::string statistics_table(const LoadedRecording& recording) {
     std::string html = "<div class=\"scroll\"><table>\n<thead><tr><th>Figure</th>"
                        "<th class=\"number\">Value</th><th>Definition</th></tr></thead>\n<tbody>\n";
-    for (const Figure& figure : figures()) {
+    for (const Statistic& statistic : all_statistics()) {
         html += fmt::format(
             "<tr><td>{}</td><td class=\"number\">{}</td><td "
             "class=\"definition\">{}</td></tr>\n",
-            escaped(figure.name),
-            figure_text(figure, recording.statistics),
-            escaped(figure.definition));
+            escaped(statistic.name),
+            statistic_text(statistic, recording.statistics),
+            escaped(statistic.definition));
     }
     return card(
         html +
@@ -125,7 +125,7 @@ std::string figures_table(const LoadedRecording& recording) {
         "it is that share through a first-order filter.</p>\n");
 }
 
-std::string rows_table(const char* first, const Rows& rows) {
+std::string rows_table(const char* first, const NamedValues& rows) {
     std::string html = fmt::format(
         "<div class=\"scroll\"><table>\n<thead><tr><th>{}</th><th></th></tr></thead>\n<tbody>\n",
         first);
@@ -137,23 +137,23 @@ std::string rows_table(const char* first, const Rows& rows) {
 }
 
 /// Those that are set; what is not set follows from the others.
-Rows set_ones(const Rows& settings) {
-    Rows rows;
+NamedValues set_settings_rows(const NamedValues& settings) {
+    NamedValues rows;
     std::ranges::copy_if(settings, std::back_inserter(rows), [](const auto& row) {
         return row.second != unset_value && !row.second.empty();
     });
     return rows;
 }
 
-Rows result_rows(const LoadedRecording& recording) {
-    Rows rows{
+NamedValues result_rows(const LoadedRecording& recording) {
+    NamedValues rows{
         {"state hash", recording.run.state_hash},
         {"picture hash", recording.run.picture_hash},
         {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
     rows.insert(rows.end(), recording.run.facts.begin(), recording.run.facts.end());
-    const Rows clock = recording.flight.clock.rows();
+    const NamedValues clock = recording.flight.clock.rows();
     rows.insert(rows.end(), clock.begin(), clock.end());
-    const Rows link = recording.flight.link.rows();
+    const NamedValues link = recording.flight.link.rows();
     rows.insert(rows.end(), link.begin(), link.end());
     return rows;
 }
@@ -166,7 +166,7 @@ std::string plots_html(const LoadedRecording& recording) {
         if (plot.x_label.starts_with("simulated time")) {
             plot.marks = recording.run.legs;
         }
-        html += card(page_plot(plot, first ? PlotPlace::Wide : PlotPlace::Half));
+        html += card(page_plot(plot, first ? PlotWidth::FullWidth : PlotWidth::HalfWidth));
         first = false;
     }
     html += "</div>\n<p class=\"note\">Values under the pointer; drag to zoom, double click for "
@@ -192,7 +192,7 @@ std::string overrun_summary(const LoadedRecording& recording) {
 }
 
 /// The slowest frames with their reasons.
-HtmlTable slowest_table(std::span<const Overrun> slowest, bool has_counters) {
+HtmlTable slowest_table(std::span<const SlowFrame> slowest, bool has_counters) {
     HtmlTable table;
     table.header = {
         "frame",
@@ -208,14 +208,14 @@ HtmlTable slowest_table(std::span<const Overrun> slowest, bool has_counters) {
         table.note = "Switches: how often another program was given the processor. Stolen: by the "
                      "host for other machines, in the kernel's steps of 10 ms, of all processors.";
     }
-    for (const Overrun& frame : slowest) {
+    for (const SlowFrame& frame : slowest) {
         std::vector<std::string> row = {
             fmt::format("{}", frame.record.frame),
             fmt::format("{:.2f}", frame.record.sim_time_s),
             fmt::format("{:.2f}", frame.record.frame_ms),
             std::string(stage_names[frame.longest_stage]),
             fmt::format("{:.2f}", frame.stage_ms[frame.longest_stage]),
-            fmt::format("{} by {:.2f} ms", stage_names[frame.grown_stage], frame.growth_ms),
+            fmt::format("{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms),
             fmt::format("{}", frame.record.terrain_triangles),
             fmt::format("{:+}", frame.record.triangle_change)};
         if (has_counters) {
@@ -257,7 +257,7 @@ std::string slow_picture_html(const LoadedRecording& recording, const FrameRecor
 }
 
 std::string slowest_html(const LoadedRecording& recording) {
-    const std::vector<Overrun>& slowest = recording.slowest;
+    const std::vector<SlowFrame>& slowest = recording.slowest;
     std::string sheet;
     for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, slowest.size()); ++i) {
         sheet += slow_picture_html(recording, slowest[i].record);
@@ -273,10 +273,10 @@ std::string one_html(const LoadedRecording& recording) {
     html += heading("Plots") + plots_html(recording);
     const std::string sheet = contact_sheet_html(recording.pictures);
     html += sheet.empty() ? sheet : heading("Pictures") + card(sheet);
-    html += heading("Frame times") + figures_table(recording);
+    html += heading("Frame times") + statistics_table(recording);
     html += heading("The slowest frames and why") + slowest_html(recording);
     html += heading("Results") + rows_table("Result", result_rows(recording));
-    html += heading("Settings") + rows_table("Setting", set_ones(recording.run.settings));
+    html += heading("Settings") + rows_table("Setting", set_settings_rows(recording.run.settings));
     return html + heading("Program and machine") + rows_table("Entry", recording.run.machine);
 }
 
@@ -291,18 +291,18 @@ std::string page_title(Recordings recordings) {
 
 std::string html_report(
     Recordings recordings,
-    std::span<const HtmlTable> further,
+    std::span<const HtmlTable> first_tables,
     const std::filesystem::path& page_folder) {
     std::string html = page_head(page_title(recordings), recordings.size() > 1 ? "several" : "one");
     html += "<header><p class=\"lead\">Octant flight report</p><h1>" +
             escaped(page_title(recordings)) + "</h1></header>\n";
-    for (const HtmlTable& table : further) {
+    for (const HtmlTable& table : first_tables) {
         html += card(html_of(table));
     }
     if (recordings.size() == 1) {
         html += one_html(recordings.front());
     } else if (!recordings.empty()) {
-        html += several_html(recordings, page_folder);
+        html += several_recordings_html(recordings, page_folder);
     }
     return html + "</main>\n<div id=\"tip\" hidden></div>\n<script>" + std::string(page_script()) +
            "</script>\n</body>\n</html>\n";

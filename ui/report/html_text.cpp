@@ -69,10 +69,10 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-std::string link_text(std::string_view way) {
+std::string url_text(std::string_view path) {
     constexpr std::string_view plain = "-._~/";
     std::string text;
-    for (const char letter : way) {
+    for (const char letter : path) {
         const bool stays = (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
                            (letter >= 'A' && letter <= 'Z') ||
                            plain.find(letter) != std::string_view::npos;

@@ -19,7 +19,7 @@ struct HtmlTable {
 std::string escaped(std::string_view text);
 
 /// A relative way to a file as a link has it: what is no letter, digit or one of -._~/ as %20.
-std::string link_text(std::string_view way);
+std::string url_text(std::string_view path);
 
 std::string base64(std::string_view bytes);
 

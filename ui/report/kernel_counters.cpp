@@ -17,7 +17,7 @@ namespace octant::ui::report {
 
 namespace {
 
-FrameCounters counted_so_far() {
+FrameCounters total_counters() {
     rusage use{};
     getrusage(RUSAGE_SELF, &use);
     return {use.ru_minflt + use.ru_majflt, use.ru_nivcsw, 0.0};
@@ -48,8 +48,8 @@ std::optional<std::pair<long, FrameCounters>> counters_from(std::string_view lin
 KernelCounters::KernelCounters()
     : stat_(::open("/proc/stat", O_RDONLY | O_CLOEXEC))
     , stolen_ticks_(stolen_ticks())
-    , stolen_ticks_told_(stolen_ticks_)
-    , counted_(counted_so_far()) {}
+    , reported_stolen_ticks_(stolen_ticks_)
+    , reported_counts_(total_counters()) {}
 
 KernelCounters::~KernelCounters() {
     if (stat_ >= 0) {
@@ -72,17 +72,17 @@ std::uint64_t KernelCounters::stolen_ticks() {
 }
 
 void KernelCounters::begin() {
-    counted_ = counted_so_far();
+    reported_counts_ = total_counters();
 }
 
 FrameCounters KernelCounters::lap() {
-    const FrameCounters now = counted_so_far();
+    const FrameCounters now = total_counters();
     FrameCounters since{
-        now.page_faults - counted_.page_faults, now.switches - counted_.switches, 0.0};
+        now.page_faults - reported_counts_.page_faults, now.switches - reported_counts_.switches, 0.0};
     if (since_stolen_.ms() >= tick_ms()) {
         stolen_ticks_ = std::max(stolen_ticks_, stolen_ticks());
-        since.stolen_ms = tick_ms() * static_cast<double>(stolen_ticks_ - stolen_ticks_told_);
-        stolen_ticks_told_ = stolen_ticks_;
+        since.stolen_ms = tick_ms() * static_cast<double>(stolen_ticks_ - reported_stolen_ticks_);
+        reported_stolen_ticks_ = stolen_ticks_;
     }
     return since;
 }
@@ -115,7 +115,7 @@ CounterReader::CounterReader(const std::filesystem::path& file) {
 
 std::optional<std::pair<long, FrameCounters>> CounterReader::next() {
     while (const auto line = lines_ ? lines_->next() : std::nullopt) {
-        const auto counters = lines_->torn() ? std::nullopt : counters_from(*line);
+        const auto counters = lines_->is_truncated() ? std::nullopt : counters_from(*line);
         if (counters) {
             return counters;
         }
@@ -132,11 +132,11 @@ FrameCounters CounterReader::of(int frame) {
     return {};
 }
 
-bool read_counters(const std::filesystem::path& file, std::span<Overrun> frames) {
+bool read_counters(const std::filesystem::path& file, std::span<SlowFrame> frames) {
     CounterReader reader(file);
     while (const auto counters = reader.next()) {
         const auto frame = std::ranges::find_if(
-            frames, [&](const Overrun& each) { return each.record.frame == counters->first; });
+            frames, [&](const SlowFrame& each) { return each.record.frame == counters->first; });
         if (frame != frames.end()) {
             frame->record.counters = counters->second;
         }

@@ -3,7 +3,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/stopwatch.h"
 #include "ui/report/frame_record.h"
-#include "ui/report/overruns.h"
+#include "ui/report/slow_frames.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -40,8 +40,8 @@ private:
     int stat_ = -1; ///< /proc/stat
     base::Stopwatch since_stolen_;
     std::uint64_t stolen_ticks_ = 0;
-    std::uint64_t stolen_ticks_told_ = 0;
-    FrameCounters counted_; ///< without stolen_ms
+    std::uint64_t reported_stolen_ticks_ = 0;
+    FrameCounters reported_counts_; ///< without stolen_ms
 };
 
 /// The header line of counters.csv and a frame's line, with their line ends.
@@ -68,6 +68,6 @@ private:
 
 /// Fills in the counters of these frames from a counters.csv; false where there is none or it is
 /// none of ours, as in recordings of earlier programs.
-bool read_counters(const std::filesystem::path& file, std::span<Overrun> frames);
+bool read_counters(const std::filesystem::path& file, std::span<SlowFrame> frames);
 
 } // namespace octant::ui::report

@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/other_names.h"
+#include "ui/base/path_alias.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/kernel_counters.h"
 
@@ -38,7 +38,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 
 /// Adds the rows to a flight. Says which is the first that does not follow the one before it, as
 /// where a line was lost; else gives an empty text.
-std::string read_rows(const fs::path& file, FlightDigest& flight) {
+std::string read_rows(const fs::path& file, FlightAccumulator& flight) {
     FrameReader rows(file);
     std::string gap;
     int line = 1;
@@ -58,19 +58,19 @@ std::string read_rows(const fs::path& file, FlightDigest& flight) {
 /// Figures in which run.json's summary is not that of the rows, whose last digits it rounds.
 std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
     std::string text;
-    for (const Figure& figure : figures()) {
+    for (const Statistic& statistic : all_statistics()) {
         const auto told = std::ranges::find_if(
-            run.summary, [&](const auto& row) { return row.first == figure.key; });
+            run.summary, [&](const auto& row) { return row.first == statistic.key; });
         const auto value = told == run.summary.end() ? std::nullopt : finite_number(told->second);
-        const double by_rows = figure.value(statistics);
+        const double by_rows = statistic.value(statistics);
         if (value && std::abs(*value - by_rows) > 1e-6 * std::max(1.0, std::abs(by_rows))) {
             text += fmt::format(
                 "{}{}: {} in run.json, {:.{}f} by the rows",
                 text.empty() ? "" : "; ",
-                figure.key,
+                statistic.key,
                 told->second,
                 by_rows,
-                figure.decimals);
+                statistic.decimals);
         }
     }
     return text;
@@ -93,11 +93,11 @@ std::optional<long> picture_frame(std::string_view name) {
 LoadedRecording load_recording(const fs::path& folder) {
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) {
-        error_in(folder, "expected the folder of a recording, found none");
+        throw_error_in(folder, "expected the folder of a recording, found none");
     }
     LoadedRecording recording;
     recording.folder = folder;
-    recording.called = base::with_other_names(folder.string());
+    recording.display_name = base::with_path_aliases(folder.string());
     const fs::path whole = fs::absolute(folder).lexically_normal();
     recording.name =
         (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();

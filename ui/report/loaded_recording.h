@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/report/flight_digest.h"
+#include "ui/report/flight_accumulator.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
@@ -18,13 +18,13 @@ namespace octant::ui::report {
 struct LoadedRecording {
     std::filesystem::path folder;
     std::string name;   ///< the folder's own name
-    std::string called; ///< what messages call it: the folder, or the file that it was packed in
+    std::string display_name; ///< what messages call it: the folder, or the file that it was packed in
     RunFile run;
-    FlightDigest flight;
+    FlightAccumulator flight;
     Statistics statistics;
     /// The slowest frames, the slowest first, with what the kernel counted where the recording has
     /// that.
-    std::vector<Overrun> slowest;
+    std::vector<SlowFrame> slowest;
     bool has_counters = false;
     bool ended_early = false; ///< killed: no summary in run.json
     /// What the summary in run.json says otherwise than the rows do, and the first row that does

@@ -1,7 +1,7 @@
 #include "ui/report/machine_info.h"
 
 #include "sim/base/text_file.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,8 +3,8 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_name.h"
-#include "ui/base/other_names.h"
+#include "ui/base/json_file_name.h"
+#include "ui/base/path_alias.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/json_text.h"
 #include "ui/report/recording_names.h"
@@ -49,7 +49,7 @@ std::map<std::string, fs::path> own_files(const fs::path& folder) {
         }
     }
     if (code) {
-        error_in(folder, fmt::format("cannot be read: {}", code.message()));
+        throw_error_in(folder, fmt::format("cannot be read: {}", code.message()));
     }
     return files;
 }
@@ -68,17 +68,17 @@ std::vector<fs::path> with_companions(const fs::path& file) {
 }
 
 /// Brings what the settings name outside the folder inside, or notes it.
-class Outsiders {
+class ExternalFiles {
 public:
-    Outsiders(fs::path folder, bool with_terrain)
+    ExternalFiles(fs::path folder, bool with_terrain)
         : folder_(std::move(folder))
         , with_terrain_(with_terrain) {}
 
-    void take(Json& settings, const char* key, std::map<std::string, fs::path>& files) {
+    void add_file_of_setting(Json& settings, const char* key, std::map<std::string, fs::path>& files) {
         if (!settings.contains(key) || !settings[key].is_string()) {
             return;
         }
-        const fs::path file = folder_ / base::name_from_json(settings[key].get<std::string>());
+        const fs::path file = folder_ / base::file_name_from_json(settings[key].get<std::string>());
         std::error_code ignored;
         const std::string within = file.lexically_normal().lexically_relative(folder_).string();
         if (!fs::is_regular_file(file, ignored) || files.contains(within)) {
@@ -94,7 +94,7 @@ public:
         for (const fs::path& each : with_companions(file)) {
             files.emplace((inside / each.filename()).string(), each);
         }
-        settings[key] = base::json_of_name((inside / file.filename()).string());
+        settings[key] = base::json_from_file_name((inside / file.filename()).string());
     }
 
     std::vector<std::string> notes;
@@ -112,7 +112,7 @@ public:
         const fs::path place = fs::temp_directory_path(ignored);
         std::string name = ((place.empty() ? "/tmp" : place) / "octant-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
-            error_in(name, fmt::format("expected a place for a folder, got: {}", std::strerror(errno)));
+            throw_error_in(name, fmt::format("expected a place for a folder, got: {}", std::strerror(errno)));
         }
         path_ = name;
     }
@@ -145,7 +145,7 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
                                       return part == ".." || part == ".";
                                   });
         if (!stays_inside || !is_recording_name(name.begin()->string())) {
-            error_in(
+            throw_error_in(
                 zip,
                 fmt::format(
                     "expected only the files of a recording, got one with '{}'",
@@ -155,10 +155,10 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
         has_run = has_run || entry.name == run_name;
     }
     if (bytes > max_bytes) {
-        error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", max_bytes, bytes));
+        throw_error_in(zip, fmt::format("expected at most {} bytes unpacked, got {}", max_bytes, bytes));
     }
     if (!has_run) {
-        error_in(zip, "expected a packed recording, got one without run.json");
+        throw_error_in(zip, "expected a packed recording, got one without run.json");
     }
 }
 
@@ -177,7 +177,7 @@ fs::path unpacked(const fs::path& zip, const fs::path& into) {
     const fs::path stem = zip.stem(); // reports call it by its name
     const fs::path folder =
         into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
-    base::call_by(folder, zip.string());
+    base::set_path_alias(folder, zip.string());
     for (const ZipEntry& entry : entries) {
         make_folder((folder / entry.name).parent_path());
         extract(zip, entry.name, folder / entry.name);
@@ -187,22 +187,22 @@ fs::path unpacked(const fs::path& zip, const fs::path& into) {
 
 } // namespace
 
-Packing pack_recording(const fs::path& folder, const fs::path& zip, bool with_terrain) {
+PackResult pack_recording(const fs::path& folder, const fs::path& zip, bool with_terrain) {
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) {
-        error_in(folder, "expected the folder of a recording, found none");
+        throw_error_in(folder, "expected the folder of a recording, found none");
     }
     read_run_file(folder / run_name);
     if (is_locked(folder)) {
-        error_in(folder, "expected a recording that is finished, got one that is being written");
+        throw_error_in(folder, "expected a recording that is finished, got one that is being written");
     }
     const fs::path whole = fs::absolute(folder).lexically_normal();
     std::map<std::string, fs::path> files = own_files(folder);
     Json run = parsed_json(folder / run_name, read_text_file(folder / run_name));
-    Outsiders outsiders(whole.has_filename() ? whole : whole.parent_path(), with_terrain);
+    ExternalFiles outsiders(whole.has_filename() ? whole : whole.parent_path(), with_terrain);
     if (run.contains("settings") && run["settings"].is_object()) {
         for (const char* key : terrain_settings) {
-            outsiders.take(run["settings"], key, files);
+            outsiders.add_file_of_setting(run["settings"], key, files);
         }
     }
     ZipWriter writer(zip);
@@ -242,7 +242,7 @@ fs::path run_file_of(const fs::path& path) {
     if (fs::is_directory(path, ignored)) {
         return path / run_name;
     }
-    return ending_of(path) == ".zip" ? recording_folder(path) / run_name : path;
+    return extension_of(path) == ".zip" ? recording_folder(path) / run_name : path;
 }
 
 } // namespace octant::ui::report

@@ -7,7 +7,7 @@
 namespace octant::ui::report {
 
 /// What came of packing.
-struct Packing {
+struct PackResult {
     int files = 0;
     std::vector<std::string> notes; ///< files that its run reads and that do not lie in it
 };
@@ -16,12 +16,12 @@ struct Packing {
 /// come with it, and with the files of their name beside them, if `with_terrain`; else they are
 /// known by their hashes and the way to them. Throws Error for what is no recording and for one
 /// that is being written.
-Packing pack_recording(
+PackResult pack_recording(
     const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
 
 /// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder
 /// of its own, which lives until the program ends; messages call that by the packed file's name
-/// (ui/base/other_names.h). Throws Error for a file that is no packed
+/// (ui/base/path_alias.h). Throws Error for a file that is no packed
 /// recording or has anything else in it.
 std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
 

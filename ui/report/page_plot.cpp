@@ -85,7 +85,7 @@ std::string plot_json(const Plot& plot) {
         number(plot.y_max),
         plot.y_logarithmic,
         number(plot.bar_width));
-    json += "\"levels\":" + pairs(plot.levels, [](const PlotLevel& level) { return level.y; });
+    json += "\"levels\":" + pairs(plot.levels, [](const PlotReferenceLine& level) { return level.y; });
     json += ",\"marks\":" + pairs(plot.marks, [](const PlotMark& mark) { return mark.x; });
     json += ",\"series\":[";
     for (const PlotSeries& series : plot.series) {
@@ -110,13 +110,13 @@ std::string key_html(const Plot& plot) {
 
 } // namespace
 
-std::string page_plot(const Plot& plot, PlotPlace place) {
-    const bool small = place == PlotPlace::Small;
-    const int height_px = place == PlotPlace::Wide ? 320 : (small ? 130 : 260);
+std::string page_plot(const Plot& plot, PlotWidth place) {
+    const bool small = place == PlotWidth::Small;
+    const int height_px = place == PlotWidth::FullWidth ? 320 : (small ? 130 : 260);
     return fmt::format(
         "<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
         "<script type=\"application/json\">{}</script></div>\n",
-        place == PlotPlace::Wide ? " wide" : (small ? " small" : ""),
+        place == PlotWidth::FullWidth ? " wide" : (small ? " small" : ""),
         height_px,
         escaped(plot.title),
         small ? std::string() : key_html(plot),

@@ -7,14 +7,14 @@
 namespace octant::ui::report {
 
 /// How a plot stands in a page.
-enum class PlotPlace {
-    Half, ///< one of two beside each other
-    Wide, ///< over the page's whole width
+enum class PlotWidth {
+    HalfWidth, ///< one of two beside each other
+    FullWidth, ///< over the page's whole width
     Small ///< one of many; without the names of its axes
 };
 
 /// A plot for a page: its title, key and numbers, which page_script() draws at the size that it
 /// finds. Numbers have four significant digits.
-std::string page_plot(const Plot& plot, PlotPlace place);
+std::string page_plot(const Plot& plot, PlotWidth place);
 
 } // namespace octant::ui::report

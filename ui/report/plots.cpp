@@ -116,7 +116,7 @@ std::string axes_and_data(const Plot& plot) {
             clauses += (clauses.empty() ? "" : ", ") + series_clause(i, plot.series[i]);
         }
     }
-    for (const PlotLevel& level : plot.levels) {
+    for (const PlotReferenceLine& level : plot.levels) {
         clauses += fmt::format(
             "{}{:.7g} with lines dt 2 lw 1 lc rgb '#ef4444' title {}",
             clauses.empty() ? "" : ", ",
@@ -128,15 +128,15 @@ std::string axes_and_data(const Plot& plot) {
 
 /// What gnuplot makes of a script; `end`: stands in every whole picture. Nothing when it is not
 /// installed.
-std::optional<std::string> drawn(const std::string& script, std::string_view end) {
+std::optional<std::string> draw_with_gnuplot(const std::string& script, std::string_view end) {
     auto gnuplot = ChildProgram::start({"gnuplot", "--default-settings", "-"});
     if (!gnuplot) {
         return std::nullopt;
     }
     gnuplot->send(script);
-    ProgramEnding ending = gnuplot->finish();
+    ProgramResult ending = gnuplot->finish();
     if (!ending.succeeded || ending.output.find(end) == std::string::npos) {
-        throw Error("gnuplot: " + printable(ending.last_complaint));
+        throw Error("gnuplot: " + printable(ending.last_error_line));
     }
     return std::move(ending.output);
 }
@@ -174,11 +174,11 @@ std::optional<std::string> plot_svg(const Plot& plot) {
     if (std::none_of(plot.series.begin(), plot.series.end(), has_points)) {
         return std::nullopt;
     }
-    return drawn(gnuplot_script(plot), "</svg>");
+    return draw_with_gnuplot(gnuplot_script(plot), "</svg>");
 }
 
 std::optional<std::string> plots_png(std::span<const Plot> panels) {
-    return drawn(gnuplot_png_script(panels), "IEND");
+    return draw_with_gnuplot(gnuplot_png_script(panels), "IEND");
 }
 
 } // namespace octant::ui::report

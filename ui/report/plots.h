@@ -25,7 +25,7 @@ struct PlotSeries {
 };
 
 /// A level line across a plot.
-struct PlotLevel {
+struct PlotReferenceLine {
     std::string name;
     double y = 0.0;
 };
@@ -41,7 +41,7 @@ struct Plot {
     std::string x_label;
     std::string y_label;
     std::vector<PlotSeries> series; ///< drawn in this order
-    std::vector<PlotLevel> levels;
+    std::vector<PlotReferenceLine> levels;
     std::optional<double> y_min;
     std::optional<double> y_max;
     bool y_logarithmic = false;

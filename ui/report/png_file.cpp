@@ -21,12 +21,12 @@ namespace {
 /// What libpng's call-backs reach.
 struct Encoder {
     std::string out;
-    std::array<char, 120> complaint{};
+    std::array<char, 120> error_line{};
 };
 
-void keep_complaint(png_structp png, png_const_charp message) {
+void keep_error(png_structp png, png_const_charp message) {
     auto* encoder = static_cast<Encoder*>(png_get_error_ptr(png));
-    std::snprintf(encoder->complaint.data(), encoder->complaint.size(), "%s", message);
+    std::snprintf(encoder->error_line.data(), encoder->error_line.size(), "%s", message);
     png_longjmp(png, 1);
 }
 
@@ -76,7 +76,7 @@ void set_effort(png_structp png, PngEffort effort) {
 
 /// The only function that a longjmp comes back to: nothing in it or below it up to libpng has a
 /// destructor. False when libpng complained.
-bool encode(png_structp png, png_infop info, const PictureView& picture, PngEffort effort) {
+bool encode(png_structp png, png_infop info, const PixelView& picture, PngEffort effort) {
     if (setjmp(png_jmpbuf(png)) != 0) { // NOLINT(cert-err52-cpp): libpng's only way out
         return false;
     }
@@ -104,12 +104,12 @@ bool encode(png_structp png, png_infop info, const PictureView& picture, PngEffo
 
 } // namespace
 
-std::string png_bytes(const PictureView& picture, PngEffort effort) {
+std::string png_bytes(const PixelView& picture, PngEffort effort) {
     assert(picture.is_whole());
     Encoder encoder;
     WriteHandles handles;
     handles.png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, keep_complaint, ignore_warning);
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, keep_error, ignore_warning);
     handles.info = handles.png != nullptr ? png_create_info_struct(handles.png) : nullptr;
     if (handles.info == nullptr) {
         throw Error("libpng cannot be started");
@@ -120,12 +120,12 @@ std::string png_bytes(const PictureView& picture, PngEffort effort) {
             "a picture of {} x {} pixels cannot be made a PNG: {}",
             picture.width_px,
             picture.height_px,
-            encoder.complaint.data()));
+            encoder.error_line.data()));
     }
     return std::move(encoder.out);
 }
 
-void write_png(const std::filesystem::path& path, const PictureView& picture) {
+void write_png(const std::filesystem::path& path, const PixelView& picture) {
     write_file(path, png_bytes(picture));
 }
 
@@ -135,10 +135,10 @@ Picture picture_from_png(const std::filesystem::path& path, std::string_view byt
     image.version = PNG_IMAGE_VERSION;
     const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&image, png_image_free);
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-        error_in(path, fmt::format("expected a PNG picture: {}", image.message));
+        throw_error_in(path, fmt::format("expected a PNG picture: {}", image.message));
     }
     if (std::size_t{image.width} * image.height > max_pixels) {
-        error_in(
+        throw_error_in(
             path,
             fmt::format(
                 "expected at most {} pixels, got {} x {}", max_pixels, image.width, image.height));
@@ -150,7 +150,7 @@ Picture picture_from_png(const std::filesystem::path& path, std::string_view byt
     picture.bytes.resize(
         std::size_t{image.width} * image.height * static_cast<std::size_t>(picture.channels));
     if (png_image_finish_read(&image, nullptr, picture.bytes.data(), 0, nullptr) == 0) {
-        error_in(path, fmt::format("expected a whole PNG picture: {}", image.message));
+        throw_error_in(path, fmt::format("expected a whole PNG picture: {}", image.message));
     }
     return picture;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/report/picture_view.h"
+#include "ui/report/pixel_view.h"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@ struct Picture {
     int channels = 3;
     std::vector<std::byte> bytes;
 
-    PictureView view() const { return {width_px, height_px, channels, bytes, false}; }
+    PixelView view() const { return {width_px, height_px, channels, bytes, false}; }
 };
 
 enum class PngEffort {
@@ -26,10 +26,10 @@ enum class PngEffort {
 
 /// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same
 /// bytes. Throws Error when libpng cannot (more than a million pixels a side).
-std::string png_bytes(const PictureView& picture, PngEffort effort = PngEffort::Fast);
+std::string png_bytes(const PixelView& picture, PngEffort effort = PngEffort::Fast);
 
 /// png_bytes as a file, whole or not at all. Throws Error.
-void write_png(const std::filesystem::path& path, const PictureView& picture);
+void write_png(const std::filesystem::path& path, const PixelView& picture);
 
 /// Reads a PNG of any kind as 8-bit RGB, or RGBA when it has transparency. `path` is only named in
 /// errors. Throws Error for what is no PNG, is damaged or holds more than 100 million pixels.

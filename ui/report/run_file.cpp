@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_name.h"
+#include "ui/base/json_file_name.h"
 #include "ui/report/json_text.h"
 
 #include <cassert>
@@ -20,7 +20,7 @@ constexpr const char* format_name = "octant recording";
 constexpr int format_version = 1;
 
 /// Text that may hold bytes which are no UTF-8 (file names): JSON cannot carry them as they are.
-std::string dumped(const Json& json) {
+std::string json_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -71,7 +71,7 @@ Json start_json(const RunInfo& info) {
     json["notes"] = info.notes;
     json["inputs"] = Json::object();
     for (const auto& [file, hash] : info.inputs) {
-        json["inputs"][base::json_of_name(file)] = hash;
+        json["inputs"][base::json_from_file_name(file)] = hash;
     }
     return json;
 }
@@ -81,14 +81,14 @@ double rounded(double value, int decimals) {
     return std::round(value * scale) / scale;
 }
 
-Json summary_json(const Statistics& statistics, const RunEnd& end) {
+Json summary_json(const Statistics& statistics, const RunSummary& end) {
     Json summary = Json::object();
-    for (const Figure& figure : figures()) {
-        const double value = figure.value(statistics);
-        if (figure.decimals == 0) {
-            summary[std::string(figure.key)] = static_cast<int>(value);
+    for (const Statistic& statistic : all_statistics()) {
+        const double value = statistic.value(statistics);
+        if (statistic.decimals == 0) {
+            summary[std::string(statistic.key)] = static_cast<int>(value);
         } else {
-            summary[std::string(figure.key)] = rounded(value, 6);
+            summary[std::string(statistic.key)] = rounded(value, 6);
         }
     }
     summary["state_hash"] = fmt::format("{:016x}", end.state_hash);
@@ -99,7 +99,7 @@ Json summary_json(const Statistics& statistics, const RunEnd& end) {
     return summary;
 }
 
-Json noise_json(const MachineInfo& machine, const RunEnd& end) {
+Json noise_json(const MachineInfo& machine, const RunSummary& end) {
     const auto use = cpu_use_between(machine.cpu_times, end.cpu_times);
     Json noise = Json::object();
     if (use) {
@@ -113,7 +113,7 @@ Json noise_json(const MachineInfo& machine, const RunEnd& end) {
 }
 
 /// A JSON value as a report shows it.
-std::string shown(const Json& value) {
+std::string display_text(const Json& value) {
     if (value.is_string()) {
         return value.get<std::string>();
     }
@@ -121,19 +121,19 @@ std::string shown(const Json& value) {
         std::string text;
         for (const Json& each : value) {
             text += text.empty() ? "" : ", ";
-            text += shown(each);
+            text += display_text(each);
         }
         return text;
     }
     return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void append_rows(Rows& rows, const Json& object, const std::string& prefix) {
+void append_rows(NamedValues& rows, const Json& object, const std::string& prefix) {
     for (const auto& [name, value] : object.items()) {
         if (value.is_object()) {
             append_rows(rows, value, prefix + name + ".");
         } else {
-            rows.emplace_back(prefix + name, shown(value));
+            rows.emplace_back(prefix + name, display_text(value));
         }
     }
 }
@@ -145,7 +145,7 @@ Json member(const Json& json, const char* name) {
 
 std::string text_in(const Json& json, const char* name) {
     const Json value = member(json, name);
-    return value.is_null() ? std::string() : shown(value);
+    return value.is_null() ? std::string() : display_text(value);
 }
 
 /// The number of that name from 0 to `largest`, or 0 where there is none such.
@@ -177,7 +177,7 @@ std::vector<std::string> noise_from(const Json& json, const MachineInfo& machine
     }
     std::vector<std::string> texts;
     for (const Json& reason : reasons) {
-        texts.push_back(shown(reason));
+        texts.push_back(display_text(reason));
     }
     return texts;
 }
@@ -185,10 +185,10 @@ std::vector<std::string> noise_from(const Json& json, const MachineInfo& machine
 } // namespace
 
 std::string run_json(const RunInfo& info) {
-    return dumped(start_json(info));
+    return json_text(start_json(info));
 }
 
-std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& statistics) {
+std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics) {
     Json json = start_json(info);
     for (const std::string& note : end.notes) {
         json["notes"].push_back(note);
@@ -198,13 +198,13 @@ std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& s
         json["stopped"] = end.stopped;
     }
     json["noise"] = noise_json(info.machine, end);
-    return dumped(json);
+    return json_text(json);
 }
 
 RunFile read_run_file(const std::filesystem::path& path) {
     const Json json = parsed_json(path, read_text_file(path));
     if (text_in(json, "format") != format_name) {
-        error_in(path, fmt::format("expected \"format\": \"{}\", got none", format_name));
+        throw_error_in(path, fmt::format("expected \"format\": \"{}\", got none", format_name));
     }
     RunFile run;
     run.title = text_in(json, "title");
@@ -213,7 +213,7 @@ RunFile read_run_file(const std::filesystem::path& path) {
     append_rows(run.machine, member(json, "machine"), "");
     append_rows(run.facts, member(json, "facts"), "");
     for (const Json& note : member(json, "notes")) {
-        run.facts.emplace_back("note", shown(note));
+        run.facts.emplace_back("note", display_text(note));
     }
     for (const Json& leg : member(json, "legs")) {
         run.legs.push_back({text_in(leg, "label"), number_in(leg, "time_s", 1e7)});

@@ -16,16 +16,16 @@
 namespace octant::ui::report {
 
 /// Names and values in the order to show.
-using Rows = std::vector<std::pair<std::string, std::string>>;
+using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
 /// What Rows have of a setting that is not set.
 inline constexpr const char* unset_value = "null";
 
 /// Name of the fact that a recording of a window has: its pictures followed the clock.
-inline constexpr const char* flown_fact = "flown";
+inline constexpr const char* window_fact = "flown";
 
 /// Name of the fact that a flight of a sweep has: how many of the sweep's flights shared a machine.
-inline constexpr const char* swept_fact = "swept";
+inline constexpr const char* batch_context_fact = "swept";
 
 /// What run.json says from the start of a flight.
 struct RunInfo {
@@ -38,15 +38,15 @@ struct RunInfo {
     double rate_hz = 0.0;          ///< pictures a simulated second
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
-    Rows facts;                     ///< anything else the report should show
+    NamedValues facts;                     ///< anything else the report should show
     std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
     std::vector<PlotMark> legs;     ///< of the path, by the simulated time when they begin
-    Rows inputs;                    ///< files that were read and hashes of what was in them
-    Rows files; ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
+    NamedValues inputs;                    ///< files that were read and hashes of what was in them
+    NamedValues files; ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json
 };
 
 /// What is known after the end.
-struct RunEnd {
+struct RunSummary {
     std::uint64_t state_hash = 0;
     std::optional<std::uint64_t> picture_hash; ///< nothing where pictures follow the clock
     CpuTimes cpu_times; ///< read after the last frame (and after the video is whole)
@@ -59,21 +59,21 @@ struct RunEnd {
 /// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON
 /// object.
 std::string run_json(const RunInfo& info);
-std::string run_json(const RunInfo& info, const RunEnd& end, const Statistics& statistics);
+std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics);
 
 /// run.json as a report shows it.
 struct RunFile {
     std::string title;
-    Rows settings; ///< nested names joined by dots, lists by ", "
-    Rows machine;  ///< program, machine and renderer
-    Rows facts;
+    NamedValues settings; ///< nested names joined by dots, lists by ", "
+    NamedValues machine;  ///< program, machine and renderer
+    NamedValues facts;
     MachineInfo machine_info;   ///< without cpu_times
     std::string device;         ///< as RunInfo::device
     std::string path_offset;    ///< "0, 0, 120 m"
     std::vector<PlotMark> legs; ///< as RunInfo::legs
-    Rows summary;               ///< figures by their keys, empty unless ended
+    NamedValues summary;               ///< figures by their keys, empty unless ended
     bool ended = false;         ///< there is a summary
-    std::string stopped;        ///< RunEnd::stopped
+    std::string stopped;        ///< RunSummary::stopped
     std::string state_hash;     ///< 16 hex digits, empty unless ended
     std::string picture_hash;
     std::vector<std::string> noise; ///< see noise_reasons

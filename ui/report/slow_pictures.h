@@ -25,19 +25,19 @@ public:
 
     /// Takes the picture where the frame is one of the slowest so far. `picture.is_whole()` must
     /// hold.
-    void add(const FrameRecord& record, const PictureView& picture);
+    void add(const FrameRecord& record, const PixelView& picture);
 
     /// Writes each of them into the folder by its name. Throws Error (disk full).
     void write(const std::filesystem::path& folder) const;
 
 private:
-    struct Kept {
+    struct SlowPicture {
         FrameRecord record;
         Picture picture;
     };
 
     /// The slowest first.
-    std::vector<Kept> kept_;
+    std::vector<SlowPicture> kept_;
 };
 
 } // namespace octant::ui::report

@@ -27,9 +27,9 @@ Column joined(const Column& first, const Column& second) {
 
 void StageColumns::add(const FrameRecord& record) {
     end_s_ = record.sim_time_s;
-    if (!columns_.empty() && in_last_ < frames_a_column_) {
+    if (!columns_.empty() && in_last_bucket_ < frames_per_column_) {
         columns_.back() = joined(columns_.back(), column_of(record));
-        ++in_last_;
+        ++in_last_bucket_;
         return;
     }
     if (columns_.size() == max_columns) {
@@ -37,10 +37,10 @@ void StageColumns::add(const FrameRecord& record) {
             columns_[i] = joined(columns_[2 * i], columns_[2 * i + 1]);
         }
         columns_.resize(max_columns / 2);
-        frames_a_column_ *= 2;
+        frames_per_column_ *= 2;
     }
     columns_.push_back(column_of(record));
-    in_last_ = 1;
+    in_last_bucket_ = 1;
 }
 
 } // namespace octant::ui::report

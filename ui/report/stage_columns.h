@@ -29,12 +29,12 @@ public:
     /// Simulated time of the last frame.
     double end_s() const { return end_s_; }
 
-    bool is_thinned() const { return frames_a_column_ > 1; }
+    bool is_thinned() const { return frames_per_column_ > 1; }
 
 private:
     std::vector<Column> columns_;
-    std::size_t frames_a_column_ = 1;
-    std::size_t in_last_ = 0;
+    std::size_t frames_per_column_ = 1;
+    std::size_t in_last_bucket_ = 0;
     double end_s_ = 0.0;
 };
 

@@ -7,7 +7,7 @@
 namespace octant::ui::report {
 
 /// Frame-time figures of a flight, without its warm-up frames. Each is defined in words by
-/// figures(). No frames: all zero (figure_text() tells). One frame: sd and jitter are zero.
+/// all_statistics(). No frames: all zero (statistic_text() tells). One frame: sd and jitter are zero.
 struct Statistics {
     int frames = 0;
     double mean_ms = 0.0;
@@ -34,7 +34,7 @@ inline constexpr double overrun_33_ms = 33.3;
 inline constexpr double overrun_41_ms = 41.7;
 
 /// One figure of Statistics for files and tables.
-struct Figure {
+struct Statistic {
     std::string_view key;  ///< in run.json under "summary"
     std::string_view name; ///< for people, with its unit
     std::string_view definition;
@@ -44,10 +44,10 @@ struct Figure {
 };
 
 /// All figures in the order of run.json.
-std::span<const Figure> figures();
+std::span<const Statistic> all_statistics();
 
 /// A figure as people read it, with its decimals; "-" for a time or rate of no frames.
-std::string figure_text(const Figure& figure, const Statistics& statistics);
+std::string statistic_text(const Statistic& statistic, const Statistics& statistics);
 
 /// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards.
 /// `permille` in [1, 1000]; 0 when there are no values.

@@ -76,11 +76,11 @@ std::vector<std::string> command(const std::filesystem::path& file, const VideoF
 }
 
 /// Finds out before the flight what ffmpeg would find out after it.
-const std::filesystem::path& writable(const std::filesystem::path& file) {
+const std::filesystem::path& require_writable(const std::filesystem::path& file) {
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     if (::access(folder.c_str(), W_OK) != 0 || is_folder(file) ||
-        (is_there(file) && ::access(file.c_str(), W_OK) != 0)) {
-        error_in(file, "expected a file that can be written, got one that cannot");
+        (path_exists(file) && ::access(file.c_str(), W_OK) != 0)) {
+        throw_error_in(file, "expected a file that can be written, got one that cannot");
     }
     return file;
 }
@@ -111,7 +111,7 @@ std::uintmax_t whole_fragments_bytes(const std::filesystem::path& file, std::uin
 
 /// Cuts what a failed ffmpeg left after its last whole fragment, and removes it where it has none.
 /// Returns whether something that plays is left.
-bool keep_whole_fragments(const std::filesystem::path& file) {
+bool truncate_to_whole_fragments(const std::filesystem::path& file) {
     if (!is_file(file)) {
         return false;
     }
@@ -127,11 +127,11 @@ bool keep_whole_fragments(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void refuse_without_ffmpeg(const std::filesystem::path& file) {
-    error_in(file, "expected ffmpeg to make a video with, found none on PATH");
+    throw_error_in(file, "expected ffmpeg to make a video with, found none on PATH");
 }
 
-ChildProgram started(const std::filesystem::path& file, const VideoFormat& format) {
-    std::optional<ChildProgram> program = ChildProgram::start(command(writable(file), format));
+ChildProgram start_ffmpeg(const std::filesystem::path& file, const VideoFormat& format) {
+    std::optional<ChildProgram> program = ChildProgram::start(command(require_writable(file), format));
     if (!program) {
         refuse_without_ffmpeg(file);
     }
@@ -146,15 +146,15 @@ void check_video(const std::filesystem::path& file) {
         refuse_without_ffmpeg(file);
     }
     program->finish();
-    writable(file);
+    require_writable(file);
 }
 
 VideoPipe::VideoPipe(const std::filesystem::path& file, const VideoFormat& format)
     : file_(file)
     , format_(format)
-    , program_(started(file, format)) {}
+    , program_(start_ffmpeg(file, format)) {}
 
-void VideoPipe::add(const PictureView& picture) {
+void VideoPipe::add(const PixelView& picture) {
     assert(picture.is_whole() && picture.width_px == format_.width_px);
     assert(picture.height_px == format_.height_px && picture.channels == format_.channels);
     assert(picture.bottom_row_first == format_.bottom_row_first);
@@ -165,13 +165,13 @@ void VideoPipe::add(const PictureView& picture) {
 }
 
 std::optional<std::string> VideoPipe::finish() {
-    const ProgramEnding ending = program_.finish();
+    const ProgramResult ending = program_.finish();
     // A full disk that ffmpeg meets as it closes the file is told, and its exit code is 0.
-    if (ending.succeeded && !broken_ && ending.last_complaint.empty()) {
+    if (ending.succeeded && !broken_ && ending.last_error_line.empty()) {
         return std::nullopt;
     }
-    const char* const what = keep_whole_fragments(file_) ? "cut short" : "not made";
-    return fmt::format("{}: ffmpeg: {}", what, ending.last_complaint);
+    const char* const what = truncate_to_whole_fragments(file_) ? "cut short" : "not made";
+    return fmt::format("{}: ffmpeg: {}", what, ending.last_error_line);
 }
 
 } // namespace octant::ui::report

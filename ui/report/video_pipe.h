@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/report/child_program.h"
-#include "ui/report/picture_view.h"
+#include "ui/report/pixel_view.h"
 
 #include <filesystem>
 #include <optional>
@@ -33,7 +33,7 @@ public:
     bool running() const { return !broken_; }
 
     /// Hands on one frame, `picture` of the video's format; does nothing when not running().
-    void add(const PictureView& picture);
+    void add(const PixelView& picture);
 
     /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in
     /// ffmpeg's last one; what it left is then cut after the last whole fragment, or removed where

@@ -1,7 +1,7 @@
 #include "ui/report/zip_file.h"
 
 #include "sim/base/error.h"
-#include "sim/base/late_library.h"
+#include "sim/base/lazy_library.h"
 #include "sim/base/output_file.h"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 // What reads and writes zip files: few commands do, and the library takes long to load.
-constinit LateLibrary gdal_library(OCTANT_GDAL_FILE);
+constinit LazyLibrary gdal_library(OCTANT_GDAL_FILE);
 
-#define OCTANT_GDAL(name) const LateFunction<decltype(::name)> name(gdal_library, #name)
+#define OCTANT_GDAL(name) const LazyFunction<decltype(::name)> name(gdal_library, #name)
 OCTANT_GDAL(CPLCloseFileInZip);
 OCTANT_GDAL(CPLCloseZip);
 OCTANT_GDAL(CPLCreateFileInZip);
@@ -46,19 +46,19 @@ OCTANT_GDAL(VSIStatL);
 #undef OCTANT_GDAL
 
 /// Keeps the library from printing what it finds wrong.
-class Quiet {
+class SilencedGdal {
 public:
-    Quiet() {
+    SilencedGdal() {
         CPLPushErrorHandler(CPLQuietErrorHandler);
         CPLErrorReset();
     }
 
-    ~Quiet() { CPLPopErrorHandler(); }
+    ~SilencedGdal() { CPLPopErrorHandler(); }
 
-    Quiet(const Quiet&) = delete;
-    Quiet& operator=(const Quiet&) = delete;
-    Quiet(Quiet&&) = delete;
-    Quiet& operator=(Quiet&&) = delete;
+    SilencedGdal(const SilencedGdal&) = delete;
+    SilencedGdal& operator=(const SilencedGdal&) = delete;
+    SilencedGdal(SilencedGdal&&) = delete;
+    SilencedGdal& operator=(SilencedGdal&&) = delete;
 };
 
 struct CloseFile {
@@ -70,13 +70,13 @@ struct FreeList {
 };
 
 /// A zip file as the library's file functions name it.
-std::string inside(const fs::path& zip, const std::string& name = {}) {
+std::string vsizip_path(const fs::path& zip, const std::string& name = {}) {
     return fmt::format(
         "/vsizip/{{{}}}{}{}", fs::absolute(zip).string(), name.empty() ? "" : "/", name);
 }
 
 [[noreturn]] void is_no_zip(const fs::path& zip) {
-    error_in(zip, "expected a zip file, got something else or a part of it");
+    throw_error_in(zip, "expected a zip file, got something else or a part of it");
 }
 
 } // namespace
@@ -85,16 +85,16 @@ ZipWriter::ZipWriter(fs::path file)
     : file_(std::move(file))
     , part_(fmt::format("{}.{}.part", file_.string(), ::getpid())) {
     check_can_write(file_);
-    const Quiet quiet;
+    const SilencedGdal quiet;
     zip_ = CPLCreateZip(part_.c_str(), nullptr);
     if (zip_ == nullptr) {
-        error_in(file_, "cannot be written");
+        throw_error_in(file_, "cannot be written");
     }
 }
 
 ZipWriter::~ZipWriter() {
     if (zip_ != nullptr) {
-        const Quiet quiet;
+        const SilencedGdal quiet;
         CPLCloseZip(zip_);
     }
     std::error_code ignored;
@@ -102,26 +102,26 @@ ZipWriter::~ZipWriter() {
 }
 
 void ZipWriter::begin_entry(const std::string& name) {
-    const Quiet quiet;
+    const SilencedGdal quiet;
     if (CPLCreateFileInZip(zip_, name.c_str(), nullptr) != CE_None) {
-        error_in(file_, "cannot be written");
+        throw_error_in(file_, "cannot be written");
     }
 }
 
 void ZipWriter::write(std::string_view bytes) {
-    const Quiet quiet;
+    const SilencedGdal quiet;
     for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), piece_bytes))) {
         const auto size = static_cast<int>(std::min(bytes.size(), piece_bytes));
         if (CPLWriteFileInZip(zip_, bytes.data(), size) != CE_None) {
-            error_in(file_, "cannot be written: is the disk full?");
+            throw_error_in(file_, "cannot be written: is the disk full?");
         }
     }
 }
 
 void ZipWriter::end_entry() {
-    const Quiet quiet;
+    const SilencedGdal quiet;
     if (CPLCloseFileInZip(zip_) != CE_None) {
-        error_in(file_, "cannot be written: is the disk full?");
+        throw_error_in(file_, "cannot be written: is the disk full?");
     }
 }
 
@@ -134,7 +134,7 @@ void ZipWriter::add(const std::string& name, std::string_view bytes) {
 void ZipWriter::add_file(const std::string& name, const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) {
-        error_in(file, "expected a file that can be read, got none");
+        throw_error_in(file, "expected a file that can be read, got none");
     }
     begin_entry(name);
     std::string piece(piece_bytes, '\0');
@@ -146,20 +146,20 @@ void ZipWriter::add_file(const std::string& name, const fs::path& file) {
 }
 
 void ZipWriter::finish() {
-    const Quiet quiet;
+    const SilencedGdal quiet;
     if (CPLCloseZip(std::exchange(zip_, nullptr)) != CE_None) {
-        error_in(file_, "cannot be written: is the disk full?");
+        throw_error_in(file_, "cannot be written: is the disk full?");
     }
     std::error_code code;
     fs::rename(part_, file_, code);
     if (code) {
-        error_in(file_, fmt::format("cannot be written: {}", code.message()));
+        throw_error_in(file_, fmt::format("cannot be written: {}", code.message()));
     }
 }
 
 std::vector<ZipEntry> zip_entries(const fs::path& zip) {
-    const Quiet quiet;
-    const std::unique_ptr<char*, FreeList> names(VSIReadDirRecursive(inside(zip).c_str()));
+    const SilencedGdal quiet;
+    const std::unique_ptr<char*, FreeList> names(VSIReadDirRecursive(vsizip_path(zip).c_str()));
     if (!names) {
         is_no_zip(zip);
     }
@@ -169,7 +169,7 @@ std::vector<ZipEntry> zip_entries(const fs::path& zip) {
             continue;
         }
         VSIStatBufL status{};
-        if (VSIStatL(inside(zip, *name).c_str(), &status) != 0) {
+        if (VSIStatL(vsizip_path(zip, *name).c_str(), &status) != 0) {
             is_no_zip(zip);
         }
         entries.push_back({*name, static_cast<std::uint64_t>(status.st_size)});
@@ -183,8 +183,8 @@ namespace {
 /// Gives a file of a zip file to take() in pieces. Throws Error.
 template <class Take>
 void read_entry(const fs::path& zip, const std::string& name, Take&& take) {
-    const Quiet quiet;
-    const std::unique_ptr<VSILFILE, CloseFile> in(VSIFOpenL(inside(zip, name).c_str(), "rb"));
+    const SilencedGdal quiet;
+    const std::unique_ptr<VSILFILE, CloseFile> in(VSIFOpenL(vsizip_path(zip, name).c_str(), "rb"));
     if (!in) {
         is_no_zip(zip);
     }
@@ -199,17 +199,17 @@ void read_entry(const fs::path& zip, const std::string& name, Take&& take) {
         }
     }
     VSIStatBufL status{};
-    const bool whole = VSIStatL(inside(zip, name).c_str(), &status) == 0 &&
+    const bool whole = VSIStatL(vsizip_path(zip, name).c_str(), &status) == 0 &&
                        static_cast<std::uint64_t>(status.st_size) == taken;
     if (!whole || CPLGetLastErrorType() >= CE_Failure) {
-        error_in(zip, fmt::format("expected '{}' whole, got damaged bytes", printable(name)));
+        throw_error_in(zip, fmt::format("expected '{}' whole, got damaged bytes", printable(name)));
     }
 }
 
 } // namespace
 
 void extract(const fs::path& zip, const std::string& name, const fs::path& out) {
-    GrowingFile file(out);
+    AppendedFile file(out);
     read_entry(zip, name, [&file](std::string_view piece) {
         file.append(piece);
         file.flush();
@@ -221,7 +221,7 @@ std::string zip_text(const fs::path& zip, const std::string& name, std::size_t l
     read_entry(zip, name, [&](std::string_view piece) {
         text += piece;
         if (text.size() > largest_bytes) {
-            error_in(
+            throw_error_in(
                 zip,
                 fmt::format("expected at most {} bytes in '{}'", largest_bytes, printable(name)));
         }

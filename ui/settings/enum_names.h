@@ -10,18 +10,18 @@ namespace octant::ui::settings {
 
 /// One value of an enumeration with the name that people write for it.
 template <class Enum>
-struct Named {
+struct EnumName {
     Enum value;
     std::string_view name;
 };
 
 template <class Enum>
-Named(Enum, std::string_view) -> Named<Enum>;
+EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
 /// The names of an enumeration's values: an array of Named, specialised for each enumeration. The
 /// order of its rows does not matter. A value without a name, or with two, does not compile.
 template <class Enum>
-inline constexpr std::array<Named<Enum>, 0> enum_names{};
+inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 
 /// Whether the enumeration declares an enumerator of this value. C++20 cannot ask that, but GCC and
 /// Clang say it where they print a template's argument: as "Enum::Name", else as "(Enum)7".
@@ -38,7 +38,7 @@ template <class Enum>
 consteval bool names_each_value_once() {
     constexpr std::size_t count = enum_names<Enum>.size();
     std::array<int, count + 1> rows{};
-    for (const Named<Enum>& row : enum_names<Enum>) {
+    for (const EnumName<Enum>& row : enum_names<Enum>) {
         const auto value = static_cast<std::size_t>(row.value);
         if (value >= count || rows[value] > 0) {
             return false;
@@ -53,7 +53,7 @@ template <class Enum>
 inline constexpr auto names_by_value = [] {
     static_assert(names_each_value_once<Enum>(), "enum_names must name each enumerator once");
     std::array<std::string_view, enum_names<Enum>.size()> names;
-    for (const Named<Enum>& row : enum_names<Enum>) {
+    for (const EnumName<Enum>& row : enum_names<Enum>) {
         names[static_cast<std::size_t>(row.value)] = row.name;
     }
     return names;

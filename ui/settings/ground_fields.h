@@ -46,7 +46,7 @@ inline constexpr std::tuple ground_rows{
     setting<&RunSettings::ground, &visuals::scene::GroundSettings::geomorphs>(
         {"geomorphs", "", "screen-error: vertices move into place instead of jumping"},
         {.group = SettingGroup::Ground, .change = SettingsChange::Picture}),
-    setting<&RunSettings::ground, &visuals::scene::GroundSettings::mesh_ahead>(
+    setting<&RunSettings::ground, &visuals::scene::GroundSettings::mesh_async>(
         {"mesh-ahead",
          "",
          "screen-error: mesh the ground of the next frame while this one is drawn"},

@@ -12,7 +12,7 @@ inline constexpr std::string_view no_order_cache = "none";
 inline constexpr std::array built_in_order_caches{user_order_cache, no_order_cache};
 
 /// Whether a value of --order-cache is a folder.
-constexpr bool names_order_folder(std::string_view value) {
+constexpr bool is_order_cache_folder(std::string_view value) {
     return std::ranges::find(built_in_order_caches, value) == built_in_order_caches.end();
 }
 

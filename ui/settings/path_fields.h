@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/base/data_files.h"
-#include "ui/settings/listing.h"
+#include "ui/settings/joined_text.h"
 #include "ui/settings/setting_row.h"
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::name>(
         {"path",
          "NAME|FILE",
-         listing<
+         joined_text<
              "path: ",
              base::built_in_paths,
              ", a .toml, a recorded or logged .csv, .igc or .gpx, or a Tacview tape (.acmi)">},
@@ -41,7 +41,7 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::aircraft>(
         {"aircraft",
          "NAME|FILE[=PATH[@Ns]]",
-         listing<
+         joined_text<
              "aircraft: ",
              base::built_in_models,
              ", an OBJ file of up to 50,000 polygons (2,000 where nearly all are triangles) "
@@ -60,7 +60,7 @@ inline constexpr std::tuple path_rows{
     setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain",
          "NAME|FILE",
-         listing<
+         joined_text<
              "ground: ",
              built_in_terrains,
              ", an imported ground, or any map that GDAL reads: a file, a folder or pattern of "

@@ -16,13 +16,13 @@ enum class SettingGroup { Path, View, Time, Surface, Shading, Ground, Air };
 /// The headlines of the groups.
 template <>
 inline constexpr std::array enum_names<SettingGroup>{
-    Named{SettingGroup::Path, "Path, aircraft and ground"},
-    Named{SettingGroup::View, "View and picture"},
-    Named{SettingGroup::Time, "Frames"},
-    Named{SettingGroup::Surface, "Hidden surfaces, aircraft detail"},
-    Named{SettingGroup::Shading, "Shading of aircraft"},
-    Named{SettingGroup::Ground, "Terrain mesh"},
-    Named{SettingGroup::Air, "Sky, haze, sun and colours"}};
+    EnumName{SettingGroup::Path, "Path, aircraft and ground"},
+    EnumName{SettingGroup::View, "View and picture"},
+    EnumName{SettingGroup::Time, "Frames"},
+    EnumName{SettingGroup::Surface, "Hidden surfaces, aircraft detail"},
+    EnumName{SettingGroup::Shading, "Shading of aircraft"},
+    EnumName{SettingGroup::Ground, "Terrain mesh"},
+    EnumName{SettingGroup::Air, "Sky, haze, sun and colours"}};
 
 /// What must be made anew when settings change during a flight. Each value includes those before
 /// it.
@@ -43,7 +43,7 @@ enum class SettingsChange {
 };
 
 /// What the program does with a setting, beside what people write for it.
-struct SettingFacts {
+struct SettingBehaviour {
     SettingGroup group;
     /// What a change of this setting makes anew.
     SettingsChange change;
@@ -56,7 +56,7 @@ struct SettingFacts {
 };
 
 /// Everything about a setting but where its value stands.
-struct SettingInfo : FieldInfo, SettingFacts {};
+struct SettingInfo : FieldInfo, SettingBehaviour {};
 
 /// The row of one setting. `members` lead from RunSettings to the value: a pointer to the part,
 /// then one to its member.
@@ -71,7 +71,7 @@ struct Setting : SettingInfo {
 
 /// Makes the row of the setting to which `members` lead.
 template <auto... members>
-constexpr Setting<members...> setting(const FieldInfo& info, const SettingFacts& facts) {
+constexpr Setting<members...> setting(const FieldInfo& info, const SettingBehaviour& facts) {
     return {{info, facts}};
 }
 

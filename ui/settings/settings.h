@@ -34,7 +34,7 @@ struct PathSettings {
     /// The coordinate system of terrain files that name none; metres if not set.
     std::optional<std::string> terrain_system;
     /// Stored numbers of terrain files that mean "no data".
-    models::heights::VoidMarks terrain_voids;
+    models::heights::VoidValues terrain_voids;
     /// The band of terrain files that holds heights, by number or name; chosen if not set.
     std::optional<std::string> terrain_band;
     /// Where the path's origin lies, as "X,Y" in metres or "LAT,LON" in degrees; without it the
@@ -93,7 +93,7 @@ struct RunSettings : visuals::scene::Settings {
 
 /// Settings of what is measured: the ground as it is given, without the detail and the scenery that
 /// are made up near the eye.
-inline RunSettings of_given_ground() {
+inline RunSettings measurement_settings() {
     RunSettings settings;
     settings.ground.near_detail = false;
     settings.ground.scenery = false;

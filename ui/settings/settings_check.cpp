@@ -4,7 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/sun_position.h"
-#include "ui/settings/part_text.h"
+#include "ui/settings/frame_part.h"
 #include "ui/settings/settings_fields.h"
 #include "ui/settings/terrain_name.h"
 
@@ -78,7 +78,7 @@ void check_terrain_adaptation(const scene::GroundSettings& ground, const std::st
     if (ground.detail != scene::DetailControl::Exact) {
         throw Error("--adapt terrain: expected --detail exact beside it, got another control");
     }
-    if (is_drawn_whole(terrain)) {
+    if (has_no_detail_levels(terrain)) {
         throw Error(
             fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
     }
@@ -107,7 +107,7 @@ void check_ground(const scene::GroundSettings& ground, const std::string& terrai
 void check_ground_texture(const scene::AirSettings& air, const std::string& terrain) {
     const bool draped = air.drape.has_value();
     const bool textured = draped || air.ground_shading == scene::GroundShading::Texture;
-    if (textured && is_drawn_whole(terrain)) {
+    if (textured && has_no_detail_levels(terrain)) {
         throw Error(fmt::format(
             "{}: expected ground with heights (hills, canyon or a file), got --terrain {}",
             draped ? "--drape" : "--ground-shading texture",
@@ -119,7 +119,7 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
 }
 
 /// What is seen through is painted in order and has no depth.
-void check_veils(const RunSettings& settings) {
+void check_transparency(const RunSettings& settings) {
     const auto refuse_depth = [&](const char* option, bool is_on) {
         if (is_on && settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
             throw Error(fmt::format(
@@ -170,7 +170,7 @@ void check_settings(const RunSettings& settings) {
     check_ground_texture(settings.air, settings.path.terrain);
     check_eye_point(settings.view);
     check_time(settings.air);
-    check_veils(settings);
+    check_transparency(settings);
     if (settings.drawing.renderer == RendererKind::Gl && settings.view.samples == 16) {
         throw Error("--samples: expected 1 or 4 beside --renderer gl, got 16");
     }

@@ -2,11 +2,11 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/json_name.h"
+#include "ui/base/json_file_name.h"
 #include "ui/report/json_text.h"
 #include "ui/report/packed_recording.h"
 #include "ui/settings/settings_fields.h"
-#include "ui/settings/settings_words.h"
+#include "ui/settings/settings_by_name.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,13 +38,13 @@ ordered_json json_of(double value) {
 }
 
 ordered_json json_of(const std::string& value) {
-    return base::json_of_name(value);
+    return base::json_from_file_name(value);
 }
 
 ordered_json json_of(const std::vector<std::string>& value) {
     ordered_json names = ordered_json::array();
     for (const std::string& name : value) {
-        names.push_back(base::json_of_name(name));
+        names.push_back(base::json_from_file_name(name));
     }
     return names;
 }
@@ -56,7 +56,7 @@ ordered_json json_of(const std::optional<Value>& value) {
 
 /// Returns the text of a JSON scalar as a person would have typed it.
 std::string scalar_text(const ordered_json& json) {
-    return json.is_string() ? base::name_from_json(json.get<std::string>()) : json.dump();
+    return json.is_string() ? base::file_name_from_json(json.get<std::string>()) : json.dump();
 }
 
 template <class Value>
@@ -75,7 +75,7 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::optional<V
 
 /// Older files have a number or null.
 void read_field(
-    const FieldInfo& info, const ordered_json& json, models::heights::VoidMarks& voids) {
+    const FieldInfo& info, const ordered_json& json, models::heights::VoidValues& voids) {
     if (json.is_null()) {
         voids = {};
     } else {
@@ -94,7 +94,7 @@ void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std
     }
     value.clear();
     for (const ordered_json& name : json) {
-        value.push_back(base::name_from_json(name.get<std::string>()));
+        value.push_back(base::file_name_from_json(name.get<std::string>()));
     }
 }
 
@@ -123,7 +123,7 @@ RunSettings read_settings(const std::filesystem::path& given) {
         json = ordered_json(json["settings"]);
     }
     if (!json.is_object()) {
-        error_at(
+        throw_error_at(
             path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
     }
     RunSettings settings;
@@ -137,19 +137,19 @@ RunSettings read_settings(const std::filesystem::path& given) {
         try {
             read_field(info, *found, value);
         } catch (const Error& fault) {
-            error_at(path, line_of_key(text, info.name), fault.what());
+            throw_error_at(path, line_of_key(text, info.name), fault.what());
         }
     });
     for (const auto& [key, value] : json.items()) {
         if (!known.contains(key)) {
-            error_at(
+            throw_error_at(
                 path,
                 line_of_key(text, key),
                 fmt::format("expected the name of a setting, got '{}'", printable(key)));
         }
     }
     if (recorded) {
-        find_files_from(path.parent_path(), settings);
+        resolve_paths_from(path.parent_path(), settings);
     }
     return settings;
 }

@@ -18,7 +18,7 @@ using visuals::scene::Adaptation;
 
 namespace {
 
-/// Words for VoidMarks: "none" counts only the numbers that follow it, "common" is the default.
+/// Words for VoidValues: "none" counts only the numbers that follow it, "common" is the default.
 constexpr std::string_view no_voids = "none";
 constexpr std::string_view common_voids = "common";
 
@@ -28,12 +28,12 @@ constexpr std::string_view common_voids = "common";
 }
 
 std::string range_of(const FieldInfo& info, std::string_view kind) {
-    return fmt::format("{} from {} to {}", kind, info.least, info.most);
+    return fmt::format("{} from {} to {}", kind, info.min_value, info.max_value);
 }
 
-std::string names_of_adaptations() {
+std::string adaptation_names() {
     std::vector<std::string_view> names;
-    for (const NamedAdaptation& each : adaptations) {
+    for (const AdaptationName& each : adaptations) {
         names.push_back(each.name);
     }
     return fmt::format("{}", fmt::join(names, ", "));
@@ -96,7 +96,7 @@ std::string text_of(const Adaptation& adapt) {
     return text;
 }
 
-std::string text_of(const models::heights::VoidMarks& voids) {
+std::string text_of(const models::heights::VoidValues& voids) {
     std::vector<std::string> words;
     if (voids.only) {
         words.emplace_back(no_voids);
@@ -116,7 +116,7 @@ void read_setting(const FieldInfo& info, std::string_view text, std::string& val
 
 void read_setting(const FieldInfo& info, std::string_view text, double& value) {
     const auto number = finite_number(text);
-    if (!number || *number < info.least || *number > info.most) {
+    if (!number || *number < info.min_value || *number > info.max_value) {
         refuse(info, range_of(info, "a number"), text);
     }
     value = *number;
@@ -124,8 +124,8 @@ void read_setting(const FieldInfo& info, std::string_view text, double& value) {
 
 void read_setting(const FieldInfo& info, std::string_view text, int& value) {
     const auto number = whole_number(text);
-    if (!number || static_cast<double>(*number) < info.least ||
-        static_cast<double>(*number) > info.most) {
+    if (!number || static_cast<double>(*number) < info.min_value ||
+        static_cast<double>(*number) > info.max_value) {
         refuse(info, range_of(info, "a whole number"), text);
     }
     check_listed(info, static_cast<int>(*number));
@@ -143,8 +143,8 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
     std::array<double, 2> numbers{};
     const bool read = read_numbers(text, 'x', numbers);
     for (const double number : numbers) {
-        if (!read || number != std::floor(number) || number < info.least || number > info.most) {
-            refuse(info, fmt::format("WIDTHxHEIGHT, each {} to {}", info.least, info.most), text);
+        if (!read || number != std::floor(number) || number < info.min_value || number > info.max_value) {
+            refuse(info, fmt::format("WIDTHxHEIGHT, each {} to {}", info.min_value, info.max_value), text);
         }
     }
     value = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
@@ -156,8 +156,8 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& valu
         refuse(info, "X,Y,Z", text);
     }
     for (const double number : numbers) {
-        if (number < info.least || number > info.most) {
-            refuse(info, fmt::format("X,Y,Z, each {} to {}", info.least, info.most), text);
+        if (number < info.min_value || number > info.max_value) {
+            refuse(info, fmt::format("X,Y,Z, each {} to {}", info.min_value, info.max_value), text);
         }
     }
     value = {numbers[0], numbers[1], numbers[2]};
@@ -179,9 +179,9 @@ void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adap
     Adaptation read;
     if (!text.empty() && text != "none") {
         for (const std::string_view word : split_fields(text, ',')) {
-            const auto found = std::ranges::find(adaptations, word, &NamedAdaptation::name);
+            const auto found = std::ranges::find(adaptations, word, &AdaptationName::name);
             if (found == adaptations.end()) {
-                refuse(info, fmt::format("none or a list of {}", names_of_adaptations()), text);
+                refuse(info, fmt::format("none or a list of {}", adaptation_names()), text);
             }
             read.*found->member = true;
         }
@@ -189,8 +189,8 @@ void read_setting(const FieldInfo& info, std::string_view text, Adaptation& adap
     adapt = read;
 }
 
-void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids) {
-    models::heights::VoidMarks read;
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidValues& voids) {
+    models::heights::VoidValues read;
     for (const std::string_view word : split_fields(text, ',')) {
         const auto number = finite_number(word);
         if (number) {
@@ -205,8 +205,8 @@ void read_setting(const FieldInfo& info, std::string_view text, models::heights:
 }
 
 void check_listed(const FieldInfo& info, int value) {
-    if (!info.one_of.empty() && std::ranges::find(info.one_of, value) == info.one_of.end()) {
-        const auto all = info.one_of;
+    if (!info.allowed_values.empty() && std::ranges::find(info.allowed_values, value) == info.allowed_values.end()) {
+        const auto all = info.allowed_values;
         throw Error(fmt::format(
             "{}: expected {} or {}, got {}",
             info.name,

@@ -27,10 +27,10 @@ struct FieldInfo {
     /// end say what holds while the setting is not set.
     std::string_view meaning;
     /// The least and the greatest number that are taken.
-    double least = 0.0;
-    double most = 0.0;
+    double min_value = 0.0;
+    double max_value = 0.0;
     /// The only numbers that a whole-number setting takes; empty: all between the limits.
-    std::span<const int> one_of{};
+    std::span<const int> allowed_values{};
 };
 
 /// Returns a setting as text that read_setting takes. Reading it back gives exactly the value, for
@@ -42,7 +42,7 @@ std::string text_of(const glm::ivec2& value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const glm::vec3& colour);
 std::string text_of(const visuals::scene::Adaptation& adapt);
-std::string text_of(const models::heights::VoidMarks& voids);
+std::string text_of(const models::heights::VoidValues& voids);
 
 /// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value
 /// as it was.
@@ -54,9 +54,9 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::ivec2& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& value);
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
 void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
-void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidMarks& voids);
+void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidValues& voids);
 
-/// Throws Error "NAME: expected ..., got ..." for a number that `info.one_of` does not list.
+/// Throws Error "NAME: expected ..., got ..." for a number that `info.allowed_values` does not list.
 void check_listed(const FieldInfo& info, int value);
 
 /// Returns the index of `text` among `names`. Throws Error "NAME: expected one of ..., got ...".

@@ -11,6 +11,6 @@ bool is_built_in_ground(const std::string& name);
 bool is_imported_ground(const std::string& name_or_file);
 
 /// Whether this built-in ground consists of polygons or of nothing: it has no levels of detail.
-bool is_drawn_whole(const std::string& terrain);
+bool has_no_detail_levels(const std::string& terrain);
 
 } // namespace octant::ui::settings

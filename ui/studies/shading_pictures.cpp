@@ -23,11 +23,11 @@ ShadingPictures::ShadingPictures(
     const auto pixels = static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px);
     seen_.resize(pixels);
     nearness_.assign(pixels, 0.0);
-    for (const shading::LitPoint& point : polygons.points) {
+    for (const shading::ShadingPoint& point : polygons.points) {
         smooth_light_.push_back(
             shading::intensity(point.place_m, point.normal, point.colour_sum, light, eye_m_));
     }
-    const std::vector<OnScreen> screen = project();
+    const std::vector<ProjectedPoint> screen = project();
     for (std::uint32_t i = 0; i < polygons.size(); ++i) {
         const shading::ShadedPolygon& shape = polygons.polygons[i];
         flat_light_.push_back(
@@ -37,15 +37,15 @@ ShadingPictures::ShadingPictures(
         }
         const std::uint32_t* const points = &polygons.corner_points[shape.first_corner];
         for (std::uint32_t k = 1; k + 1 < shape.corner_count; ++k) {
-            see(i, {points[0], points[k], points[k + 1]}, screen);
+            draw_triangle(i, {points[0], points[k], points[k + 1]}, screen);
         }
     }
-    for (const Seen& seen : seen_) {
+    for (const VisiblePoint& seen : seen_) {
         covered_.push_back(seen.polygon == none ? 0 : 1);
     }
 }
 
-std::vector<ShadingPictures::OnScreen> ShadingPictures::project() const {
+std::vector<ShadingPictures::ProjectedPoint> ShadingPictures::project() const {
     const glm::dvec3 middle_m(polygons_->centre_m);
     const glm::dvec3 eye_m(eye_m_);
     const double distance_m = glm::distance(eye_m, middle_m);
@@ -54,9 +54,9 @@ std::vector<ShadingPictures::OnScreen> ShadingPictures::project() const {
     const glm::dvec3 down(0.0, 0.0, 1.0); // body axes
     const glm::dvec3 right = glm::normalize(glm::cross(down, ahead));
     const glm::dvec3 below = glm::cross(ahead, right);
-    std::vector<OnScreen> screen;
+    std::vector<ProjectedPoint> screen;
     double widest = 0.0;
-    for (const shading::LitPoint& point : polygons_->points) {
+    for (const shading::ShadingPoint& point : polygons_->points) {
         const glm::dvec3 from_eye_m = glm::dvec3(point.place_m) - eye_m;
         const double depth_m = glm::dot(from_eye_m, ahead);
         screen.push_back(
@@ -67,21 +67,21 @@ std::vector<ShadingPictures::OnScreen> ShadingPictures::project() const {
     }
     const double half_px = 0.5 * size_px_;
     const double scale_px = 0.97 * half_px / widest;
-    for (OnScreen& point : screen) {
+    for (ProjectedPoint& point : screen) {
         point.x_px = half_px + scale_px * point.x_px;
         point.y_px = half_px + scale_px * point.y_px;
     }
     return screen;
 }
 
-void ShadingPictures::see(
+void ShadingPictures::draw_triangle(
     std::uint32_t polygon,
     const std::array<std::uint32_t, 3>& points,
-    std::span<const OnScreen> screen) {
-    const OnScreen& a = screen[points[0]];
-    const OnScreen& b = screen[points[1]];
-    const OnScreen& c = screen[points[2]];
-    const auto doubled = [](const OnScreen& one, const OnScreen& two, double x_px, double y_px) {
+    std::span<const ProjectedPoint> screen) {
+    const ProjectedPoint& a = screen[points[0]];
+    const ProjectedPoint& b = screen[points[1]];
+    const ProjectedPoint& c = screen[points[2]];
+    const auto doubled = [](const ProjectedPoint& one, const ProjectedPoint& two, double x_px, double y_px) {
         return (two.x_px - one.x_px) * (y_px - one.y_px) -
                (two.y_px - one.y_px) * (x_px - one.x_px);
     };
@@ -122,7 +122,7 @@ LightPicture ShadingPictures::hybrid(std::span<const std::uint8_t> smooth) const
     assert(smooth.size() == polygons_->size());
     LightPicture picture{size_px_, std::vector<float>(seen_.size())};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
-        const Seen& seen = seen_[i];
+        const VisiblePoint& seen = seen_[i];
         if (seen.polygon == none) {
             continue;
         }
@@ -139,7 +139,7 @@ LightPicture ShadingPictures::hybrid(std::span<const std::uint8_t> smooth) const
 LightPicture ShadingPictures::per_pixel() const {
     LightPicture picture{size_px_, std::vector<float>(seen_.size())};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
-        const Seen& seen = seen_[i];
+        const VisiblePoint& seen = seen_[i];
         if (seen.polygon == none) {
             continue;
         }
@@ -147,7 +147,7 @@ LightPicture ShadingPictures::per_pixel() const {
         glm::vec3 normal(0.0F);
         float colour_sum = 0.0F;
         for (std::size_t k = 0; k < 3; ++k) {
-            const shading::LitPoint& point = polygons_->points[seen.points[k]];
+            const shading::ShadingPoint& point = polygons_->points[seen.points[k]];
             place_m += seen.weights[k] * point.place_m;
             normal += seen.weights[k] * point.normal;
             colour_sum += seen.weights[k] * point.colour_sum;

@@ -45,29 +45,29 @@ public:
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    struct Seen {
+    struct VisiblePoint {
         std::uint32_t polygon = none;
         std::array<std::uint32_t, 3> points{}; ///< corners of the fan's triangle
         std::array<float, 3> weights{};        ///< of the corners there, on the surface
     };
 
-    struct OnScreen {
+    struct ProjectedPoint {
         double x_px = 0.0;
         double y_px = 0.0;
         double nearness = 0.0; ///< 1 / depth
     };
 
-    std::vector<OnScreen> project() const;
+    std::vector<ProjectedPoint> project() const;
     void
-    see(std::uint32_t polygon,
+    draw_triangle(std::uint32_t polygon,
         const std::array<std::uint32_t, 3>& points,
-        std::span<const OnScreen> screen);
+        std::span<const ProjectedPoint> screen);
 
     const visuals::shading::ShadedPolygons* polygons_;
     visuals::shading::ShadingLight light_;
     glm::vec3 eye_m_;
     int size_px_;
-    std::vector<Seen> seen_;
+    std::vector<VisiblePoint> seen_;
     std::vector<double> nearness_;
     std::vector<std::uint8_t> covered_;
     std::vector<float> smooth_light_; ///< one a point

@@ -19,7 +19,7 @@ struct EngineOptions {
     int minutes = 60;         ///< that a task of a job array may take
     std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
     std::filesystem::path hosts;             ///< GNU parallel's file of machines
-    std::string manner; ///< how the runs share machines, for reports; engines fill it in
+    std::string machine_sharing; ///< how the runs share machines, for reports; engines fill it in
     bool quiet = false;
 };
 
@@ -38,7 +38,7 @@ public:
     virtual void fly(std::span<const std::size_t> runs) = 0;
 
     /// How the runs shared machines, for the report: "one at a time".
-    virtual std::string manner() const = 0;
+    virtual std::string machine_sharing() const = 0;
 };
 
 /// Child processes on this machine, one at a time unless cores may be shared.
@@ -56,6 +56,6 @@ std::unique_ptr<Engine>
 parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// Text as one word of a shell.
-std::string shell_word(const std::string& text);
+std::string shell_quoted(const std::string& text);
 
 } // namespace octant::ui::sweep

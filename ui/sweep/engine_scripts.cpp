@@ -16,15 +16,15 @@ std::string fly_command(const EngineOptions& options, const std::string& variabl
         "{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet --swept "
         "{2}{3} "
         ">\"logs/{1}.log\" 2>&1",
-        shell_word(options.program),
+        shell_quoted(options.program),
         variable,
-        shell_word(options.manner),
+        shell_quoted(options.machine_sharing),
         options.videos ? fmt::format(" --video \"videos/{}.mp4\"", variable) : std::string());
 }
 
 } // namespace
 
-std::string shell_word(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
     std::string word = "'";
     for (const char letter : text) {
         word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
@@ -89,7 +89,7 @@ parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptio
     text += fmt::format(
         "# Flies the runs of the sweep {} that todo.txt names on the machines of a file.\n",
         sweep.name);
-    text += fmt::format("cd {} || exit 2\n", shell_word(folder.path().string()));
+    text += fmt::format("cd {} || exit 2\n", shell_quoted(folder.path().string()));
     text += "exec parallel --will-cite --retries 3 --joblog logs/parallel.log --workdir \"$PWD\""
             " --termseq TERM,120000,KILL,25";
     text += fmt::format(" --timeout {}", 60 * options.minutes);
@@ -99,11 +99,11 @@ parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptio
         text += options.share_cores ? " --jobs 100%" : " --jobs 1";
     }
     if (!options.hosts.empty()) {
-        text += " --sshloginfile " + shell_word(options.hosts.string());
+        text += " --sshloginfile " + shell_quoted(options.hosts.string());
     }
     // In place of its shell: one that dies of the signal at once would make GNU parallel kill the
     // flight at once, too.
-    text += " --arg-file todo.txt " + shell_word("exec " + fly_command(options, "{}")) + "\n";
+    text += " --arg-file todo.txt " + shell_quoted("exec " + fly_command(options, "{}")) + "\n";
     return text;
 }
 

@@ -1,5 +1,5 @@
 #include "sim/base/error.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/sweep/engine.h"
@@ -21,7 +21,7 @@ namespace octant::ui::sweep {
 namespace {
 
 /// Starts a program whose words go into a log. Throws Error.
-pid_t started(const std::vector<std::string>& words, const std::filesystem::path& log) {
+pid_t start_child(const std::vector<std::string>& words, const std::filesystem::path& log) {
     std::vector<char*> arguments;
     for (const std::string& word : words) {
         arguments.push_back(const_cast<char*>(word.c_str())); // spawn does not write to them
@@ -64,7 +64,7 @@ public:
                 "depend on each other, got {} without it",
                 options_.jobs));
         }
-        options_.manner =
+        options_.machine_sharing =
             options_.jobs == 1
                 ? "one at a time"
                 : fmt::format(
@@ -73,10 +73,10 @@ public:
 
     void fly(std::span<const std::size_t> runs) override;
 
-    std::string manner() const override { return options_.manner; }
+    std::string machine_sharing() const override { return options_.machine_sharing; }
 
 private:
-    void start(const Run& run);
+    void start(const SweepRun& run);
     void wait_for_one();
     void stop_all() const;
 
@@ -87,7 +87,7 @@ private:
     std::string last_;
 };
 
-void LocalEngine::start(const Run& run) {
+void LocalEngine::start(const SweepRun& run) {
     std::vector<std::string> words = {
         options_.program,
         "fly",
@@ -98,11 +98,11 @@ void LocalEngine::start(const Run& run) {
         "--if-new",
         "--quiet",
         "--swept",
-        options_.manner};
+        options_.machine_sharing};
     if (options_.videos) {
         words.insert(words.end(), {"--video", folder_.video(run.name).string()});
     }
-    const pid_t process = started(words, folder_.log(run.name));
+    const pid_t process = start_child(words, folder_.log(run.name));
     flying_.emplace(process, run.name);
 }
 
@@ -115,7 +115,7 @@ void LocalEngine::stop_all() const {
 /// Signals wake the wait, and are handed on.
 void LocalEngine::wait_for_one() {
     constexpr auto look_every = std::chrono::milliseconds(20);
-    bool told = false;
+    bool is_reported = false;
     for (;;) {
         for (const auto& [process, name] : flying_) {
             if (::waitpid(process, nullptr, WNOHANG) == process) {
@@ -124,7 +124,7 @@ void LocalEngine::wait_for_one() {
                 return;
             }
         }
-        if (base::StopSignals::came() && !std::exchange(told, true)) {
+        if (base::StopSignals::received() && !std::exchange(is_reported, true)) {
             stop_all();
         }
         std::this_thread::sleep_for(look_every);
@@ -136,7 +136,7 @@ void LocalEngine::fly(std::span<const std::size_t> runs) {
     std::size_t begun = 0;
     int done = 0;
     while (begun < runs.size() || !flying_.empty()) {
-        const bool may_begin = begun < runs.size() && !base::StopSignals::came();
+        const bool may_begin = begun < runs.size() && !base::StopSignals::received();
         if (!may_begin && flying_.empty()) {
             break;
         }

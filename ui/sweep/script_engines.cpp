@@ -33,19 +33,19 @@ std::string run_engine(
         throw Error(fmt::format("expected the program {}, which is not installed", words.front()));
     }
     child->end_input();
-    bool told = false;
+    bool is_reported = false;
     while (child->is_running()) {
-        if (base::StopSignals::came() && !std::exchange(told, true)) {
-            base::say(
+        if (base::StopSignals::received() && !std::exchange(is_reported, true)) {
+            base::print_note(
                 quiet,
                 fmt::format("note: {}: ending {}", base::StopSignals::name(), words.front()));
             stop(*child);
         }
         std::this_thread::sleep_for(look_every);
     }
-    const report::ProgramEnding ending = child->finish();
-    if (!ending.succeeded && !told) {
-        base::say(quiet, fmt::format("note: {}: {}", words.front(), ending.last_complaint));
+    const report::ProgramResult ending = child->finish();
+    if (!ending.succeeded && !is_reported) {
+        base::print_note(quiet, fmt::format("note: {}: {}", words.front(), ending.last_error_line));
     }
     return ending.output;
 }
@@ -67,7 +67,7 @@ void wait_for_queue(const std::string& job) {
     constexpr auto look_every = std::chrono::seconds(2);
     while (!job.empty()) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
-        const report::ProgramEnding ending = child ? child->finish() : report::ProgramEnding();
+        const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
         if (!ending.succeeded || ending.output.empty()) {
             return;
         }
@@ -89,13 +89,13 @@ public:
         , options_(std::move(options))
         , tasks_(tasks_of(sweep, options_)) {
         check_installed("sbatch");
-        options_.manner = options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
+        options_.machine_sharing = options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
                                                : "by Slurm, each alone on its node";
         write_file(script(), sbatch_script(sweep, folder, options_, tasks_));
     }
 
     void fly(std::span<const std::size_t> runs) override {
-        base::say(
+        base::print_note(
             options_.quiet, fmt::format("{} flights by sbatch {}", runs.size(), script().string()));
         // Tasks that wait are taken out of the queue; those that run end their flights in order.
         const auto cancel = [](ChildProgram& sbatch) {
@@ -113,7 +113,7 @@ public:
             cancel)));
     }
 
-    std::string manner() const override { return options_.manner; }
+    std::string machine_sharing() const override { return options_.machine_sharing; }
 
 private:
     std::filesystem::path script() const { return folder_.path() / "sweep.sbatch"; }
@@ -135,7 +135,7 @@ public:
         , folder_(folder)
         , options_(std::move(options)) {
         check_installed("parallel");
-        options_.manner = options_.share_cores || options_.jobs > 1
+        options_.machine_sharing = options_.share_cores || options_.jobs > 1
                               ? "by GNU parallel, on shared cores: compare no frame times"
                               : "by GNU parallel, one at a time on each machine";
         write_file(script(), parallel_script(sweep, folder, options_));
@@ -147,7 +147,7 @@ public:
             names += sweep_.runs[run].name + "\n";
         }
         write_file(folder_.path() / "todo.txt", names);
-        base::say(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
+        base::print_note(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
         // The first signal: no more flights; the second: those that are flown end in order.
         run_engine({"bash", script().string()}, options_.quiet, [](ChildProgram& parallel) {
             constexpr auto between = std::chrono::milliseconds(500);
@@ -157,7 +157,7 @@ public:
         });
     }
 
-    std::string manner() const override { return options_.manner; }
+    std::string machine_sharing() const override { return options_.machine_sharing; }
 
 private:
     std::filesystem::path script() const { return folder_.path() / "sweep.parallel.sh"; }

@@ -9,9 +9,9 @@
 #include "ui/report/frame_csv.h"
 #include "ui/report/json_text.h"
 #include "ui/report/kernel_counters.h"
-#include "ui/report/overruns.h"
+#include "ui/report/slow_frames.h"
 #include "ui/report/png_file.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_check.h"
@@ -46,7 +46,7 @@ PartFile part_in(const fs::path& folder) {
     PartFile part{folder, report::parsed_json(file, read_text_file(file)), {}};
     part.host = report::read_run_file(file).machine_info.host;
     if (!part.run.contains("summary")) {
-        error_in(file, "expected a part that was flown to its end, got another");
+        throw_error_in(file, "expected a part that was flown to its end, got another");
     }
     return part;
 }
@@ -55,7 +55,7 @@ PartFile part_in(const fs::path& folder) {
 void check_same_flight(const PartFile& first, const PartFile& other) {
     for (const char* key : {"program", "inputs"}) {
         if (first.run.value(key, Json()) != other.run.value(key, Json())) {
-            error_in(
+            throw_error_in(
                 other.folder / "run.json",
                 fmt::format(
                     "expected the same {} on {} as on {}, got another",
@@ -74,7 +74,7 @@ void check_seam(
     const bool same = last && last->frame == first.frame && last->state_hash == first.state_hash &&
                       last->picture_hash == first.picture_hash;
     if (!same) {
-        error_in(
+        throw_error_in(
             now.folder / "frames.csv",
             fmt::format(
                 "expected frame {} on {} as on {}, got other {}",
@@ -86,9 +86,9 @@ void check_seam(
 }
 
 /// The pictures of a whole flight, in order, as a video.
-class VideoOfParts {
+class PartVideo {
 public:
-    explicit VideoOfParts(const std::optional<fs::path>& file)
+    explicit PartVideo(const std::optional<fs::path>& file)
         : file_(file) {}
 
     void add(const fs::path& picture_file, double frames_per_s) {
@@ -106,7 +106,7 @@ public:
 
     void finish() {
         if (const auto fault = pipe_ ? pipe_->finish() : std::nullopt) {
-            error_in(*file_, *fault);
+            throw_error_in(*file_, *fault);
         }
     }
 
@@ -136,21 +136,21 @@ void copy_into(const fs::path& from, const fs::path& to) {
     std::error_code code;
     fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
     if (code) {
-        error_in(to, fmt::format("cannot be written: {}", code.message()));
+        throw_error_in(to, fmt::format("cannot be written: {}", code.message()));
     }
 }
 
 /// The recording of a whole flight while it is put together.
-class Merger {
+class PartMerger {
 public:
-    Merger(const Run& whole, const fs::path& folder, const PartFile& first)
+    PartMerger(const SweepRun& whole, const fs::path& folder, const PartFile& first)
         : rate_hz_(first.run.value("rate_hz", 0.0))
         , picture_every_(whole.settings.time.pictures.value_or(
               std::max(1, static_cast<int>(std::lround(rate_hz_)))))
         , recording_(folder, info_of(first)) {}
 
     /// The part's rows, and its pictures that the whole flight keeps.
-    void add(const PartFile& part, VideoOfParts& video) {
+    void add(const PartFile& part, PartVideo& video) {
         report::FrameReader rows(part.folder / "frames.csv");
         report::CounterReader counters(part.folder / report::counters_name);
         const double begun_s = last_ ? last_->wall_s + 1e-3 * last_->frame_ms : 0.0;
@@ -183,7 +183,7 @@ private:
         return info;
     }
 
-    void add(const PartFile& part, const FrameRecord& row, VideoOfParts& video) {
+    void add(const PartFile& part, const FrameRecord& row, PartVideo& video) {
         recording_.add(row);
         picture_hash_.add_word(row.picture_hash.value_or(0));
         last_ = row;
@@ -199,9 +199,9 @@ private:
     /// Those of the whole flight's slowest frames: each is among the slowest of its part, even
     /// where the frame before the part is, too.
     void copy_slow_pictures() const {
-        std::vector<report::Overrun> slowest = slow_.slowest();
+        std::vector<report::SlowFrame> slowest = slow_.slowest();
         slowest.resize(std::min(slowest.size(), report::SlowPictures::max_shown));
-        for (const report::Overrun& frame : slowest) {
+        for (const report::SlowFrame& frame : slowest) {
             const std::string name = report::slow_picture_name(frame.record.frame);
             const auto part = std::ranges::find_if(
                 folders_, [&](const fs::path& folder) { return is_file(folder / name); });
@@ -213,21 +213,21 @@ private:
 
     double rate_hz_;
     int picture_every_;
-    report::Recording recording_;
+    report::RecordingWriter recording_;
     Hash picture_hash_;
     std::optional<FrameRecord> last_;
     const PartFile* before_ = nullptr;
     std::vector<fs::path> folders_; // of the parts so far
-    report::SlowFrames slow_;
+    report::SlowFrameList slow_;
 };
 
 /// run.json of the whole: what the first part's says, with the summary that stands in `file`.
-void write_run(const Run& whole, const fs::path& folder, const std::vector<PartFile>& parts) {
+void write_run(const SweepRun& whole, const fs::path& folder, const std::vector<PartFile>& parts) {
     const fs::path file = folder / "run.json";
     Json run = parts.front().run;
     const Json merged = report::parsed_json(file, read_text_file(file));
     run["settings"] = settings::settings_json(
-        world::as_recorded(world::with_absolute_files(whole.settings), folder));
+        world::settings_in_recording(world::with_absolute_paths(whole.settings), folder));
     run["summary"] = merged["summary"];
     std::string hosts;
     Json reasons = Json::array();
@@ -249,9 +249,9 @@ void write_run(const Run& whole, const fs::path& folder, const std::vector<PartF
 Sweep split_sweep(const Sweep& sweep, int count, bool for_videos) {
     Sweep parts;
     parts.name = sweep.name;
-    for (const Run& run : sweep.runs) {
+    for (const SweepRun& run : sweep.runs) {
         for (int number = 1; number <= count; ++number) {
-            Run part = run;
+            SweepRun part = run;
             part.name = fmt::format("{}.{}of{}", run.name, number, count);
             part.settings.time.part = fmt::format("{}/{}", number, count);
             if (for_videos) {
@@ -270,7 +270,7 @@ Sweep split_sweep(const Sweep& sweep, int count, bool for_videos) {
 }
 
 void merge_parts(
-    const Run& whole,
+    const SweepRun& whole,
     const fs::path& folder,
     const std::vector<fs::path>& part_folders,
     const std::optional<fs::path>& video_file) {
@@ -280,8 +280,8 @@ void merge_parts(
         check_same_flight(parts.front(), parts.back());
     }
     {
-        Merger merger(whole, folder, parts.front());
-        VideoOfParts video(video_file);
+        PartMerger merger(whole, folder, parts.front());
+        PartVideo video(video_file);
         for (const PartFile& part : parts) {
             merger.add(part, video);
         }

@@ -19,7 +19,7 @@ Sweep split_sweep(const Sweep& sweep, int count, bool for_videos);
 /// all pictures goes. Throws Error where a seam does not fit, naming both machines, and for parts
 /// of different programs or input files.
 void merge_parts(
-    const Run& whole,
+    const SweepRun& whole,
     const std::filesystem::path& folder,
     const std::vector<std::filesystem::path>& parts,
     const std::optional<std::filesystem::path>& video);

@@ -4,8 +4,8 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
-#include "ui/settings/flown_aircraft.h"
-#include "ui/settings/settings_words.h"
+#include "ui/settings/aircraft_entry.h"
+#include "ui/settings/settings_by_name.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 /// Settings that one value of something varied sets.
-struct Choice {
+struct AxisValue {
     std::string label;
     std::vector<std::pair<std::string, Words>> settings;
 };
@@ -31,13 +31,13 @@ struct Choice {
 struct Axis {
     std::string name;
     int line = 1;
-    std::vector<Choice> choices;
+    std::vector<AxisValue> choices;
 };
 
 /// A sweep's file while it is read.
-class Reader {
+class SweepReader {
 public:
-    explicit Reader(const fs::path& file)
+    explicit SweepReader(const fs::path& file)
         : file_(file)
         , root_(flightpaths::parse_toml(file, read_text_file(file))) {}
 
@@ -45,7 +45,7 @@ public:
 
 private:
     [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
-        error_at(file_, flightpaths::line_of(node), what);
+        throw_error_at(file_, flightpaths::line_of(node), what);
     }
 
     const toml::table* table_in(const toml::table& table, std::string_view key) const;
@@ -65,7 +65,7 @@ private:
     toml::table root_;
 };
 
-const toml::table* Reader::table_in(const toml::table& table, std::string_view key) const {
+const toml::table* SweepReader::table_in(const toml::table& table, std::string_view key) const {
     const toml::node* const node = table.get(key);
     if (node != nullptr && !node->is_table()) {
         refuse(*node, fmt::format("expected a table [{}], got something else", key));
@@ -74,7 +74,7 @@ const toml::table* Reader::table_in(const toml::table& table, std::string_view k
 }
 
 /// A value as a person would type it for the setting.
-std::string Reader::word_of(const toml::node& node) const {
+std::string SweepReader::word_of(const toml::node& node) const {
     if (const auto text = node.value_exact<std::string>()) {
         return *text;
     }
@@ -90,7 +90,7 @@ std::string Reader::word_of(const toml::node& node) const {
     refuse(node, "expected a text, a number or a truth value, got something else");
 }
 
-Words Reader::words_of(const toml::node& node) const {
+Words SweepReader::words_of(const toml::node& node) const {
     const toml::array* const list = node.as_array();
     if (list == nullptr) {
         return {word_of(node)};
@@ -103,7 +103,7 @@ Words Reader::words_of(const toml::node& node) const {
 }
 
 /// { from, to, step }: from, from + step, ... up to `to`.
-std::vector<Words> Reader::range_of(const toml::table& table) const {
+std::vector<Words> SweepReader::range_of(const toml::table& table) const {
     const auto number = [&](const char* key) {
         const auto value = table[key].value<double>();
         if (!value || !std::isfinite(*value)) {
@@ -155,7 +155,7 @@ std::string label_of(const Words& words) {
     return label.starts_with('.') ? "_" + label : label;
 }
 
-Axis Reader::named_groups(std::string_view name, const toml::table& table) const {
+Axis SweepReader::named_groups(std::string_view name, const toml::table& table) const {
     Axis axis{std::string(name), flightpaths::line_of(table), {}};
     for (const auto& [label, group] : table) {
         const toml::table* const settings = group.as_table();
@@ -167,7 +167,7 @@ Axis Reader::named_groups(std::string_view name, const toml::table& table) const
                     name,
                     std::string(label.str())));
         }
-        Choice choice{label_of({std::string(label.str())}), {}};
+        AxisValue choice{label_of({std::string(label.str())}), {}};
         for (const auto& [key, value] : *settings) {
             choice.settings.emplace_back(std::string(key.str()), words_of(value));
         }
@@ -176,7 +176,7 @@ Axis Reader::named_groups(std::string_view name, const toml::table& table) const
     return axis;
 }
 
-Axis Reader::axis_of(std::string_view name, const toml::node& node) const {
+Axis SweepReader::axis_of(std::string_view name, const toml::node& node) const {
     std::vector<Words> values;
     if (const toml::array* const list = node.as_array()) {
         for (const toml::node& each : *list) {
@@ -201,16 +201,16 @@ Axis Reader::axis_of(std::string_view name, const toml::node& node) const {
 /// Throws Error for an aircraft or a path that is neither built in nor a file, as seen from the
 /// sweep's folder.
 void check_names(const fs::path& sweep_file, settings::RunSettings settings) {
-    settings::find_files_from(fs::absolute(sweep_file).parent_path(), settings);
+    settings::resolve_paths_from(fs::absolute(sweep_file).parent_path(), settings);
     for (const std::string& name : settings.path.aircraft) {
-        const settings::FlownAircraft flown = settings::flown_aircraft(name);
+        const settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
         base::aircraft_file(flown.shape);
         base::path_file(flown.path.value_or(settings.path.name), flown.shape);
     }
 }
 
 /// In the order in which they stand in the file.
-std::vector<Axis> Reader::axes() const {
+std::vector<Axis> SweepReader::axes() const {
     std::vector<Axis> axes;
     if (const toml::table* const vary = table_in(root_, "vary")) {
         for (const auto& [key, node] : *vary) {
@@ -224,7 +224,7 @@ std::vector<Axis> Reader::axes() const {
     return axes;
 }
 
-void Reader::set(
+void SweepReader::set(
     settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
     try {
         settings::set_by_name(settings, name, words);
@@ -232,11 +232,11 @@ void Reader::set(
             check_names(file_, settings);
         }
     } catch (const Error& fault) {
-        error_at(file_, line, fault.what());
+        throw_error_at(file_, line, fault.what());
     }
 }
 
-settings::RunSettings Reader::shared_settings() const {
+settings::RunSettings SweepReader::shared_settings() const {
     settings::RunSettings settings;
     if (const toml::table* const shared = table_in(root_, "settings")) {
         for (const auto& [key, node] : *shared) {
@@ -246,7 +246,7 @@ settings::RunSettings Reader::shared_settings() const {
     return settings;
 }
 
-int Reader::repeats() const {
+int SweepReader::repeats() const {
     const toml::node* const node = root_.get("repeats");
     if (node == nullptr) {
         return 1;
@@ -258,7 +258,7 @@ int Reader::repeats() const {
     return static_cast<int>(*repeats);
 }
 
-std::string Reader::name() const {
+std::string SweepReader::name() const {
     const toml::node* const node = root_.get("name");
     if (node == nullptr) {
         return file_.stem().string();
@@ -270,7 +270,7 @@ std::string Reader::name() const {
     return *name;
 }
 
-Sweep Reader::sweep() const {
+Sweep SweepReader::sweep() const {
     constexpr std::array<std::string_view, 4> keys{"name", "repeats", "settings", "vary"};
     for (const auto& [key, node] : root_) {
         if (std::ranges::find(keys, key.str()) == keys.end()) {
@@ -288,18 +288,18 @@ Sweep Reader::sweep() const {
     for (const Axis& axis : varied) {
         count *= axis.choices.size();
         if (count > max_runs) {
-            error_at(
+            throw_error_at(
                 file_, axis.line, fmt::format("expected at most {} flights, got more", max_runs));
         }
     }
     std::set<std::string> names;
     for (std::size_t i = 0; i < count; ++i) {
-        Run run;
+        SweepRun run;
         run.settings = shared_settings();
         std::size_t left = i;
         run.repeat = 1 + static_cast<int>(left % static_cast<std::size_t>(repeats()));
         left /= static_cast<std::size_t>(repeats());
-        std::vector<const Choice*> chosen(varied.size());
+        std::vector<const AxisValue*> chosen(varied.size());
         for (std::size_t a = varied.size(); a-- > 0;) {
             chosen[a] = &varied[a].choices[left % varied[a].choices.size()];
             left /= varied[a].choices.size();
@@ -320,7 +320,7 @@ Sweep Reader::sweep() const {
         while (!names.insert(run.name).second) {
             run.name += "x"; // two files of one name from different folders
         }
-        settings::find_files_from(fs::absolute(file_).parent_path(), run.settings);
+        settings::resolve_paths_from(fs::absolute(file_).parent_path(), run.settings);
         sweep.runs.push_back(std::move(run));
     }
     return sweep;
@@ -329,7 +329,7 @@ Sweep Reader::sweep() const {
 } // namespace
 
 Sweep read_sweep(const fs::path& file) {
-    return Reader(file).sweep();
+    return SweepReader(file).sweep();
 }
 
 } // namespace octant::ui::sweep

@@ -10,7 +10,7 @@
 namespace octant::ui::sweep {
 
 /// One flight of a sweep.
-struct Run {
+struct SweepRun {
     std::string name; ///< "turn-f15-2000-r2"; letters, digits, dots and dashes, once in a sweep
     int repeat = 1;   ///< from 1; runs that differ in nothing else are to show the same
     settings::RunSettings settings;
@@ -20,7 +20,7 @@ struct Run {
 /// What a sweep's file asks for.
 struct Sweep {
     std::string name;
-    std::vector<Run> runs; ///< in the order of the file, the last thing varied changing fastest
+    std::vector<SweepRun> runs; ///< in the order of the file, the last thing varied changing fastest
 };
 
 /// The largest number of flights that one file may ask for.

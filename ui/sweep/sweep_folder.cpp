@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The last line that a run's log has something in.
-std::string last_words(const fs::path& log) {
+std::string last_log_line(const fs::path& log) {
     std::error_code ignored;
     if (!fs::is_regular_file(log, ignored)) {
         return {};
@@ -42,7 +42,7 @@ bool follows_clock(const settings::RunSettings& settings) {
 }
 
 /// What decides what a run shows, as text.
-std::string key_of(const Run& run) {
+std::string key_of(const SweepRun& run) {
     return settings::settings_json(run.settings)
         .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -59,7 +59,7 @@ bool is_job(const fs::path& file) {
 
 /// Whether a folder is empty, or that of a sweep: its jobs.txt names settings of runs that lie in
 /// it. What was killed before it had one has nothing but jobs/ and other empty folders.
-bool is_sweeps(const fs::path& folder) {
+bool belongs_to_sweep(const fs::path& folder) {
     std::error_code code;
     const fs::path list = folder / "jobs.txt";
     if (!fs::is_regular_file(list, code)) {
@@ -85,33 +85,33 @@ bool is_sweeps(const fs::path& folder) {
 
 void SweepFolder::prepare(const Sweep& sweep) const {
     std::error_code code;
-    if (fs::exists(folder_, code) && !is_sweeps(folder_)) {
-        error_in(folder_, "expected an empty folder or that of a sweep, got another");
+    if (fs::exists(folder_, code) && !belongs_to_sweep(folder_)) {
+        throw_error_in(folder_, "expected an empty folder or that of a sweep, got another");
     }
     for (const char* part : {"jobs", "runs", "logs"}) {
         make_folder(folder_ / part);
     }
     std::string names;
-    for (const Run& run : sweep.runs) {
+    for (const SweepRun& run : sweep.runs) {
         names += run.name + "\n";
         write_file(
             job(run.name),
-            settings::settings_json(world::with_absolute_files(run.settings)).dump(2) + "\n");
+            settings::settings_json(world::with_absolute_paths(run.settings)).dump(2) + "\n");
     }
     write_file(folder_ / "jobs.txt", names);
 }
 
-RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) {
+RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_video) {
     RunResult result;
     result.name = run.name;
     const fs::path recording = folder.recording(run.name);
     try {
-        result.done = flight::is_recorded(
+        result.done = flight::is_already_recorded(
             {recording,
              with_video ? std::optional(folder.video(run.name)) : std::nullopt,
              std::nullopt,
              {}},
-            world::with_absolute_files(run.settings));
+            world::with_absolute_paths(run.settings));
     } catch (const Error& fault) { // a file of the run is missing: its log says so too
         result.fault = fault.what();
         return result;
@@ -121,7 +121,7 @@ RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) 
         const std::string stopped =
             report::is_run_file(file) ? report::read_run_file(file).stopped : std::string();
         const std::string words =
-            stopped.empty() ? last_words(folder.log(run.name)) : "ended by " + stopped;
+            stopped.empty() ? last_log_line(folder.log(run.name)) : "ended by " + stopped;
         result.fault = words.empty() ? "was not flown to its end" : words;
         return result;
     }
@@ -135,7 +135,7 @@ RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video) 
     return result;
 }
 
-std::vector<std::string> differences(const Sweep& sweep, std::span<const RunResult> results) {
+std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const RunResult> results) {
     std::vector<std::string> lines;
     std::map<std::string, const RunResult*> firsts;
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
@@ -172,12 +172,12 @@ sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResu
     }
     table.header.insert(
         table.header.end(), {"repeat", "done", "host", "state_hash", "picture_hash", "noise"});
-    for (const report::Figure& figure : report::figures()) {
-        table.header.emplace_back(figure.key);
+    for (const report::Statistic& statistic : report::all_statistics()) {
+        table.header.emplace_back(statistic.key);
     }
     table.header.emplace_back("fault");
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
-        const Run& run = sweep.runs[i];
+        const SweepRun& run = sweep.runs[i];
         const RunResult& result = results[i];
         std::vector<std::string> row = {run.name};
         for (const auto& [name, value] : run.varied) {
@@ -191,12 +191,12 @@ sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResu
              result.state_hash,
              result.picture_hash,
              result.noise});
-        const report::Rows summary =
+        const report::NamedValues summary =
             result.done ? report::read_run_file(folder.recording(run.name) / "run.json").summary
-                        : report::Rows();
-        for (const report::Figure& figure : report::figures()) {
+                        : report::NamedValues();
+        for (const report::Statistic& statistic : report::all_statistics()) {
             const auto found = std::ranges::find_if(
-                summary, [&](const auto& each) { return each.first == figure.key; });
+                summary, [&](const auto& each) { return each.first == statistic.key; });
             row.push_back(found == summary.end() ? "" : found->second);
         }
         row.push_back(result.fault);

@@ -61,11 +61,11 @@ struct RunResult {
 /// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown
 /// with these settings and input files by this very program file, and has its video where there is
 /// to be one.
-RunResult result_of(const SweepFolder& folder, const Run& run, bool with_video = false);
+RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_video = false);
 
 /// Runs that differ in nothing but their repeats and do not show the same though no clock decides
 /// what they show: one line each, which names both runs and their machines.
-std::vector<std::string> differences(const Sweep& sweep, std::span<const RunResult> results);
+std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const RunResult> results);
 
 /// The results and figures as comma-separated text, one line a run.
 std::string

@@ -3,7 +3,7 @@
 #include "ui/base/progress.h"
 #include "ui/settings/settings_text.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/terrain/solved_mesh.h"
+#include "ui/terrain/mesh_search.h"
 #include "visuals/terrain/projected_error.h"
 
 #include <array>
@@ -20,18 +20,18 @@ namespace {
 
 /// Meshes of all cameras, by one maker.
 std::vector<MeasuredMesh>
-measured_meshes(const LoadedGround& ground, const ErrorRun& run, const std::string& what) {
+measured_meshes(const LoadedGround& ground, const ErrorMeasurement& run, const std::string& what) {
     const auto maker = make_mesh_maker(ground, run.mesh);
-    terrain::ErrorMeter meter(maker->ground());
+    terrain::ProjectedErrorMeter meter(maker->ground());
     base::Progress progress(what, static_cast<int>(run.cameras.size()), run.quiet, "views");
     std::vector<MeasuredMesh> found;
     for (const scene::Camera& camera : run.cameras) {
         const terrain::MeshView view = mesh_view(camera, run.view);
-        const terrain::PictureView picture = picture_view(camera, run.view.size_px);
-        if (run.solve_px) {
-            found.push_back(solved_mesh(*maker, meter, view, picture, *run.solve_px));
+        const terrain::PerspectiveView picture = picture_view(camera, run.view.size_px);
+        if (run.target_error_px) {
+            found.push_back(coarsest_mesh_within(*maker, meter, view, picture, *run.target_error_px));
         } else {
-            const terrain::GroundMesh mesh = mesh_as_asked(*maker, view, run.mesh);
+            const terrain::GroundMesh mesh = mesh_from_options(*maker, view, run.mesh);
             MeasuredMesh one;
             one.triangles = mesh.counters.triangles;
             one.coarseness = mesh.error_px > 0.0 ? mesh.error_px : 1.0 / mesh.resolution;
@@ -52,10 +52,10 @@ double mean_triangles_in_view(const std::vector<MeasuredMesh>& meshes) {
     return sum / static_cast<double>(meshes.size());
 }
 
-constexpr std::size_t figure_count = 10;
+constexpr std::size_t value_count = 10;
 
 /// Columns of a table of errors, as numbers.
-std::array<double, figure_count> figures_of(const MeasuredMesh& mesh, bool by_error) {
+std::array<double, value_count> values_of(const MeasuredMesh& mesh, bool by_error) {
     return {
         static_cast<double>(mesh.triangles),
         static_cast<double>(mesh.triangles_in_view),
@@ -70,12 +70,12 @@ std::array<double, figure_count> figures_of(const MeasuredMesh& mesh, bool by_er
 }
 
 std::vector<std::string>
-row_of(const std::string& name, const std::array<double, figure_count>& figures) {
+row_of(const std::string& name, const std::array<double, value_count>& values) {
     std::vector<std::string> row = {name};
-    for (std::size_t k = 0; k < figure_count; ++k) {
+    for (std::size_t k = 0; k < value_count; ++k) {
         const bool counted = k < 2 || k > 7;
         row.push_back(
-            counted ? fmt::format("{:.0f}", figures[k]) : fmt::format("{:.4g}", figures[k]));
+            counted ? fmt::format("{:.0f}", values[k]) : fmt::format("{:.4g}", values[k]));
     }
     return row;
 }
@@ -87,11 +87,11 @@ struct BestRoughness {
 };
 
 BestRoughness
-best_of_roettger(const LoadedGround& ground, const ErrorRun& run, scene::GroundFans fans) {
+best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene::GroundFans fans) {
     constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
     BestRoughness best;
     for (const double weight : weights) {
-        ErrorRun other = run;
+        ErrorMeasurement other = run;
         other.mesh = {};
         other.mesh.mesh = scene::GroundMetric::Midpoint;
         other.mesh.fans = fans;
@@ -107,7 +107,7 @@ best_of_roettger(const LoadedGround& ground, const ErrorRun& run, scene::GroundF
 
 } // namespace
 
-report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run) {
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const bool by_error = run.mesh.mesh == scene::GroundMetric::ScreenError;
     const std::vector<MeasuredMesh> meshes =
         measured_meshes(ground, run, settings::text_of(run.mesh.mesh));
@@ -125,13 +125,13 @@ report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run) {
         "mean px",
         "samples",
         "uncovered"};
-    std::array<double, figure_count> mean{};
+    std::array<double, value_count> mean{};
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const auto figures = figures_of(meshes[k], by_error);
-        for (std::size_t i = 0; i < figure_count; ++i) {
-            mean[i] += figures[i] / static_cast<double>(meshes.size());
+        const auto values = values_of(meshes[k], by_error);
+        for (std::size_t i = 0; i < value_count; ++i) {
+            mean[i] += values[i] / static_cast<double>(meshes.size());
         }
-        table.rows.push_back(row_of(fmt::format("{}", k + 1), figures));
+        table.rows.push_back(row_of(fmt::format("{}", k + 1), values));
     }
     if (meshes.size() > 1) {
         table.rows.push_back(row_of("mean", mean));
@@ -142,13 +142,13 @@ report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run) {
     return table;
 }
 
-report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run) {
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const double own =
         mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(run.mesh.mesh)));
     const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
     const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
     report::HtmlTable table;
-    table.title = fmt::format("Triangles in view at {:.4g} px", *run.solve_px);
+    table.title = fmt::format("Triangles in view at {:.4g} px", *run.target_error_px);
     table.header = {"mesh", "triangles", "c", "ratio"};
     const auto row = [&](const std::string& name, double triangles, const std::string& c) {
         table.rows.push_back(

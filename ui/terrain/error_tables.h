@@ -11,20 +11,20 @@
 namespace octant::ui::terrain {
 
 /// What `octant terrain error` measures.
-struct ErrorRun {
+struct ErrorMeasurement {
     GroundViewOptions view;
     GroundMeshOptions mesh;
     std::vector<visuals::scene::Camera> cameras;
-    std::optional<double> solve_px; ///< 99.9th percentile that meshes are sought for
+    std::optional<double> target_error_px; ///< 99.9th percentile that meshes are sought for
     bool quiet = false;
 };
 
 /// A row a camera, and the mean where there are several: triangles and error. Throws Error as
-/// mesh_as_asked.
-report::HtmlTable error_table(const LoadedGround& ground, const ErrorRun& run);
+/// mesh_from_options.
+report::HtmlTable error_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 /// Mean triangles at the same error: the run's mesh, Roettger's rule (mid-point roughness) with
-/// full and with partial fans, its c the best for it of some. `run.solve_px` is there.
-report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorRun& run);
+/// full and with partial fans, its c the best for it of some. `run.target_error_px` is there.
+report::HtmlTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run);
 
 } // namespace octant::ui::terrain

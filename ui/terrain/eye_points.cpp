@@ -29,7 +29,7 @@ std::vector<EyePoint> read_eye_points(const std::filesystem::path& file, const s
             const auto number =
                 fields.size() == 6 ? finite_number(fields[k + 1]) : std::optional<double>();
             if (!number) {
-                error_at(
+                throw_error_at(
                     file,
                     line_number,
                     fmt::format(
@@ -41,7 +41,7 @@ std::vector<EyePoint> read_eye_points(const std::filesystem::path& file, const s
         points.push_back({line_number, numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]});
     }
     if (points.empty()) {
-        error_in(file, fmt::format("expected rows of map '{}', got none", printable(map)));
+        throw_error_in(file, fmt::format("expected rows of map '{}', got none", printable(map)));
     }
     return points;
 }

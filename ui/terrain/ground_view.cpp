@@ -47,8 +47,8 @@ terrain::MeshView mesh_view(const scene::Camera& camera, const GroundViewOptions
     return view;
 }
 
-terrain::PictureView picture_view(const scene::Camera& camera, const glm::ivec2& size_px) {
-    terrain::PictureView view;
+terrain::PerspectiveView picture_view(const scene::Camera& camera, const glm::ivec2& size_px) {
+    terrain::PerspectiveView view;
     view.eye_m = camera.eye_m;
     view.right = camera.view_to_world * glm::dvec3(1.0, 0.0, 0.0);
     view.up = camera.view_to_world * glm::dvec3(0.0, 1.0, 0.0);

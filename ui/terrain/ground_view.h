@@ -4,7 +4,7 @@
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/picture_view.h"
+#include "visuals/terrain/perspective_view.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -45,7 +45,7 @@ visuals::terrain::MeshView
 mesh_view(const visuals::scene::Camera& camera, const GroundViewOptions& options);
 
 /// What measures are told of it; near plane at 10 m.
-visuals::terrain::PictureView
+visuals::terrain::PerspectiveView
 picture_view(const visuals::scene::Camera& camera, const glm::ivec2& size_px);
 
 } // namespace octant::ui::terrain

@@ -19,13 +19,13 @@ double LoadedGround::mean_radius_m() const {
     const models::heights::HeightField* const read = field();
     return ellipsoid_below(
                read != nullptr ? read->place
-                               : std::get<terrain::GroundTiles>(ground_).facts().place)
+                               : std::get<terrain::GroundTiles>(ground_).metadata().place)
         .mean_radius_m();
 }
 
 terrain::GroundTiles LoadedGround::tiles() const {
     const models::heights::HeightField* const read = field();
-    return read != nullptr ? terrain::ground_of(*read) : std::get<terrain::GroundTiles>(ground_);
+    return read != nullptr ? terrain::make_ground_tiles(*read) : std::get<terrain::GroundTiles>(ground_);
 }
 
 LoadedGround load_ground(
@@ -35,7 +35,7 @@ LoadedGround load_ground(
     }
     models::heights::HeightField field = world::load_height_field(name_or_file, options);
     for (const models::heights::MapNote& note : field.notes) {
-        base::say(quiet, note.text);
+        base::print_note(quiet, note.text);
     }
     return LoadedGround(std::move(field));
 }
@@ -44,10 +44,10 @@ LoadedGround load_ground(GroundViewOptions& options, bool quiet) {
     LoadedGround ground = load_ground(options.terrain, options.files, quiet);
     options.earth_radius_m = options.curved ? ground.mean_radius_m() : 0.0;
     if (options.eye_m) {
-        const auto low = world::note_of_low_eye(
+        const auto low = world::low_eye_note(
             *options.eye_m,
             terrain::ground_height_m(ground.samples(), options.eye_m->x, options.eye_m->y));
-        base::say(quiet || !low, low.value_or(""));
+        base::print_note(quiet || !low, low.value_or(""));
     }
     return ground;
 }

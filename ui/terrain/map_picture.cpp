@@ -1,6 +1,6 @@
 #include "ui/terrain/map_picture.h"
 
-#include "visuals/overlay/stroke_letters.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,8 +27,8 @@ constexpr int margin_px = 12;
 constexpr int legend_px = 120; ///< width of the legend
 constexpr int bar_px = 18;     ///< width of its bar
 constexpr int letter_px = 2;   ///< of a step of the letters' grid
-constexpr glm::vec3 paper(0.97F, 0.97F, 0.96F);
-constexpr glm::vec3 ink(0.10F, 0.10F, 0.12F);
+constexpr glm::vec3 background_colour(0.97F, 0.97F, 0.96F);
+constexpr glm::vec3 text_colour(0.10F, 0.10F, 0.12F);
 constexpr glm::vec3 red(0.86F, 0.06F, 0.10F);
 
 /// From the lowest to the highest.
@@ -56,7 +56,7 @@ public:
             static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3);
         for (int y = 0; y < height_px; ++y) {
             for (int x = 0; x < width_px; ++x) {
-                put(x, y, paper);
+                put(x, y, background_colour);
             }
         }
     }
@@ -102,13 +102,13 @@ public:
         glm::dvec2 at = lower_left;
         for (const char letter : words) {
             glm::dvec2 before = at;
-            for (const auto& point : visuals::overlay::strokes_of(letter)) {
+            for (const auto& point : visuals::overlay::glyph_strokes(letter)) {
                 const glm::dvec2 next =
                     at + static_cast<double>(letter_px) * glm::dvec2(point.x, -point.y);
                 line(point.begins_stroke ? next : before, next, colour);
                 before = next;
             }
-            at.x += visuals::overlay::letter_advance * letter_px;
+            at.x += visuals::overlay::glyph_advance * letter_px;
         }
     }
 
@@ -119,7 +119,7 @@ private:
 };
 
 /// Where the map lies in the picture.
-struct Sheet {
+struct MapFrameInPicture {
     const visuals::terrain::GroundSamples& ground;
     double px_per_sample = 1.0;
     int width_px = 1;
@@ -144,7 +144,7 @@ struct Sheet {
     }
 };
 
-Sheet sheet_of(const visuals::terrain::GroundSamples& ground) {
+MapFrameInPicture map_frame_of(const visuals::terrain::GroundSamples& ground) {
     const double scale = longest_side_px / std::max(ground.columns(), ground.rows());
     const auto pixels = [scale](int samples) {
         return std::max(1, static_cast<int>(std::lround(scale * samples)));
@@ -153,7 +153,7 @@ Sheet sheet_of(const visuals::terrain::GroundSamples& ground) {
 }
 
 /// The range of the colours.
-glm::dvec2 usual_range_m(const Sheet& sheet) {
+glm::dvec2 colour_range_m(const MapFrameInPicture& sheet) {
     std::vector<double> heights_m;
     for (int y = 0; y < sheet.height_px; y += 2) {
         for (int x = 0; x < sheet.width_px; x += 2) {
@@ -165,7 +165,7 @@ glm::dvec2 usual_range_m(const Sheet& sheet) {
     return {heights_m[cut], heights_m[heights_m.size() - 1 - cut]};
 }
 
-void draw_relief(const Sheet& sheet, const glm::dvec2& range_m, Canvas& canvas) {
+void draw_relief(const MapFrameInPicture& sheet, const glm::dvec2& range_m, Canvas& canvas) {
     const double relief_m = std::max(range_m.y - range_m.x, 1e-3);
     const double pixel_m = sheet.ground.spacing_m() / sheet.px_per_sample;
     const double extent_m = pixel_m * std::max(sheet.width_px, sheet.height_px);
@@ -188,7 +188,7 @@ void draw_relief(const Sheet& sheet, const glm::dvec2& range_m, Canvas& canvas) 
     }
 }
 
-void draw_legend(const Sheet& sheet, const glm::dvec2& range_m, Canvas& canvas) {
+void draw_legend(const MapFrameInPicture& sheet, const glm::dvec2& range_m, Canvas& canvas) {
     const int left_px = 2 * margin_px + sheet.width_px;
     constexpr int ticks = 4;
     for (int y = 0; y < sheet.height_px; ++y) {
@@ -197,24 +197,24 @@ void draw_legend(const Sheet& sheet, const glm::dvec2& range_m, Canvas& canvas) 
             canvas.put(left_px + x, margin_px + y, tint);
         }
     }
-    constexpr double half_letter_px = 0.5 * letter_px * visuals::overlay::letter_height;
+    constexpr double half_letter_px = 0.5 * letter_px * visuals::overlay::glyph_height;
     for (int i = 0; i <= ticks; ++i) {
         const double share = static_cast<double>(i) / ticks;
         const double y_px = margin_px + (1.0 - share) * (sheet.height_px - 1);
         const double right_px = left_px + bar_px;
-        canvas.line({right_px, y_px}, {right_px + 4.0, y_px}, ink);
+        canvas.line({right_px, y_px}, {right_px + 4.0, y_px}, text_colour);
         const double inside_px = std::clamp(
             y_px, margin_px + half_letter_px, margin_px + sheet.height_px - half_letter_px);
         canvas.text(
             {right_px + 9.0, inside_px + half_letter_px},
             fmt::format(
                 "{}{}", std::lround(glm::mix(range_m.x, range_m.y, share)), i == ticks ? " M" : ""),
-            ink);
+            text_colour);
     }
 }
 
 void draw_marks(
-    const Sheet& sheet, std::span<const models::heights::MapNote> notes, Canvas& canvas) {
+    const MapFrameInPicture& sheet, std::span<const models::heights::MapNote> notes, Canvas& canvas) {
     constexpr double radius_px = 12.0;
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const std::vector<glm::dvec2>& places_m = notes[i].places_m;
@@ -242,8 +242,8 @@ void draw_marks(
 report::Picture map_picture(
     const visuals::terrain::GroundSamples& ground,
     std::span<const models::heights::MapNote> notes) {
-    const Sheet sheet = sheet_of(ground);
-    const glm::dvec2 range_m = usual_range_m(sheet);
+    const MapFrameInPicture sheet = map_frame_of(ground);
+    const glm::dvec2 range_m = colour_range_m(sheet);
     Canvas canvas(3 * margin_px + sheet.width_px + legend_px, 2 * margin_px + sheet.height_px);
     draw_relief(sheet, range_m, canvas);
     draw_legend(sheet, range_m, canvas);

@@ -1,8 +1,8 @@
 #include "ui/terrain/mesh_maker.h"
 
 #include "sim/base/error.h"
-#include "visuals/terrain/error_mesher.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/quadtree.h"
 
 #include <cstddef>
@@ -28,7 +28,7 @@ public:
         : tree_(
               field,
               {.roughness = options.mesh == scene::GroundMetric::Printed
-                                ? terrain::Roughness::Literal
+                                ? terrain::Roughness::Printed
                                 : terrain::Roughness::Midpoint})
         , colours_(no_colours(field.columns(), field.rows()))
         , mesher_(tree_, colours_) {
@@ -61,8 +61,8 @@ public:
 private:
     terrain::Quadtree tree_;
     std::vector<std::uint32_t> colours_;
-    terrain::Mesher mesher_;
-    terrain::Detail detail_;
+    terrain::QuadtreeMesher mesher_;
+    terrain::QuadtreeDetail detail_;
 };
 
 /// The default; coarseness is pixels.
@@ -92,7 +92,7 @@ public:
 
 private:
     terrain::GroundTiles tiles_;
-    terrain::ErrorMesher mesher_;
+    terrain::BisectionMesher mesher_;
     double finest_px_;
     bool geomorphs_;
 };
@@ -111,7 +111,7 @@ make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
 }
 
 terrain::GroundMesh
-mesh_as_asked(MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
+mesh_from_options(MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
     const bool by_error = options.mesh == scene::GroundMetric::ScreenError;
     if (options.triangles) {
         return maker.mesh_within(view, *options.triangles);

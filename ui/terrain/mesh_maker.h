@@ -47,7 +47,7 @@ make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options);
 
 /// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them
 /// is there, or one that does not go with the kind of mesh.
-visuals::terrain::GroundMesh mesh_as_asked(
+visuals::terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const visuals::terrain::MeshView& view, const GroundMeshOptions& options);
 
 } // namespace octant::ui::terrain

@@ -14,9 +14,9 @@ namespace terrain = visuals::terrain;
 namespace {
 
 /// Splitmix64: the same numbers everywhere.
-class Numbers {
+class RandomNumbers {
 public:
-    Numbers(std::uint64_t seed, std::uint64_t number)
+    RandomNumbers(std::uint64_t seed, std::uint64_t number)
         : state_(seed * 0x9e3779b97f4a7c15ULL ^ number * 0xd1342543de82ef95ULL) {}
 
     double between(double low, double high) {
@@ -29,7 +29,7 @@ public:
         return std::exp(between(std::log(low), std::log(high)));
     }
 
-    bool once_in(std::uint64_t times) { return next() % times == 0; }
+    bool is_one_in(std::uint64_t times) { return next() % times == 0; }
 
 private:
     std::uint64_t next() {
@@ -47,7 +47,7 @@ private:
 
 RandomView random_view(
     const terrain::GroundSamples& ground, bool by_error, std::uint64_t seed, std::uint64_t number) {
-    Numbers numbers(seed, number);
+    RandomNumbers numbers(seed, number);
     const glm::dvec2 half_m = ground.half_extent_m();
     const double reach = numbers.between(0.0, 1.0) < 0.3 ? 1.4 : 1.0;
     const double x_m = reach * numbers.between(-half_m.x, half_m.x);
@@ -66,7 +66,7 @@ RandomView random_view(
     RandomView view;
     view.camera = visuals::scene::camera_looking_at(eye_m, eye_m + ahead);
     view.camera.vertical_fov_rad = rad_from_deg(numbers.scaled_between(5.0, 100.0));
-    if (numbers.once_in(2)) {
+    if (numbers.is_one_in(2)) {
         view.triangles = static_cast<int>(numbers.scaled_between(100.0, 60000.0));
     } else {
         view.coarseness =

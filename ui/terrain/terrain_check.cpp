@@ -2,7 +2,7 @@
 
 #include "ui/base/progress.h"
 #include "ui/terrain/ground_view.h"
-#include "ui/terrain/key_pictures.h"
+#include "ui/terrain/crack_finder.h"
 #include "ui/terrain/random_view.h"
 
 #include <cstdint>
@@ -19,24 +19,24 @@ constexpr glm::ivec2 size_px{320, 180};
 
 void add(terrain::Conformity& sum, const terrain::Conformity& found) {
     sum.open_edges += found.open_edges;
-    sum.corners_on_edges += found.corners_on_edges;
-    sum.crowded_edges += found.crowded_edges;
-    sum.turned_triangles += found.turned_triangles;
-    sum.doubled_vertices += found.doubled_vertices;
+    sum.t_junctions += found.t_junctions;
+    sum.overlapping_edges += found.overlapping_edges;
+    sum.inverted_triangles += found.inverted_triangles;
+    sum.duplicate_vertices += found.duplicate_vertices;
 }
 
 } // namespace
 
-TerrainFaults check_terrain(MeshMaker& maker, const TerrainCheck& check) {
-    const std::unique_ptr<KeyPictures> pictures =
+TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check) {
+    const std::unique_ptr<CrackFinder> pictures =
         check.draw_every > 0
-            ? std::make_unique<KeyPictures>(size_px, maker.ground().half_extent_m())
+            ? std::make_unique<CrackFinder>(size_px, maker.ground().half_extent_m())
             : nullptr;
     terrain::ConformityCheck edges(maker.ground());
     GroundViewOptions seen;
     seen.size_px = size_px;
     seen.earth_radius_m = check.earth_radius_m;
-    TerrainFaults faults;
+    TerrainCheckResult check_result;
     base::Progress progress("views", check.views, check.quiet, "views");
     for (int number = 0; number < check.views; number += check.every) {
         const RandomView random = random_view(
@@ -49,24 +49,24 @@ TerrainFaults check_terrain(MeshMaker& maker, const TerrainCheck& check) {
                                              ? maker.mesh_within(view, *random.triangles)
                                              : maker.mesh(view, random.coarseness);
         const terrain::Conformity found = edges.check(mesh, view);
-        add(faults.edges, found);
+        add(check_result.edges, found);
         int key_pixels = 0;
-        if (pictures && faults.views % check.draw_every == 0) {
+        if (pictures && check_result.views % check.draw_every == 0) {
             key_pixels = pictures->cracks(mesh, random.camera);
-            ++faults.drawn;
+            ++check_result.drawn;
         }
-        ++faults.views;
-        faults.triangles += mesh.counters.triangles;
-        faults.key_pixels += key_pixels;
-        if (!found.is_whole() || key_pixels > 0) {
-            ++faults.cracked_views;
-            base::say(
+        ++check_result.views;
+        check_result.triangles += mesh.counters.triangles;
+        check_result.key_pixels += key_pixels;
+        if (!found.is_conforming() || key_pixels > 0) {
+            ++check_result.cracked_views;
+            base::print_note(
                 check.quiet,
                 fmt::format("view {}: {}, {} key pixels", number, found.text(), key_pixels));
         }
-        progress.show(number + 1, fmt::format("{} with faults", faults.cracked_views));
+        progress.show(number + 1, fmt::format("{} with faults", check_result.cracked_views));
     }
-    return faults;
+    return check_result;
 }
 
 } // namespace octant::ui::terrain

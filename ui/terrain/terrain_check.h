@@ -16,7 +16,7 @@ struct TerrainCheck {
     bool quiet = false;
 };
 
-struct TerrainFaults {
+struct TerrainCheckResult {
     int views = 0;
     int drawn = 0;
     long triangles = 0;
@@ -27,6 +27,6 @@ struct TerrainFaults {
 
 /// Meshes random views and checks each by edge matching and some by drawing them over a key
 /// colour. Tells of views with faults on stderr unless quiet. Throws Error when nothing can draw.
-TerrainFaults check_terrain(MeshMaker& maker, const TerrainCheck& check);
+TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check);
 
 } // namespace octant::ui::terrain

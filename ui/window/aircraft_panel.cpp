@@ -1,4 +1,4 @@
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_widgets.h"
 
@@ -54,7 +54,7 @@ void show_models(const visuals::planning::Scene& scene) {
         if (whole < each.polygons.polygons.size()) {
             ImGui::SameLine();
             ImGui::TextDisabled("(%zu in its file)", whole);
-            explain("some were split where no painting order exists otherwise");
+            show_tooltip_on_hover("some were split where no painting order exists otherwise");
         }
         show_representations(each);
     }
@@ -76,7 +76,7 @@ void aircraft_panel(ViewState& state, const flight::Session& session) {
             ImGui::Text(
                 "  adapted: %d smooth%s",
                 adapted->smooth,
-                adapted->no_gain ? ", flat is no faster" : "");
+                adapted->has_no_gain ? ", flat is no faster" : "");
         }
         ImGui::Text("first aircraft: level %d", last.aircraft_level);
         ImGui::Text(
@@ -86,9 +86,9 @@ void aircraft_panel(ViewState& state, const flight::Session& session) {
             last.refine_ms);
     }
     ImGui::BeginDisabled(state.recording.has_value());
-    count_slider(state.wanted.path.aircraft);
+    count_slider(state.next_settings.path.aircraft);
     ImGui::EndDisabled();
-    edit_settings(state.wanted, aircraft_settings);
+    edit_settings(state.next_settings, aircraft_settings);
 }
 
 } // namespace octant::ui::window

@@ -1,4 +1,4 @@
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_widgets.h"
 
@@ -13,28 +13,28 @@ namespace {
 constexpr std::array<std::string_view, 2> order_settings{"hidden-surface", "order-method"};
 
 void show_last_frame(const report::FrameRecord& last, const visuals::draworder::DrawOrder& order) {
-    if (order.one_cell_an_eye()) {
+    if (order.has_one_cell_per_eye()) {
         show_value("cell", fmt::format("{} of 0 to {}", last.draw_cell, order.cell_count() - 1));
-        explain("in which the eye is, of the first aircraft's");
+        show_tooltip_on_hover("in which the eye is, of the first aircraft's");
     } else {
         show_value("parts", fmt::format("{}", order.cell_count()));
-        explain("of the first aircraft, in an order that is found anew for each eye");
+        show_tooltip_on_hover("of the first aircraft, in an order that is found anew for each eye");
     }
     show_value("lists", fmt::format("{}", order.list_count()));
-    explain("different painting orders that the cells share");
+    show_tooltip_on_hover("different painting orders that the cells share");
     show_value("polygons", fmt::format("{}", last.aircraft_polygons));
-    explain("of all aircraft, in the lists drawn");
+    show_tooltip_on_hover("of all aircraft, in the lists drawn");
     show_value("cuts", fmt::format("{}", last.cuts));
-    explain("ground triangles and aircraft polygons painted again, cut by planes");
+    show_tooltip_on_hover("ground triangles and aircraft polygons painted again, cut by planes");
     show_value("unordered", fmt::format("{}", last.unordered));
-    explain("overlaps for which no painting order was found");
+    show_tooltip_on_hover("overlaps for which no painting order was found");
 }
 
 void show_pixel_check(ViewState& state) {
     if (ImGui::Button("Count wrong pixels")) {
         state.requests.count_wrong_pixels = true;
     }
-    explain("draws this picture once more with a depth buffer and compares them");
+    show_tooltip_on_hover("draws this picture once more with a depth buffer and compares them");
     if (!state.wrong_pixels) {
         return;
     }
@@ -44,7 +44,7 @@ void show_pixel_check(ViewState& state) {
     ImGui::TextColored(
         clean ? ImVec4(0.5F, 0.9F, 0.5F, 1.0F) : warning_colour, "%ld wrong", found.wrong);
     ImGui::Text("%ld of %ld pixels differ", found.differing, found.pixels);
-    explain("with those along edges, where two right pictures may differ");
+    show_tooltip_on_hover("with those along edges, where two right pictures may differ");
 }
 
 } // namespace
@@ -61,7 +61,7 @@ void draw_order_panel(ViewState& state, const flight::Session& session) {
     if (!state.history.empty()) {
         show_last_frame(state.history.last(), scene.model_of(0).order);
     }
-    edit_settings(state.wanted, order_settings);
+    edit_settings(state.next_settings, order_settings);
     ImGui::Checkbox("painting order on the polygons", &state.order_numbers);
     show_pixel_check(state);
 }

@@ -1,12 +1,12 @@
 #include "sim/base/utf8.h"
 #include "sim/fixed_step.h"
 #include "ui/base/data_files.h"
-#include "ui/settings/flown_aircraft.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/path_fields.h"
 #include "ui/window/aircraft_list.h"
-#include "ui/window/control_display.h"
-#include "ui/window/look_control.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/flight_readouts.h"
+#include "ui/window/camera_control.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_style.h"
 #include "ui/window/setting_widgets.h"
@@ -30,21 +30,21 @@ void choose_flight(ViewState& state) {
         "the first aircraft and all of its kind: a built-in one or a file"};
     ImGui::BeginDisabled(state.recording.has_value());
     ImGui::BeginGroup();
-    edit_settings(state.wanted, path);
-    std::string leader = settings::shape_of(state.wanted.path.aircraft.front());
+    edit_settings(state.next_settings, path);
+    std::string leader = settings::aircraft_shape(state.next_settings.path.aircraft.front());
     ImGui::PushID("leader");
     ImGui::SetNextItemWidth(value_width());
     if (choose_name(leader_info, leader, base::built_in_models)) {
-        state.wanted.path.aircraft = with_leader(state.wanted.path.aircraft, leader);
+        state.next_settings.path.aircraft = with_lead_aircraft(state.next_settings.path.aircraft, leader);
     }
     ImGui::SameLine();
     ImGui::TextUnformatted("aircraft");
     ImGui::PopID();
-    edit_settings(state.wanted, terrain);
+    edit_settings(state.next_settings, terrain);
     ImGui::EndGroup();
     ImGui::EndDisabled();
     if (state.recording) {
-        explain("a recording keeps its path, aircraft and ground");
+        show_tooltip_on_hover("a recording keeps its path, aircraft and ground");
     }
 }
 
@@ -54,18 +54,18 @@ void play_buttons(ViewState& state) {
     if (ImGui::Button(playback.playing ? "Pause###play" : "Play###play")) {
         playback.playing = !playback.playing;
     }
-    explain(state.keys.name_of(ViewCommand::PlayOrPause));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::PlayOrPause));
     if (next_button("One frame")) {
         state.requests.step_frame = true;
     }
-    explain(state.keys.name_of(ViewCommand::StepFrame));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::StepFrame));
     if (next_button("To beginning")) {
         state.requests.go_to_s = playback.begin_s;
     }
-    explain(state.keys.name_of(ViewCommand::ToBeginning));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::ToBeginning));
     same_line_for(checkbox_width("loop"));
     ImGui::Checkbox("loop", &playback.loops);
-    explain(
+    show_tooltip_on_hover(
         fmt::format("begin again at the path's end ({})", state.keys.name_of(ViewCommand::Loop)));
 }
 
@@ -86,11 +86,11 @@ void time_sliders(ViewState& state, bool by_hand) {
     }
     ImGui::EndDisabled();
     if (state.recording) {
-        explain("a recording goes on in time: stop it first");
+        show_tooltip_on_hover("a recording goes on in time: stop it first");
     } else if (by_hand) {
-        explain("by hand time only goes on: give it back to the path first");
+        show_tooltip_on_hover("by hand time only goes on: give it back to the path first");
     } else {
-        explain("where on the path it is; drag to go there");
+        show_tooltip_on_hover("where on the path it is; drag to go there");
     }
     ImGui::SetNextItemWidth(value_width());
     ImGui::SliderScalar(
@@ -101,7 +101,7 @@ void time_sliders(ViewState& state, bool by_hand) {
         &Playback::fastest,
         "x%.2f",
         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    explain(fmt::format(
+    show_tooltip_on_hover(fmt::format(
         "simulated seconds a second; keys {} and {}",
         state.keys.name_of(ViewCommand::Slower),
         state.keys.name_of(ViewCommand::Faster)));
@@ -125,19 +125,19 @@ void choose_view(ViewState& state, const flight::Session& session) {
         if (choice.view != choices.front().view) {
             same_line_for(checkbox_width(label.c_str()));
         }
-        const bool is_it = state.wanted.view.kind == choice.view;
+        const bool is_it = state.next_settings.view.kind == choice.view;
         if (ImGui::RadioButton(label.c_str(), is_it) && !is_it) {
-            state.wanted = with_view(state.wanted, choice.view, session.camera());
+            state.next_settings = with_view(state.next_settings, choice.view, session.camera());
         }
     }
     constexpr std::array<std::string_view, 1> inset{"inset"};
-    edit_settings(state.wanted, inset);
+    edit_settings(state.next_settings, inset);
 }
 
-void show_hand_flight(const ViewState& state, const flight::Simulation& simulation) {
-    const sim::HandFlight& pilot = simulation.pilot();
+void show_manual_flight(const ViewState& state, const flight::Simulation& simulation) {
+    const sim::PilotedFlight& pilot = simulation.pilot();
     show_controls(
-        base::flown_as(settings::shape_of(state.wanted.path.aircraft.front())),
+        base::aircraft_kind_of(settings::aircraft_shape(state.next_settings.path.aircraft.front())),
         pilot.state(),
         simulation.controls());
     const char* warning = "";
@@ -151,38 +151,38 @@ void show_hand_flight(const ViewState& state, const flight::Simulation& simulati
         colour = ImGui::GetStyleColorVec4(ImGuiCol_Text);
     } else if (pilot.warnings().stalled) {
         warning = "STALL";
-    } else if (pilot.warnings().at_a_limit) {
+    } else if (pilot.warnings().is_at_limit) {
         warning = "limit";
     }
     // Always a line, so that what lies below does not jump.
     ImGui::TextColored(colour, "%s", warning);
 }
 
-void hand_buttons(ViewState& state, const flight::Simulation& simulation) {
+void manual_flight_buttons(ViewState& state, const flight::Simulation& simulation) {
     const bool by_hand = simulation.by_hand();
     if (ImGui::Button(by_hand ? "Back to the path###hand" : "Fly by hand###hand")) {
-        state.requests.toggle_hand = true;
+        state.requests.toggle_manual_flight = true;
     }
-    explain(state.keys.name_of(ViewCommand::ByHand));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::ManualFlight));
     if (!by_hand) {
         return;
     }
     if (next_button("Level off")) {
         state.requests.level_off = true;
     }
-    explain(state.keys.name_of(ViewCommand::LevelOff));
-    show_hand_flight(state, simulation);
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::LevelOff));
+    show_manual_flight(state, simulation);
 }
 
 void recording_buttons(ViewState& state, const flight::Simulation& simulation) {
     if (ImGui::Button(state.recording ? "Stop recording###record" : "Record###record")) {
         state.requests.toggle_recording = true;
     }
-    explain(state.keys.name_of(ViewCommand::Record));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::Record));
     if (next_button("Screenshot")) {
         state.requests.screenshot = true;
     }
-    explain(state.keys.name_of(ViewCommand::Screenshot));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::Screenshot));
     if (state.recording) {
         ImGui::PushStyleColor(ImGuiCol_Text, warning_colour);
         ImGui::TextWrapped(
@@ -207,7 +207,7 @@ void flight_panel(ViewState& state, flight::Session& session) {
     ImGui::Separator();
     choose_view(state, session);
     ImGui::Separator();
-    hand_buttons(state, session.simulation());
+    manual_flight_buttons(state, session.simulation());
     recording_buttons(state, session.simulation());
 }
 

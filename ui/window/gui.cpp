@@ -1,6 +1,6 @@
 #include "ui/window/gui.h"
 
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "visuals/gl/window_context.h"
 
 #include <backends/imgui_impl_glfw.h>
@@ -42,7 +42,7 @@ void set_style(float scale) {
     style.AntiAliasedLines = false;
     style.AntiAliasedFill = false;
     style.WindowBorderSize = 0.0F;
-    style.Colors[ImGuiCol_WindowBg].w = ground_alpha;
+    style.Colors[ImGuiCol_WindowBg].w = background_alpha;
     // Values are written over the grabs of their sliders.
     constexpr float grab_alpha = 0.45F;
     style.Colors[ImGuiCol_SliderGrab].w = grab_alpha;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/window/panel_pixels.h"
+#include "ui/window/panel_rasterizer.h"
 #include "visuals/gl/panel_painter.h"
 
 #include <glm/vec2.hpp>
@@ -34,7 +34,7 @@ public:
     /// where there are no panels.
     void draw(const glm::ivec2& size_px);
 
-    /// The same over a picture in memory, as PanelPixels has it.
+    /// The same over a picture in memory, as PanelRasterizer has it.
     void draw_into(std::uint8_t* pixels, const glm::ivec2& size_px) const;
 
     /// Returns how many vertices the last frame's panels have; 0 where there are no panels.
@@ -47,7 +47,7 @@ public:
 
 private:
     std::optional<visuals::gl::PanelPainter> painter_;
-    std::optional<PanelPixels> pixels_;
+    std::optional<PanelRasterizer> pixels_;
     std::vector<visuals::gl::PanelDraw> draws_;
 };
 

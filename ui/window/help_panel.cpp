@@ -1,6 +1,6 @@
 #include "sim/base/utf8.h"
 #include "ui/window/key_names.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/view_keys.h"
 
@@ -36,15 +36,15 @@ void show_file_of_keys(ViewState& state) {
         return;
     }
     const std::string file = one_line(state.keys_file.string());
-    if (!state.keys_file_is_there) {
+    if (!state.keys_file_exists) {
         if (next_button("Write keys")) {
             state.requests.write_keys = true;
         }
-        explain("into " + file + ", to be changed there; they count from the next start on");
+        show_tooltip_on_hover("into " + file + ", to be changed there; they count from the next start on");
         return;
     }
     ImGui::TextWrapped("keys of %s", file.c_str());
-    for (const std::string& fault : state.key_faults) {
+    for (const std::string& fault : state.key_errors) {
         ImGui::TextWrapped("%s", one_line(fault).c_str());
     }
 }
@@ -57,9 +57,9 @@ void help_panel(ViewState& state) {
         return;
     }
     if (ImGui::Button("Put panels back")) {
-        state.columns.put_back();
+        state.columns.reset_layout();
     }
-    explain("into their columns, each as high as what it shows");
+    show_tooltip_on_hover("into their columns, each as high as what it shows");
     show_file_of_keys(state);
     if (!ImGui::BeginTable("keys", 2)) {
         return;
@@ -72,7 +72,7 @@ void help_panel(ViewState& state) {
     }
     std::string names;
     for (const HeldKey& key : held_keys()) {
-        names += (names.empty() ? "" : ", ") + keys.name_of(key.action);
+        names += (names.empty() ? "" : ", ") + keys.name_of(key.chosen_action);
         if (!key.meaning.empty()) {
             line_of(names, key.meaning);
             names.clear();
@@ -120,7 +120,7 @@ void leave_question(ViewState& state) {
     if (next_button("Go on")) {
         state.open.leave_question = false;
     }
-    explain(state.keys.name_of(ViewCommand::Leave));
+    show_tooltip_on_hover(state.keys.name_of(ViewCommand::Leave));
 }
 
 } // namespace octant::ui::window

@@ -28,8 +28,8 @@ std::string expected(std::string_view what, std::string_view got) {
 
 /// "-left y": the axis of a name, reversed.
 template <class Number>
-std::optional<AxisChoice> axis_from(std::string_view input, const Number& number_of) {
-    AxisChoice choice;
+std::optional<AxisBinding> axis_from(std::string_view input, const Number& number_of) {
+    AxisBinding choice;
     if (input.starts_with('-')) {
         choice.reversed = true;
         input.remove_prefix(1);
@@ -49,12 +49,12 @@ std::optional<int> joystick_axis(std::string_view name) {
                : std::nullopt;
 }
 
-std::string text_of(const AxisChoice& choice, const std::string& name) {
+std::string text_of(const AxisBinding& choice, const std::string& name) {
     return (choice.reversed ? "-" : "") + name;
 }
 
 /// The axis as it stands; 0 where the device has none such.
-float value_of(const AxisChoice& choice, std::span<const float> axes) {
+float value_of(const AxisBinding& choice, std::span<const float> axes) {
     const auto axis = static_cast<std::size_t>(choice.axis);
     const float value = axis < axes.size() ? axes[axis] : 0.0F;
     return choice.reversed ? -value : value;
@@ -71,7 +71,7 @@ KeyMap::KeyMap()
     , joystick_throttle{3} {
     pad_commands[GLFW_GAMEPAD_BUTTON_START] = ViewCommand::PlayOrPause;
     pad_commands[GLFW_GAMEPAD_BUTTON_BACK] = ViewCommand::ToBeginning;
-    pad_commands[GLFW_GAMEPAD_BUTTON_X] = ViewCommand::ByHand;
+    pad_commands[GLFW_GAMEPAD_BUTTON_X] = ViewCommand::ManualFlight;
     pad_commands[GLFW_GAMEPAD_BUTTON_Y] = ViewCommand::LevelOff;
     pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_UP] = ViewCommand::Cockpit;
     pad_commands[GLFW_GAMEPAD_BUTTON_DPAD_DOWN] = ViewCommand::Chase;
@@ -100,18 +100,18 @@ std::string KeyMap::name_of(ViewCommand command) const {
     return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
 }
 
-int KeyMap::key_of(HeldAction action) const {
-    const auto found = std::ranges::find(held_keys(), action, &HeldKey::action);
+int KeyMap::key_of(HeldAction chosen_action) const {
+    const auto found = std::ranges::find(held_keys(), chosen_action, &HeldKey::chosen_action);
     return held_[static_cast<std::size_t>(found - held_keys().begin())];
 }
 
-std::string KeyMap::name_of(HeldAction action) const {
-    const int key = key_of(action);
+std::string KeyMap::name_of(HeldAction chosen_action) const {
+    const int key = key_of(chosen_action);
     return key == GLFW_KEY_UNKNOWN ? "none" : name_of_key(key);
 }
 
 /// A key that did something else does that no more.
-std::optional<std::string> KeyMap::choose_key(int& chosen, std::string_view input) {
+std::optional<std::string> KeyMap::bind_key(int& chosen, std::string_view input) {
     if (input == "none") {
         chosen = GLFW_KEY_UNKNOWN;
         return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<std::string> KeyMap::choose_key(int& chosen, std::string_view inpu
     return std::nullopt;
 }
 
-std::optional<std::string> KeyMap::choose_pad_button(int button, std::string_view input) {
+std::optional<std::string> KeyMap::bind_pad_button(int button, std::string_view input) {
     const auto command = std::ranges::find(view_keys(), input, &ViewKey::id);
     if (command == view_keys().end() && input != "none") {
         return expected("what a key does, such as play, or none", input);
@@ -136,12 +136,12 @@ std::optional<std::string> KeyMap::choose_pad_button(int button, std::string_vie
     return std::nullopt;
 }
 
-std::optional<std::string> KeyMap::choose_axis(std::string_view id, std::string_view input) {
+std::optional<std::string> KeyMap::bind_axis(std::string_view id, std::string_view input) {
     const bool of_pad = id.starts_with("gamepad ");
     const auto choice = of_pad ? axis_from(input, axis_of_name) : axis_from(input, joystick_axis);
     const std::string_view what = id.substr(id.find(' ') + 1);
     AxisMap map = of_pad ? gamepad : joystick.value_or(AxisMap{{0}, {1}, {2}});
-    AxisChoice* chosen = what == "roll"     ? &map.roll
+    AxisBinding* chosen = what == "roll"     ? &map.roll
                          : what == "pitch"  ? &map.pitch
                          : what == "rudder" ? &map.rudder
                                             : nullptr;
@@ -167,15 +167,15 @@ std::optional<std::string> KeyMap::choose_axis(std::string_view id, std::string_
     return std::nullopt;
 }
 
-std::optional<std::string> KeyMap::choose(std::string_view id, std::string_view input) {
+std::optional<std::string> KeyMap::bind(std::string_view id, std::string_view input) {
     const auto command = std::ranges::find(view_keys(), id, &ViewKey::id);
     if (command != view_keys().end()) {
-        return choose_key(
+        return bind_key(
             commands_[static_cast<std::size_t>(command - view_keys().begin())], input);
     }
-    const auto action = std::ranges::find(held_keys(), id, &HeldKey::id);
-    if (action != held_keys().end()) {
-        return choose_key(held_[static_cast<std::size_t>(action - held_keys().begin())], input);
+    const auto chosen_action = std::ranges::find(held_keys(), id, &HeldKey::id);
+    if (chosen_action != held_keys().end()) {
+        return bind_key(held_[static_cast<std::size_t>(chosen_action - held_keys().begin())], input);
     }
     if (id == "mouse look" || id == "mouse stick") {
         const auto button = button_of_name(input);
@@ -188,25 +188,25 @@ std::optional<std::string> KeyMap::choose(std::string_view id, std::string_view 
     constexpr std::string_view pad = "gamepad ";
     if (id.starts_with(pad)) {
         if (const auto pressed = pad_button_of_name(id.substr(pad.size()))) {
-            return choose_pad_button(*pressed, input);
+            return bind_pad_button(*pressed, input);
         }
     }
     if (id.starts_with(pad) || id.starts_with("joystick ")) {
-        return choose_axis(id, input);
+        return bind_axis(id, input);
     }
     return expected("something that keys, mouse or sticks do", id);
 }
 
 KeyMapFile read_key_map(const std::filesystem::path& file) {
     KeyMapFile read;
-    if (!is_there(file)) {
+    if (!path_exists(file)) {
         return read;
     }
     std::string text;
     try {
         text = read_text_file(file, largest_file_bytes);
     } catch (const Error& fault) {
-        read.faults.emplace_back(fault.what());
+        read.errors.emplace_back(fault.what());
         return read;
     }
     int number = 0;
@@ -220,9 +220,9 @@ KeyMapFile read_key_map(const std::filesystem::path& file) {
         const std::optional<std::string> fault =
             sign == std::string_view::npos
                 ? expected("a line \"what = key\"", line)
-                : read.keys.choose(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
+                : read.keys.bind(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)));
         if (fault) {
-            read.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, *fault));
+            read.errors.push_back(fmt::format("{}:{}: {}", file.string(), number, *fault));
         }
     }
     return read;
@@ -239,7 +239,7 @@ std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> 
 }
 
 std::vector<ViewCommand>
-pad_commands(const KeyMap& keys, const PadButtons& before, const PadButtons& now) {
+pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now) {
     std::vector<ViewCommand> commands;
     for (std::size_t i = 0; i < now.size(); ++i) {
         if (now[i] != 0 && before[i] == 0 && keys.pad_commands[i]) {
@@ -249,14 +249,14 @@ pad_commands(const KeyMap& keys, const PadButtons& before, const PadButtons& now
     return commands;
 }
 
-PadButtons flying_buttons(const KeyMap& keys, PadButtons buttons) {
+GamepadButtons flying_buttons(const KeyMap& keys, GamepadButtons buttons) {
     for (std::size_t i = 0; i < buttons.size(); ++i) {
         buttons[i] = keys.pad_commands[i] ? 0 : buttons[i];
     }
     return buttons;
 }
 
-JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes) {
+JoystickState mapped_joystick(const KeyMap& keys, std::span<const float> axes) {
     JoystickState joystick;
     if (keys.joystick) {
         joystick.axes = {
@@ -280,13 +280,13 @@ std::string text_of_key_map(const KeyMap& keys) {
         text += fmt::format("{} = {}\n", each.id, keys.name_of(each.command));
     }
     for (const HeldKey& each : held_keys()) {
-        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.action));
+        text += fmt::format("{} = {}\n", each.id, keys.name_of(each.chosen_action));
     }
     text += fmt::format(
         "mouse look = {}\nmouse stick = {}\n",
         name_of_button(keys.look_button),
         name_of_button(keys.stick_button));
-    const auto pad = [&](const char* id, const AxisChoice& choice) {
+    const auto pad = [&](const char* id, const AxisBinding& choice) {
         text += fmt::format("gamepad {} = {}\n", id, text_of(choice, name_of_axis(choice.axis)));
     };
     pad("roll", keys.gamepad.roll);
@@ -305,7 +305,7 @@ std::string text_of_key_map(const KeyMap& keys) {
         return text + "# joystick roll = 1\n# joystick pitch = 2\n# joystick rudder = 3\n"
                       "# joystick throttle = 4\n";
     }
-    const auto stick = [&](const char* id, const AxisChoice& choice) {
+    const auto stick = [&](const char* id, const AxisBinding& choice) {
         text +=
             fmt::format("joystick {} = {}\n", id, text_of(choice, std::to_string(choice.axis + 1)));
     };

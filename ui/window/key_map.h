@@ -15,16 +15,16 @@
 namespace octant::ui::window {
 
 /// An axis of a device, and whether it counts the other way round.
-struct AxisChoice {
+struct AxisBinding {
     int axis = 0;
     bool reversed = false;
 };
 
 /// What each axis of a gamepad or joystick does in a flight by hand.
 struct AxisMap {
-    AxisChoice roll;
-    AxisChoice pitch;
-    AxisChoice rudder;
+    AxisBinding roll;
+    AxisBinding pitch;
+    AxisBinding rudder;
 };
 
 /// Which keys, mouse buttons and axes do what. Made as the program has it; a person's file changes
@@ -39,12 +39,12 @@ public:
     /// Returns the name of the key that gives a command, such as "Space"; "none" where none does.
     std::string name_of(ViewCommand command) const;
 
-    int key_of(HeldAction action) const;
-    std::string name_of(HeldAction action) const;
+    int key_of(HeldAction chosen_action) const;
+    std::string name_of(HeldAction chosen_action) const;
 
     /// Changes what the line "id = input" of a file says. Returns nothing, or what was expected and
     /// what came; then nothing is changed.
-    std::optional<std::string> choose(std::string_view id, std::string_view input);
+    std::optional<std::string> bind(std::string_view id, std::string_view input);
 
     /// The buttons of the mouse, GLFW_MOUSE_BUTTON_..., that turn the look and that make the
     /// pointer the stick.
@@ -52,18 +52,18 @@ public:
     int stick_button = 1;
     AxisMap gamepad;
     /// Buttons or axes of the gamepad that open and close the throttle.
-    AxisChoice throttle_up;
-    AxisChoice throttle_down;
+    AxisBinding throttle_up;
+    AxisBinding throttle_down;
     /// What a button of the gamepad commands when it is pressed; nothing for most.
-    std::array<std::optional<ViewCommand>, std::tuple_size_v<PadButtons>> pad_commands;
+    std::array<std::optional<ViewCommand>, std::tuple_size_v<GamepadButtons>> pad_commands;
     /// Of a joystick; unset where its axes are those that its kind usually has.
     std::optional<AxisMap> joystick;
-    AxisChoice joystick_throttle;
+    AxisBinding joystick_throttle;
 
 private:
-    std::optional<std::string> choose_key(int& chosen, std::string_view input);
-    std::optional<std::string> choose_pad_button(int button, std::string_view input);
-    std::optional<std::string> choose_axis(std::string_view id, std::string_view input);
+    std::optional<std::string> bind_key(int& chosen, std::string_view input);
+    std::optional<std::string> bind_pad_button(int button, std::string_view input);
+    std::optional<std::string> bind_axis(std::string_view id, std::string_view input);
 
     /// Keys, in the order of view_keys().
     std::vector<int> commands_;
@@ -75,7 +75,7 @@ private:
 struct KeyMapFile {
     KeyMap keys;
     /// "file:line: expected ..., got ...", for lines that were left out.
-    std::vector<std::string> faults;
+    std::vector<std::string> errors;
 };
 
 /// Reads a file of keys; where there is none, keys are as the program has them.
@@ -87,13 +87,13 @@ std::array<float, 6> gamepad_axes(const KeyMap& keys, std::span<const float, 6> 
 
 /// Returns the commands of the buttons that are pressed `now` and were not `before`.
 std::vector<ViewCommand>
-pad_commands(const KeyMap& keys, const PadButtons& before, const PadButtons& now);
+pad_commands(const KeyMap& keys, const GamepadButtons& before, const GamepadButtons& now);
 
 /// Returns the buttons without those that have a command: what is left to fly with.
-PadButtons flying_buttons(const KeyMap& keys, PadButtons buttons);
+GamepadButtons flying_buttons(const KeyMap& keys, GamepadButtons buttons);
 
 /// Returns the axes of a joystick where the usual ones stand. An axis that it does not have is 0.
-JoystickState joystick_of(const KeyMap& keys, std::span<const float> axes);
+JoystickState mapped_joystick(const KeyMap& keys, std::span<const float> axes);
 
 /// Returns the text of a file that says what `keys` say, with a line for everything.
 std::string text_of_key_map(const KeyMap& keys);

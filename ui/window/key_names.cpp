@@ -11,77 +11,77 @@ namespace octant::ui::window {
 
 namespace {
 
-struct Named {
+struct NamedCode {
     int number;
     std::string_view name;
 };
 
 constexpr std::array named_keys{
-    Named{GLFW_KEY_SPACE, "Space"},
-    Named{GLFW_KEY_APOSTROPHE, "'"},
-    Named{GLFW_KEY_COMMA, ","},
-    Named{GLFW_KEY_MINUS, "-"},
-    Named{GLFW_KEY_PERIOD, "."},
-    Named{GLFW_KEY_SLASH, "/"},
-    Named{GLFW_KEY_SEMICOLON, ";"},
-    Named{GLFW_KEY_LEFT_BRACKET, "["},
-    Named{GLFW_KEY_BACKSLASH, "\\"},
-    Named{GLFW_KEY_RIGHT_BRACKET, "]"},
-    Named{GLFW_KEY_GRAVE_ACCENT, "`"},
-    Named{GLFW_KEY_ESCAPE, "Esc"},
-    Named{GLFW_KEY_ENTER, "Enter"},
-    Named{GLFW_KEY_TAB, "Tab"},
-    Named{GLFW_KEY_BACKSPACE, "Backspace"},
-    Named{GLFW_KEY_INSERT, "Insert"},
-    Named{GLFW_KEY_DELETE, "Delete"},
-    Named{GLFW_KEY_RIGHT, "Right"},
-    Named{GLFW_KEY_LEFT, "Left"},
-    Named{GLFW_KEY_DOWN, "Down"},
-    Named{GLFW_KEY_UP, "Up"},
-    Named{GLFW_KEY_PAGE_UP, "Page Up"},
-    Named{GLFW_KEY_PAGE_DOWN, "Page Down"},
-    Named{GLFW_KEY_HOME, "Home"},
-    Named{GLFW_KEY_END, "End"},
-    Named{GLFW_KEY_PAUSE, "Pause"},
-    Named{GLFW_KEY_LEFT_SHIFT, "Shift"},
-    Named{GLFW_KEY_RIGHT_SHIFT, "Right Shift"},
-    Named{GLFW_KEY_LEFT_CONTROL, "Ctrl"},
-    Named{GLFW_KEY_RIGHT_CONTROL, "Right Ctrl"},
-    Named{GLFW_KEY_LEFT_ALT, "Alt"},
-    Named{GLFW_KEY_RIGHT_ALT, "Right Alt"},
-    Named{GLFW_KEY_KP_ADD, "Keypad +"},
-    Named{GLFW_KEY_KP_SUBTRACT, "Keypad -"},
-    Named{GLFW_KEY_KP_ENTER, "Keypad Enter"}};
+    NamedCode{GLFW_KEY_SPACE, "Space"},
+    NamedCode{GLFW_KEY_APOSTROPHE, "'"},
+    NamedCode{GLFW_KEY_COMMA, ","},
+    NamedCode{GLFW_KEY_MINUS, "-"},
+    NamedCode{GLFW_KEY_PERIOD, "."},
+    NamedCode{GLFW_KEY_SLASH, "/"},
+    NamedCode{GLFW_KEY_SEMICOLON, ";"},
+    NamedCode{GLFW_KEY_LEFT_BRACKET, "["},
+    NamedCode{GLFW_KEY_BACKSLASH, "\\"},
+    NamedCode{GLFW_KEY_RIGHT_BRACKET, "]"},
+    NamedCode{GLFW_KEY_GRAVE_ACCENT, "`"},
+    NamedCode{GLFW_KEY_ESCAPE, "Esc"},
+    NamedCode{GLFW_KEY_ENTER, "Enter"},
+    NamedCode{GLFW_KEY_TAB, "Tab"},
+    NamedCode{GLFW_KEY_BACKSPACE, "Backspace"},
+    NamedCode{GLFW_KEY_INSERT, "Insert"},
+    NamedCode{GLFW_KEY_DELETE, "Delete"},
+    NamedCode{GLFW_KEY_RIGHT, "Right"},
+    NamedCode{GLFW_KEY_LEFT, "Left"},
+    NamedCode{GLFW_KEY_DOWN, "Down"},
+    NamedCode{GLFW_KEY_UP, "Up"},
+    NamedCode{GLFW_KEY_PAGE_UP, "Page Up"},
+    NamedCode{GLFW_KEY_PAGE_DOWN, "Page Down"},
+    NamedCode{GLFW_KEY_HOME, "Home"},
+    NamedCode{GLFW_KEY_END, "End"},
+    NamedCode{GLFW_KEY_PAUSE, "Pause"},
+    NamedCode{GLFW_KEY_LEFT_SHIFT, "Shift"},
+    NamedCode{GLFW_KEY_RIGHT_SHIFT, "Right Shift"},
+    NamedCode{GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+    NamedCode{GLFW_KEY_RIGHT_CONTROL, "Right Ctrl"},
+    NamedCode{GLFW_KEY_LEFT_ALT, "Alt"},
+    NamedCode{GLFW_KEY_RIGHT_ALT, "Right Alt"},
+    NamedCode{GLFW_KEY_KP_ADD, "Keypad +"},
+    NamedCode{GLFW_KEY_KP_SUBTRACT, "Keypad -"},
+    NamedCode{GLFW_KEY_KP_ENTER, "Keypad Enter"}};
 
 constexpr std::array buttons{
-    Named{GLFW_MOUSE_BUTTON_LEFT, "left"},
-    Named{GLFW_MOUSE_BUTTON_RIGHT, "right"},
-    Named{GLFW_MOUSE_BUTTON_MIDDLE, "middle"}};
+    NamedCode{GLFW_MOUSE_BUTTON_LEFT, "left"},
+    NamedCode{GLFW_MOUSE_BUTTON_RIGHT, "right"},
+    NamedCode{GLFW_MOUSE_BUTTON_MIDDLE, "middle"}};
 
 constexpr std::array pad_buttons{
-    Named{GLFW_GAMEPAD_BUTTON_A, "a"},
-    Named{GLFW_GAMEPAD_BUTTON_B, "b"},
-    Named{GLFW_GAMEPAD_BUTTON_X, "x"},
-    Named{GLFW_GAMEPAD_BUTTON_Y, "y"},
-    Named{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "left bumper"},
-    Named{GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "right bumper"},
-    Named{GLFW_GAMEPAD_BUTTON_BACK, "back"},
-    Named{GLFW_GAMEPAD_BUTTON_START, "start"},
-    Named{GLFW_GAMEPAD_BUTTON_GUIDE, "guide"},
-    Named{GLFW_GAMEPAD_BUTTON_LEFT_THUMB, "left stick"},
-    Named{GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, "right stick"},
-    Named{GLFW_GAMEPAD_BUTTON_DPAD_UP, "up"},
-    Named{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "right"},
-    Named{GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "down"},
-    Named{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "left"}};
+    NamedCode{GLFW_GAMEPAD_BUTTON_A, "a"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_B, "b"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_X, "x"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_Y, "y"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, "left bumper"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, "right bumper"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_BACK, "back"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_START, "start"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_GUIDE, "guide"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_LEFT_THUMB, "left stick"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, "right stick"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_UP, "up"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "right"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_DOWN, "down"},
+    NamedCode{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "left"}};
 
 constexpr std::array axis_names{
-    Named{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
-    Named{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"},
-    Named{GLFW_GAMEPAD_AXIS_RIGHT_X, "right x"},
-    Named{GLFW_GAMEPAD_AXIS_RIGHT_Y, "right y"},
-    Named{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, "left trigger"},
-    Named{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER, "right trigger"}};
+    NamedCode{GLFW_GAMEPAD_AXIS_LEFT_X, "left x"},
+    NamedCode{GLFW_GAMEPAD_AXIS_LEFT_Y, "left y"},
+    NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_X, "right x"},
+    NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_Y, "right y"},
+    NamedCode{GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, "left trigger"},
+    NamedCode{GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER, "right trigger"}};
 
 bool same_letters(std::string_view a, std::string_view b) {
     const auto small = [](char c) {
@@ -90,14 +90,14 @@ bool same_letters(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, small, small);
 }
 
-std::string name_in(std::span<const Named> table, int number) {
-    const auto found = std::ranges::find(table, number, &Named::number);
+std::string name_in(std::span<const NamedCode> table, int number) {
+    const auto found = std::ranges::find(table, number, &NamedCode::number);
     return found == table.end() ? std::string() : std::string(found->name);
 }
 
-std::optional<int> number_in(std::span<const Named> table, std::string_view name) {
+std::optional<int> number_in(std::span<const NamedCode> table, std::string_view name) {
     const auto found = std::ranges::find_if(
-        table, [name](const Named& each) { return same_letters(each.name, name); });
+        table, [name](const NamedCode& each) { return same_letters(each.name, name); });
     return found == table.end() ? std::nullopt : std::optional(found->number);
 }
 

@@ -23,7 +23,7 @@ namespace octant::ui::window {
 
 namespace {
 
-constexpr int usual_vehicles = 16;
+constexpr int default_vehicles = 16;
 
 struct ListenWork {
     commands::ListenOptions listen;
@@ -39,7 +39,7 @@ void listen_in_window(ListenWork work) {
         throw Error("--video: expected --headless beside it, got none");
     }
     work.view.settings = work.listen.settings;
-    work.view.keeps_into = base::configuration_folder();
+    work.view.config_folder = base::configuration_folder();
     work.view.listener = work.listen.listener;
     work.view.send = work.listen.send;
     work.view.record = work.listen.record.folder;
@@ -47,13 +47,13 @@ void listen_in_window(ListenWork work) {
     Viewer viewer(work.view);
     const base::StopSignals stop_signals;
     int frames = 0;
-    while (viewer.turn() && !base::StopSignals::came()) {
+    while (viewer.run_frame() && !base::StopSignals::received()) {
         if (work.view.settings.time.frames && ++frames >= *work.view.settings.time.frames) {
             break;
         }
     }
     if (const auto report = viewer.finish_recording()) {
-        base::say(work.listen.quiet, *report);
+        base::print_note(work.listen.quiet, *report);
     }
 }
 
@@ -70,11 +70,11 @@ void listen(ListenWork work) {
         work.listen.listener.live.shapes = std::move(table.types);
     } else {
         const auto vehicles =
-            static_cast<std::size_t>(work.listen.vehicles.value_or(usual_vehicles));
+            static_cast<std::size_t>(work.listen.vehicles.value_or(default_vehicles));
         const std::string last = aircraft.back();
         aircraft.resize(std::max(aircraft.size(), vehicles), last);
     }
-    settings = world::with_absolute_files(settings);
+    settings = world::with_absolute_paths(settings);
     if (work.headless) {
         commands::listen_without_window(work.listen);
     } else {
@@ -120,7 +120,7 @@ std::vector<commands::Option> options_of(ListenWork& work) {
 
 commands::Command listen_command() {
     auto work = std::make_shared<ListenWork>();
-    work->view.records_into = ".";
+    work->view.recordings_folder = ".";
     return {
         .name = "listen",
         .summary =

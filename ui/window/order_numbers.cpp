@@ -26,9 +26,9 @@ constexpr double min_area_px = 40.0;
 
 /// Projects points, in world axes with the eye at the origin, to places on the screen in ImGui's
 /// coordinates. The picture fills the window, however many pixels it has.
-class ScreenPlaces {
+class ScreenPositions {
 public:
-    ScreenPlaces(const scene::Camera& camera, const glm::ivec2& picture_px)
+    ScreenPositions(const scene::Camera& camera, const glm::ivec2& picture_px)
         : eye_world_to_clip_(
               scene::view_to_clip(
                   camera, static_cast<double>(picture_px.x) / static_cast<double>(picture_px.y)) *
@@ -67,11 +67,11 @@ bool faces_eye(const planning::SightPolygon& polygon) {
 }
 
 /// Returns the area on the screen; 0 where a corner is not in front of the eye.
-double area_px(const planning::SightPolygon& polygon, const ScreenPlaces& places) {
+double area_px(const planning::SightPolygon& polygon, const ScreenPositions& positions) {
     double twice = 0.0;
-    std::optional<ImVec2> before = places.of(polygon.back().at_m);
+    std::optional<ImVec2> before = positions.of(polygon.back().at_m);
     for (const planning::SightCorner& corner : polygon) {
-        const auto at = places.of(corner.at_m);
+        const auto at = positions.of(corner.at_m);
         if (!at || !before) {
             return 0.0;
         }
@@ -114,7 +114,7 @@ void write_order_numbers(const flight::Session& session) {
     placed.model = &model;
     placed.parts = parts;
 
-    const ScreenPlaces places(camera, session.settings().view.size_px);
+    const ScreenPositions positions(camera, session.settings().view.size_px);
     visuals::draworder::DrawOrder::Walk walk;
     std::vector<std::uint32_t> list;
     model.order.append_painted(
@@ -129,10 +129,10 @@ void write_order_numbers(const flight::Session& session) {
             continue;
         }
         ++painted;
-        if (area_px(polygon, places) < min_area_px) {
+        if (area_px(polygon, positions) < min_area_px) {
             continue;
         }
-        if (const auto at = places.of(centroid_of(polygon))) {
+        if (const auto at = positions.of(centroid_of(polygon))) {
             write_number(painted, *at);
         }
     }

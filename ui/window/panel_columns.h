@@ -21,7 +21,7 @@ struct PanelRect {
 };
 
 /// The window that panels are laid out in.
-struct PanelRoom {
+struct PanelArea {
     glm::vec2 size{0.0F};
     /// How many times larger everything is than at a font of 13 pixels.
     float scale = 1.0F;
@@ -32,7 +32,7 @@ struct PanelRoom {
 };
 
 /// The part of the window between the columns at its sides.
-struct Middle {
+struct MiddleColumn {
     float left = 0.0F;
     float width = 0.0F;
 };
@@ -44,43 +44,43 @@ struct Middle {
 class PanelColumns {
 public:
     /// Finds the places of all open panels, none over another, for the next frame.
-    void lay_out(const OpenPanels& open, const PanelRoom& room);
+    void lay_out(const OpenPanels& open, const PanelArea& area);
 
     /// Returns the part that open columns leave free; nothing before lay_out().
-    std::optional<Middle> middle() const { return middle_; }
+    std::optional<MiddleColumn> middle() const { return middle_; }
 
     /// Returns where the panel is to be put at once; nothing where it already lies right, or where
     /// a person puts it.
-    std::optional<PanelRect> put(std::string_view title);
+    std::optional<PanelRect> take_new_rect(std::string_view title);
 
     /// Takes note of where a panel lies in this frame.
-    void lies(std::string_view title, const PanelRect& rect);
+    void report_rect(std::string_view title, const PanelRect& rect);
 
     /// Takes note of how high a panel is that shows all it has.
-    void wants(std::string_view title, float height);
+    void report_height(std::string_view title, float height);
 
     /// Puts all panels back into their columns.
-    void put_back();
+    void reset_layout();
 
     /// Returns the places that a person chose, by the panels' titles.
-    std::map<std::string, PanelRect, std::less<>> chosen() const;
+    std::map<std::string, PanelRect, std::less<>> user_placed() const;
 
     /// Puts panels where a person chose to have them; titles of no panel are ignored.
-    void choose(const std::map<std::string, PanelRect, std::less<>>& places);
+    void restore_user_placed(const std::map<std::string, PanelRect, std::less<>>& placements);
 
 private:
-    struct Place {
+    struct PanelPlacement {
         PanelRect rect;
-        bool chosen = false;
+        bool user_placed = false;
         /// The window does not have `rect` yet.
         bool is_new = true;
         float wanted_height = 0.0F;
     };
 
-    Place& place_of(std::string_view title);
+    PanelPlacement& placement_of(std::string_view title);
 
-    std::map<std::string, Place, std::less<>> places_;
-    std::optional<Middle> middle_;
+    std::map<std::string, PanelPlacement, std::less<>> placements_;
+    std::optional<MiddleColumn> middle_;
 };
 
 } // namespace octant::ui::window

@@ -22,7 +22,7 @@ constexpr std::size_t left_bumper = 4;
 constexpr std::size_t right_bumper = 5;
 
 /// The position of a stick, and how fast the controls return to the centre while it is centred.
-struct Stick {
+struct StickPosition {
     double pitch = 0.0;
     double roll = 0.0;
     double yaw = 0.0;
@@ -38,23 +38,23 @@ double trigger(float axis) {
     return std::clamp(0.5 * (number_or_zero(static_cast<double>(axis)) + 1.0), 0.0, 1.0);
 }
 
-double shaped(float axis) {
+double shaped_stick_axis(float axis) {
     return shaped_axis(static_cast<double>(axis));
 }
 
-Stick stick_of(const PilotDevices& devices) {
+StickPosition stick_position_of(const PilotDevices& devices) {
     if (devices.gamepad) {
         const auto& axes = devices.gamepad->axes;
-        return Stick{shaped(axes[1]), shaped(axes[0]), shaped(axes[2])};
+        return StickPosition{shaped_stick_axis(axes[1]), shaped_stick_axis(axes[0]), shaped_stick_axis(axes[2])};
     }
     if (devices.joystick && devices.joystick->axis_count >= 2) {
         const auto& axes = devices.joystick->axes;
         const bool twists = devices.joystick->axis_count >= 4;
-        return Stick{shaped(axes[1]), shaped(axes[0]), twists ? shaped(axes[2]) : 0.0};
+        return StickPosition{shaped_stick_axis(axes[1]), shaped_stick_axis(axes[0]), twists ? shaped_stick_axis(axes[2]) : 0.0};
     }
     if (devices.cursor) {
         const glm::dvec2 offset = devices.cursor->from_centre_px / devices.cursor->full_px;
-        return Stick{shaped_axis(offset.y), shaped_axis(offset.x), 0.0};
+        return StickPosition{shaped_axis(offset.y), shaped_axis(offset.x), 0.0};
     }
     return {.release_per_s = key_release_per_s};
 }
@@ -64,7 +64,7 @@ double moved(double from, double to, double most) {
 }
 
 /// Returns the direction, -1, 0 or 1, in which two keys move an axis.
-double held(bool less, bool more) {
+double key_axis(bool less, bool more) {
     return (more ? 1.0 : 0.0) - (less ? 1.0 : 0.0);
 }
 
@@ -80,7 +80,7 @@ double axis_after(double before, double keys, double stick, double release_per_s
 
 double throttle_after(double before, const PilotDevices& devices, double passed_s) {
     const PilotKeys& keys = devices.keys;
-    const double by_keys = held(keys.throttle_down, keys.throttle_up);
+    const double by_keys = key_axis(keys.throttle_down, keys.throttle_up);
     if (by_keys != 0.0) {
         return before + by_keys * key_throttle_per_s * passed_s;
     }
@@ -102,7 +102,7 @@ bool moves_controls(const PilotDevices& devices) {
     const PilotKeys& keys = devices.keys;
     const bool by_keys = keys.pull || keys.push || keys.roll_left || keys.roll_right ||
                          keys.yaw_left || keys.yaw_right || keys.throttle_up || keys.throttle_down;
-    const Stick stick = stick_of(devices);
+    const StickPosition stick = stick_position_of(devices);
     const bool by_stick = stick.pitch != 0.0 || stick.roll != 0.0 || stick.yaw != 0.0;
     const bool by_pad = devices.gamepad && (devices.gamepad->buttons[left_bumper] != 0 ||
                                             devices.gamepad->buttons[right_bumper] != 0 ||
@@ -125,10 +125,10 @@ controls_after(const sim::PilotControls& before, const PilotDevices& devices, do
     const double time_s = std::clamp(number_or_zero(passed_s), 0.0, longest_s);
     const PilotKeys& keys = devices.keys;
     const bool pad = devices.gamepad.has_value();
-    const double yaw_keys = held(
+    const double yaw_keys = key_axis(
         keys.yaw_left || (pad && devices.gamepad->buttons[left_bumper] != 0),
         keys.yaw_right || (pad && devices.gamepad->buttons[right_bumper] != 0));
-    const Stick stick = stick_of(devices);
+    const StickPosition stick = stick_position_of(devices);
     const auto axis = [&](double from, double by_keys, double by_stick) {
         const double after =
             axis_after(number_or_zero(from), by_keys, by_stick, stick.release_per_s, time_s);
@@ -136,8 +136,8 @@ controls_after(const sim::PilotControls& before, const PilotDevices& devices, do
     };
     const double throttle = throttle_after(number_or_zero(before.throttle), devices, time_s);
     return {
-        axis(before.pitch, held(keys.push, keys.pull), stick.pitch),
-        axis(before.roll, held(keys.roll_left, keys.roll_right), stick.roll),
+        axis(before.pitch, key_axis(keys.push, keys.pull), stick.pitch),
+        axis(before.roll, key_axis(keys.roll_left, keys.roll_right), stick.roll),
         axis(before.yaw, yaw_keys, stick.yaw),
         std::clamp(throttle, 0.0, 1.0)};
 }

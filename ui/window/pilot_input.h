@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 
 #include <glm/vec2.hpp>
 
@@ -10,14 +10,14 @@
 namespace octant::ui::window {
 
 /// The buttons of a gamepad, in the order of GLFWgamepadstate; one is pressed where it is not 0.
-using PadButtons = std::array<unsigned char, 15>;
+using GamepadButtons = std::array<unsigned char, 15>;
 
 /// A gamepad in the standard layout. Axes and buttons are in the order of GLFWgamepadstate: left x,
 /// left y (down is positive), right x, right y, left and right trigger (-1 let go, 1 pressed). The
 /// bumpers move the rudder.
 struct GamepadState {
     std::array<float, 6> axes{0.0F, 0.0F, 0.0F, 0.0F, -1.0F, -1.0F};
-    PadButtons buttons{};
+    GamepadButtons buttons{};
 };
 
 /// A joystick that is no gamepad, with the axes that it reports: x, y (pulled is positive), and

@@ -5,21 +5,21 @@
 
 namespace octant::ui::window {
 
-Playback::Moved Playback::pass(double wall_s, bool open_ended) {
+Playback::TimeChange Playback::advance(double wall_s, bool open_ended) {
     if (!playing) {
-        return Moved::On;
+        return TimeChange::Advanced;
     }
     time_s += wall_s * speed;
     if (open_ended || time_s <= end_s) {
-        return Moved::On;
+        return TimeChange::Advanced;
     }
     if (loops) {
         time_s = begin_s;
-        return Moved::Restarts;
+        return TimeChange::Restarted;
     }
     time_s = end_s;
     playing = false;
-    return Moved::On;
+    return TimeChange::Advanced;
 }
 
 void Playback::step_frame(double frame_s, bool open_ended) {

@@ -18,16 +18,16 @@ struct Playback {
     bool loops = true;
 
     /// How the time changed.
-    enum class Moved {
+    enum class TimeChange {
         /// It went forward or stayed.
-        On,
+        Advanced,
         /// It jumped back to the beginning.
-        Restarts
+        Restarted
     };
 
     /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless
     /// the flight is `open_ended`, as one by hand is.
-    Moved pass(double wall_s, bool open_ended);
+    TimeChange advance(double wall_s, bool open_ended);
 
     /// Advances by one frame of `frame_s` simulated seconds and pauses.
     void step_frame(double frame_s, bool open_ended);

@@ -1,7 +1,7 @@
 #include "ui/window/plot.h"
 
 #include "ui/window/frame_history.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "sim/sun_position.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_widgets.h"
-#include "ui/world/sun_of_time.h"
+#include "ui/world/sun_at_time.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 12> scene_settings{
     "drape"};
 
 constexpr sim::SolarTime noon_in_spring{2000, 3, 20, 12 * 60};
-constexpr ImGuiSliderFlags no_typing = ImGuiSliderFlags_NoInput;
+constexpr ImGuiSliderFlags slider_without_input = ImGuiSliderFlags_NoInput;
 constexpr int last_minute = 24 * 60 - 1;
 
 std::string clock_text(const sim::SolarTime& time) {
@@ -51,14 +51,14 @@ void time_of_day(settings::RunSettings& settings, double latitude_deg) {
     const std::string date = now ? date_text(time) : "by hand";
     ImGui::SetNextItemWidth(value_width());
     bool changed =
-        ImGui::SliderInt("time of day", &time.minute, 0, last_minute, clock.c_str(), no_typing);
-    explain(fmt::format(
+        ImGui::SliderInt("time of day", &time.minute, 0, last_minute, clock.c_str(), slider_without_input);
+    show_tooltip_on_hover(fmt::format(
         "the sun's own time at latitude {:.1f}; sets its azimuth and elevation. At night it stays "
         "on the horizon.",
         latitude_deg));
     ImGui::SetNextItemWidth(value_width());
-    changed = ImGui::SliderInt("day of year", &day, 1, 365, date.c_str(), no_typing) || changed;
-    explain("March 20: spring equinox, June 21: midsummer of the northern half");
+    changed = ImGui::SliderInt("day of year", &day, 1, 365, date.c_str(), slider_without_input) || changed;
+    show_tooltip_on_hover("March 20: spring equinox, June 21: midsummer of the northern half");
     if (changed) {
         time = sim::on_day(time, day);
         settings.air.time = fmt::format("{}T{}", date_text(time), clock_text(time));
@@ -72,12 +72,12 @@ void scene_panel(ViewState& state, const flight::Session& session) {
     if (!panel.is_seen()) {
         return;
     }
-    time_of_day(state.wanted, world::latitude_of(session.world().ground_place));
+    time_of_day(state.next_settings, world::latitude_of(session.world().ground_place));
     ImGui::Separator();
-    edit_settings(state.wanted, scene_settings);
+    edit_settings(state.next_settings, scene_settings);
     ImGui::Separator();
     ImGui::BeginDisabled(state.recording.has_value());
-    count_slider(state.wanted.path.aircraft);
+    count_slider(state.next_settings.path.aircraft);
     ImGui::EndDisabled();
 }
 

@@ -11,8 +11,8 @@ namespace {
 constexpr double three_decades = 1000.0;
 
 bool is_wide(const settings::FieldInfo& info) {
-    const double smallest = info.least > 0.0 ? info.least : 1.0;
-    return info.most / smallest >= three_decades;
+    const double smallest = info.min_value > 0.0 ? info.min_value : 1.0;
+    return info.max_value / smallest >= three_decades;
 }
 
 } // namespace
@@ -21,14 +21,14 @@ NumberStyle number_style(const settings::SettingInfo& info) {
     if (info.change >= settings::SettingsChange::World) {
         return NumberStyle::Typed;
     }
-    if (info.least < 0.0) {
-        return info.most - info.least > three_decades ? NumberStyle::Drag : NumberStyle::Slider;
+    if (info.min_value < 0.0) {
+        return info.max_value - info.min_value > three_decades ? NumberStyle::Drag : NumberStyle::Slider;
     }
     return is_wide(info) ? NumberStyle::LogSlider : NumberStyle::Slider;
 }
 
 double start_value(const settings::SettingInfo& info) {
-    return std::clamp(info.start, info.least, info.most);
+    return std::clamp(info.start, info.min_value, info.max_value);
 }
 
 std::string_view unset_meaning(const settings::FieldInfo& info) {
@@ -50,17 +50,17 @@ std::string tooltip_of(const settings::FieldInfo& info) {
     if (!info.form.empty()) {
         text += fmt::format(" {}", info.form);
     }
-    if (info.least < info.most) {
-        text += fmt::format(", {} to {}", info.least, info.most);
+    if (info.min_value < info.max_value) {
+        text += fmt::format(", {} to {}", info.min_value, info.max_value);
     }
     return text;
 }
 
-std::string joined(std::span<const std::string> names) {
+std::string comma_separated(std::span<const std::string> names) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::vector<std::string> parted(std::string_view text) {
+std::vector<std::string> split_at_commas(std::string_view text) {
     std::vector<std::string> names;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find(','), text.size());

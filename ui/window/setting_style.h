@@ -41,10 +41,10 @@ std::string_view unset_meaning(const settings::FieldInfo& info);
 std::string tooltip_of(const settings::FieldInfo& info);
 
 /// Returns the names in one line, separated by commas.
-std::string joined(std::span<const std::string> names);
+std::string comma_separated(std::span<const std::string> names);
 
 /// Returns the names of a line that are separated by commas. Blanks around names and empty names
 /// are dropped.
-std::vector<std::string> parted(std::string_view text);
+std::vector<std::string> split_at_commas(std::string_view text);
 
 } // namespace octant::ui::window

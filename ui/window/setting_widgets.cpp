@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "ui/settings/settings_fields.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/setting_style.h"
 
 #include <imgui.h>
@@ -75,8 +75,8 @@ template <class Number>
 bool edit_number(const settings::SettingInfo& info, Number& value) {
     constexpr bool whole = std::is_same_v<Number, int>;
     constexpr ImGuiDataType type = whole ? ImGuiDataType_S32 : ImGuiDataType_Double;
-    const auto least = static_cast<Number>(info.least);
-    const auto most = static_cast<Number>(info.most);
+    const auto min_value = static_cast<Number>(info.min_value);
+    const auto max_value = static_cast<Number>(info.max_value);
     const char* const form = whole ? "%d" : "%.6g";
     constexpr float drag_speed = 1.0F;
     Number edited = value;
@@ -87,20 +87,20 @@ bool edit_number(const settings::SettingInfo& info, Number& value) {
             "##value", type, &edited, nullptr, nullptr, form, ImGuiInputTextFlags_EnterReturnsTrue);
         break;
     case NumberStyle::Drag:
-        changed = ImGui::DragScalar("##value", type, &edited, drag_speed, &least, &most, form);
+        changed = ImGui::DragScalar("##value", type, &edited, drag_speed, &min_value, &max_value, form);
         break;
     case NumberStyle::Slider:
-        changed = ImGui::SliderScalar("##value", type, &edited, &least, &most, form);
+        changed = ImGui::SliderScalar("##value", type, &edited, &min_value, &max_value, form);
         break;
     case NumberStyle::LogSlider:
         changed = ImGui::SliderScalar(
-            "##value", type, &edited, &least, &most, form, ImGuiSliderFlags_Logarithmic);
+            "##value", type, &edited, &min_value, &max_value, form, ImGuiSliderFlags_Logarithmic);
         break;
     }
     if (!changed || !std::isfinite(static_cast<double>(edited))) {
         return false;
     }
-    value = std::clamp(edited, least, most);
+    value = std::clamp(edited, min_value, max_value);
     return true;
 }
 
@@ -110,7 +110,7 @@ bool choose_number(const settings::SettingInfo& info, int& value) {
     if (!ImGui::BeginCombo("##value", settings::text_of(value).c_str())) {
         return changed;
     }
-    for (const int number : info.one_of) {
+    for (const int number : info.allowed_values) {
         if (ImGui::Selectable(settings::text_of(number).c_str(), number == value) &&
             number != value) {
             value = number;
@@ -126,7 +126,7 @@ bool edit(const settings::SettingInfo& info, double& value) {
 }
 
 bool edit(const settings::SettingInfo& info, int& value) {
-    return info.one_of.empty() ? edit_number(info, value) : choose_number(info, value);
+    return info.allowed_values.empty() ? edit_number(info, value) : choose_number(info, value);
 }
 
 bool edit(const settings::SettingInfo& /*info*/, bool& value) {
@@ -146,8 +146,8 @@ bool edit(const settings::SettingInfo& info, std::string& value) {
 }
 
 bool edit(const settings::SettingInfo& info, std::vector<std::string>& value) {
-    const auto typed = typed_text("##value", joined(value), info.form);
-    const std::vector<std::string> names = typed ? parted(*typed) : std::vector<std::string>();
+    const auto typed = typed_text("##value", comma_separated(value), info.form);
+    const std::vector<std::string> names = typed ? split_at_commas(*typed) : std::vector<std::string>();
     if (names.empty()) {
         return false;
     }
@@ -161,7 +161,7 @@ bool edit(const settings::SettingInfo& info, glm::ivec2& value) {
         return false;
     }
     const auto bounded = [&info](int number) {
-        return std::clamp(number, static_cast<int>(info.least), static_cast<int>(info.most));
+        return std::clamp(number, static_cast<int>(info.min_value), static_cast<int>(info.max_value));
     };
     value = {bounded(edited[0]), bounded(edited[1])};
     return true;
@@ -176,8 +176,8 @@ bool edit(const settings::SettingInfo& info, glm::dvec3& value) {
             edited.data(),
             3,
             speed_m,
-            &info.least,
-            &info.most,
+            &info.min_value,
+            &info.max_value,
             "%.1f")) {
         return false;
     }
@@ -185,16 +185,16 @@ bool edit(const settings::SettingInfo& info, glm::dvec3& value) {
         if (!std::isfinite(number)) {
             return false;
         }
-        number = std::clamp(number, info.least, info.most);
+        number = std::clamp(number, info.min_value, info.max_value);
     }
     value = {edited[0], edited[1], edited[2]};
     return true;
 }
 
-bool edit(const settings::SettingInfo& info, models::heights::VoidMarks& voids) {
+bool edit(const settings::SettingInfo& info, models::heights::VoidValues& voids) {
     const auto typed = typed_text("##value", settings::text_of(voids), info.form);
     try {
-        models::heights::VoidMarks read;
+        models::heights::VoidValues read;
         settings::read_setting(info, typed.value_or(""), read);
         voids = read;
         return true;
@@ -209,7 +209,7 @@ bool edit(const settings::SettingInfo& /*info*/, glm::vec3& colour) {
 
 bool edit(const settings::SettingInfo& /*info*/, visuals::scene::Adaptation& adapt) {
     bool changed = false;
-    for (const settings::NamedAdaptation& each : settings::adaptations) {
+    for (const settings::AdaptationName& each : settings::adaptations) {
         if (&each != &settings::adaptations.front()) {
             ImGui::SameLine();
         }

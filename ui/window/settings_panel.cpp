@@ -1,4 +1,4 @@
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/setting_widgets.h"
 
@@ -17,7 +17,7 @@ void save_and_load(ViewState& state) {
     if (ImGui::InputText("##settings file", name.data(), name.size())) {
         state.settings_file = name.data();
     }
-    explain("a settings file, or the run.json of a recording");
+    show_tooltip_on_hover("a settings file, or the run.json of a recording");
     ImGui::BeginDisabled(state.settings_file.empty());
     ImGui::SameLine();
     if (ImGui::Button("Save")) {
@@ -41,7 +41,7 @@ void settings_panel(ViewState& state) {
     for (const auto& [group, headline] : settings::enum_names<settings::SettingGroup>) {
         if (ImGui::CollapsingHeader(headline.data())) {
             ImGui::PushID(headline.data());
-            edit_group(state.wanted, group);
+            edit_group(state.next_settings, group);
             ImGui::PopID();
         }
     }

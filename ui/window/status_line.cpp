@@ -1,6 +1,6 @@
 #include "sim/base/utf8.h"
 #include "ui/flight/inset_view.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/status_marks.h"
 
@@ -14,12 +14,12 @@ namespace octant::ui::window {
 
 namespace {
 
-std::optional<HandStatus> hand_status(const flight::Simulation& simulation) {
+std::optional<ManualFlightStatus> manual_flight_status(const flight::Simulation& simulation) {
     if (!simulation.by_hand()) {
         return std::nullopt;
     }
     const auto end = simulation.end_of_flight();
-    return HandStatus{
+    return ManualFlightStatus{
         simulation.pilot().warnings(),
         end.has_value(),
         end.has_value() && *end == flight::Simulation::End::OffTheMap,
@@ -55,24 +55,24 @@ void show_marks(const std::vector<StatusMark>& marks, float most) {
 }
 
 /// What the panels have to lie in.
-PanelRoom room_of(const ViewState& state, float status_height) {
+PanelArea panel_area_of(const ViewState& state, float status_height) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    PanelRoom room{{size.x, size.y}, gui_scale(), status_height, glm::vec2(0.0F)};
-    if (state.wanted.view.inset) {
-        const glm::ivec2& picture_px = state.wanted.view.size_px;
+    PanelArea area{{size.x, size.y}, gui_scale(), status_height, glm::vec2(0.0F)};
+    if (state.next_settings.view.inset) {
+        const glm::ivec2& picture_px = state.next_settings.view.size_px;
         const auto inset = flight::inset_rectangle(picture_px);
         const glm::vec2 share = glm::vec2(picture_px - glm::ivec2(inset.x, inset.y)) /
                                 glm::max(glm::vec2(picture_px), glm::vec2(1.0F));
         constexpr float frame = 4.0F;
-        room.inset = share * room.size + frame;
+        area.inset = share * area.size + frame;
     }
-    return room;
+    return area;
 }
 
 } // namespace
 
 float status_line(const ViewState& state, flight::Session& session, double now_s) {
-    const auto marks = status_marks(state, hand_status(session.simulation()));
+    const auto marks = status_marks(state, manual_flight_status(session.simulation()));
     const bool speaks = now_s < state.message.until_s && !state.message.text.empty();
     if (marks.empty() && !speaks) {
         return 0.0F;
@@ -80,13 +80,13 @@ float status_line(const ViewState& state, flight::Session& session, double now_s
     constexpr float from_top = 6.0F;
     const float top = from_top * gui_scale();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const auto [left, width] = state.columns.middle().value_or(Middle{0.0F, display.x});
+    const auto [left, width] = state.columns.middle().value_or(MiddleColumn{0.0F, display.x});
     // Where others fly, the picture's own words are above.
     const bool below = session.simulation().is_live();
     const float at = below ? display.y - top : top;
     const float share = below ? 1.0F : 0.0F;
     ImGui::SetNextWindowPos({left + 0.5F * width, at}, ImGuiCond_Always, {0.5F, share});
-    ImGui::SetNextWindowBgAlpha(ground_alpha);
+    ImGui::SetNextWindowBgAlpha(background_alpha);
     ImGui::Begin(
         "##status",
         nullptr,
@@ -108,7 +108,7 @@ void all_panels(ViewState& state, flight::Session& session, double now_s) {
         write_order_numbers(session);
     }
     const float status_height = status_line(state, session, now_s);
-    state.columns.lay_out(state.open, room_of(state, status_height));
+    state.columns.lay_out(state.open, panel_area_of(state, status_height));
     leave_question(state);
     if (!state.open.shown) {
         return;

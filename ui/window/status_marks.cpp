@@ -5,36 +5,36 @@
 namespace octant::ui::window {
 
 std::vector<StatusMark>
-status_marks(const ViewState& state, const std::optional<HandStatus>& hand) {
+status_marks(const ViewState& state, const std::optional<ManualFlightStatus>& manual_flight) {
     std::vector<StatusMark> marks;
     if (state.recording) {
         marks.push_back({fmt::format("REC {}", state.recording->string()), true});
     }
-    if (!state.playback.playing && !(hand && hand->ended)) {
+    if (!state.playback.playing && !(manual_flight && manual_flight->ended)) {
         marks.push_back({"paused"});
     }
     const double speed = state.playback.speed;
     if (speed != 1.0) {
         marks.push_back({fmt::format("x{:.3g}", speed)});
     }
-    if (state.playback.playing && state.pace.share() < full_pace) {
-        marks.push_back({fmt::format("x{:.2f} of real time", speed * state.pace.share()), true});
+    if (state.playback.playing && state.real_time_factor.share() < full_speed_share) {
+        marks.push_back({fmt::format("x{:.2f} of real time", speed * state.real_time_factor.share()), true});
     }
-    if (!hand) {
+    if (!manual_flight) {
         return marks;
     }
     marks.push_back({"by hand"});
-    if (hand->ended) {
-        marks.push_back({hand->off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true});
+    if (manual_flight->ended) {
+        marks.push_back({manual_flight->off_the_map ? "LEFT THE MAP" : "MET THE GROUND", true});
         return marks;
     }
-    if (hand->levelling) {
+    if (manual_flight->levelling) {
         marks.push_back({"levelling off"});
     }
-    if (hand->warnings.stalled) {
+    if (manual_flight->warnings.stalled) {
         marks.push_back({"STALL", true});
     }
-    if (hand->warnings.at_a_limit) {
+    if (manual_flight->warnings.is_at_limit) {
         marks.push_back({"LIMIT", true});
     }
     return marks;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/hand_flight.h"
+#include "sim/piloted_flight.h"
 #include "ui/window/view_state.h"
 
 #include <optional>
@@ -16,7 +16,7 @@ struct StatusMark {
 };
 
 /// What the status line says of an aircraft that is flown by hand.
-struct HandStatus {
+struct ManualFlightStatus {
     sim::FlightWarnings warnings;
     /// The flight has ended: the aircraft left the map or met the ground.
     bool ended = false;
@@ -28,6 +28,6 @@ struct HandStatus {
 
 /// Returns those of the marks "REC folder", "paused", "x0.5", "x0.67 of real time", "by hand",
 /// "STALL", ... that hold now, in this order.
-std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<HandStatus>& hand);
+std::vector<StatusMark> status_marks(const ViewState& state, const std::optional<ManualFlightStatus>& manual_flight);
 
 } // namespace octant::ui::window

@@ -1,4 +1,4 @@
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/plot.h"
 #include "ui/window/setting_widgets.h"
@@ -69,10 +69,10 @@ void show_counts(const FrameRecord& last) {
     ImGui::Text("change %+d, shadows %d", last.triangle_change, last.shadow_triangles);
     if (last.error_px > 0.0) {
         ImGui::Text("error %.3g px", last.error_px);
-        explain("screen-space error that the mesh was made for");
+        show_tooltip_on_hover("screen-space error that the mesh was made for");
     } else {
         ImGui::Text("C %.4g, %d fans", last.resolution_c, last.terrain_fans);
-        explain("C: resolution of the paper's quadtree; fans: leaves of it that were drawn");
+        show_tooltip_on_hover("C: resolution of the paper's quadtree; fans: leaves of it that were drawn");
     }
 }
 
@@ -90,7 +90,7 @@ void terrain_panel(ViewState& state, const flight::Session& session) {
         change_plot(state.history.records());
     }
     ImGui::Separator();
-    edit_settings(state.wanted, controls);
+    edit_settings(state.next_settings, controls);
 }
 
 } // namespace octant::ui::window

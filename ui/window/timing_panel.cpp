@@ -1,5 +1,5 @@
 #include "ui/report/statistics.h"
-#include "ui/window/panel_parts.h"
+#include "ui/window/panel_widgets.h"
 #include "ui/window/panels.h"
 #include "ui/window/plot.h"
 
@@ -21,7 +21,7 @@ constexpr ImU32 level_colour = IM_COL32(200, 200, 120, 160);
 constexpr ImU32 overrun_colour = IM_COL32(255, 90, 70, 255);
 constexpr std::size_t recent_frames = 60;
 
-std::span<const FrameRecord> recent(std::span<const FrameRecord> records) {
+std::span<const FrameRecord> recent_records(std::span<const FrameRecord> records) {
     return records.last(std::min(records.size(), recent_frames));
 }
 
@@ -88,7 +88,7 @@ void show_stages(std::span<const FrameRecord> records) {
     ImGui::BeginGroup();
     stacked_bar(parts, 1000.0 / 60.0, "ms");
     ImGui::EndGroup();
-    explain(
+    show_tooltip_on_hover(
         "mean of the last 60 frames; the bar's width is 16.7 ms. sim: simulation steps, camera; "
         "plan: what is drawn, in which order; draw: commands to the renderer; show: picture "
         "finished and shown, with the wait for the display.");
@@ -99,13 +99,13 @@ void show_percentiles(const report::Statistics& statistics) {
         "p50_ms", "p90_ms", "p99_ms", "max_ms", "low_1pct_fps"};
     constexpr std::array<const char*, 5> names{"p50", "p90", "p99", "max", "1 % low"};
     for (std::size_t i = 0; i < shown.size(); ++i) {
-        const auto figure = std::ranges::find(report::figures(), shown[i], &report::Figure::key);
+        const auto statistic = std::ranges::find(report::all_statistics(), shown[i], &report::Statistic::key);
         const bool is_rate = shown[i].ends_with("fps");
         ImGui::BeginGroup();
         ImGui::TextDisabled("%s", names[i]);
-        ImGui::Text(is_rate ? "%.1f/s" : "%.2f", figure->value(statistics));
+        ImGui::Text(is_rate ? "%.1f/s" : "%.2f", statistic->value(statistics));
         ImGui::EndGroup();
-        explain(fmt::format("{}: {}", figure->name, figure->definition));
+        show_tooltip_on_hover(fmt::format("{}: {}", statistic->name, statistic->definition));
         if (i + 1 < shown.size()) {
             ImGui::SameLine(0.0F, ImGui::GetFontSize() * 1.2F);
         }
@@ -113,9 +113,9 @@ void show_percentiles(const report::Statistics& statistics) {
 }
 
 void show_clock(std::span<const FrameRecord> records) {
-    const auto last = recent(records);
+    const auto last = recent_records(records);
     ImGui::Text("%.1f frames/s, stress %.2f", frame_rate_hz(last), records.back().stress);
-    explain("stress: frame time over the frame's share of time; filtered where the terrain adapts");
+    show_tooltip_on_hover("stress: frame time over the frame's share of time; filtered where the terrain adapts");
     const auto missed = std::ranges::count_if(
         records, [](const FrameRecord& record) { return record.missed != 0; });
     const auto overruns = std::ranges::count_if(
@@ -125,7 +125,7 @@ void show_clock(std::span<const FrameRecord> records) {
         mean_of(last, [](const FrameRecord& record) { return record.latency_ms; }),
         static_cast<long>(missed),
         static_cast<long>(overruns));
-    explain("latency: from the input that a picture shows to the picture finished, mean of the "
+    show_tooltip_on_hover("latency: from the input that a picture shows to the picture finished, mean of the "
             "last 60 frames. missed: pictures later than the next one was due; overruns: frames "
             "above 16.67 ms; both of the last 300 frames.");
 }
@@ -143,7 +143,7 @@ void timing_panel(ViewState& state) {
     }
     frame_time_plot(state);
     show_percentiles(state.history.statistics());
-    show_stages(recent(state.history.records()));
+    show_stages(recent_records(state.history.records()));
     show_clock(state.history.records());
     ImGui::Checkbox("wait for the display (vsync)", &state.vsync);
 }

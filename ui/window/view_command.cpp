@@ -1,16 +1,16 @@
 #include "ui/window/view_command.h"
 
 #include "sim/base/error.h"
-#include "ui/base/figures_text.h"
+#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/base/user_folders.h"
-#include "ui/commands/read_option.h"
+#include "ui/commands/value_option.h"
 #include "ui/commands/settings_options.h"
 #include "ui/window/viewer.h"
 #include "ui/window/window_bench.h"
 #include "ui/world/input_files.h"
-#include "ui/world/near_ground_notes.h"
+#include "ui/world/near_detail_warnings.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-base::Figures figures_of(const WindowTimes& times) {
+base::JsonValue figures_of(const WindowTimes& times) {
     return {{"median_ms", times.median_ms}, {"p99_ms", times.p99_ms}};
 }
 
 void print_bench_as_json(const WindowBench& bench) {
-    base::print_figures(
+    base::print_value(
         {{"without_window", figures_of(bench.without)},
          {"panels_hidden", figures_of(bench.hidden)},
          {"panels_open", figures_of(bench.open)}},
@@ -62,21 +62,21 @@ void view(const ViewOptions& options, const std::vector<std::string>& given, boo
     Viewer viewer(options);
     const world::World& world = viewer.session().world();
     for (const std::string& note : world.notes) {
-        base::say(quiet, "note: " + note);
+        base::print_note(quiet, "note: " + note);
     }
     for (const std::string& note :
-         world::near_ground_notes(world, options.settings.ground, given)) {
-        base::say(quiet, "note: " + note);
+         world::near_detail_warnings(world, options.settings.ground, given)) {
+        base::print_note(quiet, "note: " + note);
     }
     const base::StopSignals stop_signals;
     int frames = 0;
-    while (viewer.turn() && !base::StopSignals::came()) {
+    while (viewer.run_frame() && !base::StopSignals::received()) {
         if (options.settings.time.frames && ++frames >= *options.settings.time.frames) {
             break;
         }
     }
     if (const auto report = viewer.finish_recording()) {
-        base::say(quiet, *report);
+        base::print_note(quiet, *report);
     }
 }
 
@@ -96,8 +96,8 @@ void view_or_bench(ViewWork work) {
     if (work.json && !work.bench) {
         throw Error("--json: expected --bench beside it, as a window prints no figures, got none");
     }
-    work.view.keeps_into = base::configuration_folder();
-    work.view.settings = world::with_absolute_files(work.view.settings);
+    work.view.config_folder = base::configuration_folder();
+    work.view.settings = world::with_absolute_paths(work.view.settings);
     if (work.bench) {
         const WindowBench bench = bench_window(work.view, *work.bench, work.quiet);
         work.json ? print_bench_as_json(bench) : print_bench(bench);
@@ -118,14 +118,14 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             view.vsync),
         flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels),
         text_option("--record", "DIR", "record from the first frame into this folder", view.record),
-        showing(
-            view.records_into.string(),
+        with_shown_default(
+            view.recordings_folder.string(),
             text_option(
                 "--records-into",
                 "DIR",
                 "where recordings (F9) and screenshots (F12) go",
-                view.records_into)),
-        read_option(
+                view.recordings_folder)),
+        value_option(
             {"bench",
              "FRAMES",
              "time so many frames without a window, with its panels hidden and with panels open, "
@@ -137,7 +137,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
             "--send",
             "fdm|dis|xplane|cigi|tacview:HOST:PORT",
             "send each picture's aircraft to another program, as octant fly --send",
-            Takes::OneWordAgain,
+            Arity::Repeatable,
             view.send),
         flag("--json", "the times of --bench as JSON", work.json),
         flag("--quiet", "no notes", work.quiet)};
@@ -150,7 +150,7 @@ std::vector<commands::Option> options_of(ViewWork& work) {
 commands::Command view_command() {
     auto work = std::make_shared<ViewWork>();
     work->view.settings.path.terrain = "canyon";
-    work->view.records_into = ".";
+    work->view.recordings_folder = ".";
     return {
         .name = "view",
         .summary = "Flies along a path or by hand in a window; F1 there lists its keys",

@@ -30,7 +30,7 @@ constexpr std::array keys{
     ViewKey{ViewCommand::Back, GLFW_KEY_COMMA, "back", "two seconds back", true},
     ViewKey{ViewCommand::Forward, GLFW_KEY_SLASH, "forward", "two seconds on", true},
     ViewKey{
-        ViewCommand::ByHand, GLFW_KEY_H, "by hand", "fly by hand from here, or back to the path"},
+        ViewCommand::ManualFlight, GLFW_KEY_H, "by hand", "fly by hand from here, or back to the path"},
     ViewKey{
         ViewCommand::LevelOff,
         GLFW_KEY_T,

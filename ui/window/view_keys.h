@@ -22,7 +22,7 @@ enum class ViewCommand {
     ToBeginning,
     Back,
     Forward,
-    ByHand,
+    ManualFlight,
     LevelOff,
     Record,
     Screenshot,
@@ -76,7 +76,7 @@ enum class HeldAction {
 
 /// An action and the key that does it unless a person chose another.
 struct HeldKey {
-    HeldAction action = HeldAction::Pull;
+    HeldAction chosen_action = HeldAction::Pull;
     int key = 0;
     std::string_view id;
     /// What this key and those before it without one do; empty where the next line tells it.

@@ -4,7 +4,7 @@
 #include "ui/window/frame_history.h"
 #include "ui/window/key_map.h"
 #include "ui/window/open_panels.h"
-#include "ui/window/pace.h"
+#include "ui/window/real_time_factor.h"
 #include "ui/window/panel_columns.h"
 #include "ui/window/playback.h"
 
@@ -21,7 +21,7 @@ struct ViewRequests {
     /// Go to this time of the path.
     std::optional<double> go_to_s;
     bool step_frame = false;
-    bool toggle_hand = false;
+    bool toggle_manual_flight = false;
     bool level_off = false;
     bool toggle_recording = false;
     bool screenshot = false;
@@ -54,7 +54,7 @@ struct WrongPixels {
 /// What a window knows beside its session: everything that keys, mouse and panels change.
 struct ViewState {
     /// The settings of the next frame.
-    settings::RunSettings wanted;
+    settings::RunSettings next_settings;
     Playback playback;
     OpenPanels open;
     PanelColumns columns;
@@ -62,8 +62,8 @@ struct ViewState {
     /// Where a person's own keys are read from, and what was wrong in it; empty where nothing is
     /// kept.
     std::filesystem::path keys_file;
-    bool keys_file_is_there = false;
-    std::vector<std::string> key_faults;
+    bool keys_file_exists = false;
+    std::vector<std::string> key_errors;
     ViewRequests requests;
     FrameHistory history;
     ViewMessage message;
@@ -71,7 +71,7 @@ struct ViewState {
     bool order_numbers = false;
     std::optional<WrongPixels> wrong_pixels;
     bool vsync = true;
-    Pace pace;
+    RealTimeFactor real_time_factor;
     /// The file in which the settings panel saves settings and from which it loads them.
     std::string settings_file = "settings.json";
     /// The folder of the recording that is being made, if any.

@@ -5,9 +5,9 @@
 #include "ui/flight/make_renderer.h"
 #include "ui/settings/settings_change.h"
 #include "ui/window/gui.h"
-#include "ui/window/look_control.h"
+#include "ui/window/camera_control.h"
 #include "ui/window/panels.h"
-#include "ui/world/sun_of_time.h"
+#include "ui/world/sun_at_time.h"
 #include "visuals/gl/make_renderer.h"
 #include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"
@@ -30,7 +30,7 @@ namespace gl = visuals::gl;
 namespace {
 
 /// Longer turns count as this long, so that the flight does not jump.
-constexpr double longest_turn_s = 0.25;
+constexpr double max_frame_s = 0.25;
 constexpr double message_s = 5.0;
 constexpr double save_layout_every_s = 5.0;
 
@@ -46,9 +46,9 @@ double refresh_hz_of(GLFWmonitor* monitor) {
 /// Where the settings ask for OpenGL or a GPU draws in the window; else the raster renderer does.
 bool gl_draws(const gl::WindowContext& context, const settings::RunSettings& settings) {
     using settings::RendererKind;
-    const RendererKind wanted = settings.drawing.renderer;
+    const RendererKind next_settings = settings.drawing.renderer;
     const bool gpu_draws = !context.info().on_processor;
-    return wanted == RendererKind::Gl || (wanted == RendererKind::Auto && gpu_draws);
+    return next_settings == RendererKind::Gl || (next_settings == RendererKind::Auto && gpu_draws);
 }
 
 } // namespace
@@ -67,27 +67,27 @@ Viewer::Viewer(const ViewOptions& options)
     }
     settings.view.size_px = input_->size_px();
     session_ = std::make_unique<flight::Session>(
-        settings, flight::Shows::World, make_renderer(std::move(context), settings));
-    session_->pictures().present_by([this](scene::Renderer& renderer) { present(renderer); });
+        settings, flight::PictureContent::World, make_renderer(std::move(context), settings));
+    session_->pictures().set_presenter([this](scene::Renderer& renderer) { present(renderer); });
     read_layout();
     read_keys();
     gui_ = std::make_unique<Gui>(*context_);
     refresh_hz_ = refresh_hz_of(glfwGetPrimaryMonitor());
-    state_.wanted = settings;
+    state_.next_settings = settings;
     state_.vsync = options.vsync;
     state_.open.shown = options.panels;
     state_.open.flight = !options.listener;
     restart_playback();
-    follow_others();
+    restart_live_flight();
     if (options.by_hand) {
-        toggle_hand();
+        toggle_manual_flight();
         session_->simulation().start_level();
     }
     if (options.full_screen) {
         toggle_full_screen();
     }
     for (const std::string& note : session_->world().notes) {
-        say(note);
+        show_message(note);
     }
     if (options.record) {
         start_recording(*options.record);
@@ -132,7 +132,7 @@ Viewer::~Viewer() {
     }
 }
 
-void Viewer::say(const std::string& text) {
+void Viewer::show_message(const std::string& text) {
     state_.message = {text, clock_.s() + message_s};
 }
 
@@ -145,33 +145,33 @@ void Viewer::restart_playback() {
     shown_s_ = playback.time_s;
 }
 
-bool Viewer::turn() {
+bool Viewer::run_frame() {
     const double now_s = clock_.s();
-    const double passed_s = now_s - last_turn_s_;
-    const double wall_s = std::min(passed_s, longest_turn_s);
+    const double passed_s = now_s - last_frame_s_;
+    const double wall_s = std::min(passed_s, max_frame_s);
     if (state_.playback.playing) {
-        state_.pace.add(passed_s, wall_s);
+        state_.real_time_factor.add(passed_s, wall_s);
     }
-    last_turn_s_ = now_s;
-    if (std::exchange(waits_, state_.vsync) != state_.vsync) {
+    last_frame_s_ = now_s;
+    if (std::exchange(vsync_is_active_, state_.vsync) != state_.vsync) {
         context_->wait_for_refresh(state_.vsync);
     }
     glfwPollEvents();
     fit_to_window();
     gui_->begin_frame();
-    take_events(wall_s);
+    handle_input(wall_s);
     all_panels(state_, *session_, now_s);
     gui_->end_frame();
-    take_requests();
-    apply_wanted();
+    handle_requests();
+    apply_next_settings();
     if (state_.playback.playing && session_->simulation().end_of_flight()) {
         state_.playback.playing = false;
-        say(session_->simulation().end_of_flight() == flight::Simulation::End::OffTheMap
+        show_message(session_->simulation().end_of_flight() == flight::Simulation::End::OffTheMap
                 ? "the edge of the map ends the flight: H goes back to the path"
                 : "the ground ends the flight: T flies on above it, H goes back to the path");
     }
     const bool open_ended = session_->simulation().by_hand() || listener_ != nullptr;
-    if (state_.playback.pass(wall_s, open_ended) == Playback::Moved::Restarts) {
+    if (state_.playback.advance(wall_s, open_ended) == Playback::TimeChange::Restarted) {
         go_to(state_.playback.begin_s);
     }
     if (listener_) {
@@ -180,14 +180,14 @@ bool Viewer::turn() {
         draw();
     }
     wait_for_display(now_s);
-    if (now_s - layout_saved_s_ > save_layout_every_s && state_.columns.chosen() != saved_layout_) {
+    if (now_s - layout_saved_s_ > save_layout_every_s && state_.columns.user_placed() != saved_layout_) {
         save_layout();
     }
-    return !is_to_close();
+    return !should_close();
 }
 
 /// Whether the window was told to close. While a recording is being made, the first time only asks.
-bool Viewer::is_to_close() {
+bool Viewer::should_close() {
     const bool by_display = glfwWindowShouldClose(window()) != GLFW_FALSE;
     if (!by_display && !state_.requests.leave && !state_.requests.leave_recording) {
         return false;
@@ -207,11 +207,11 @@ void Viewer::fit_to_window() {
     const glm::ivec2 size_px = input_->size_px();
     if (size_px.x > 0 && size_px.y > 0) {
         constexpr glm::ivec2 min_px(16);
-        state_.wanted.view.size_px = glm::max(size_px, min_px);
+        state_.next_settings.view.size_px = glm::max(size_px, min_px);
     }
 }
 
-void Viewer::take_events(double wall_s) {
+void Viewer::handle_input(double wall_s) {
     const WindowEvents events = input_->take();
     input_s_ = clock_.s();
     const bool typing = gui_->wants_keys();
@@ -221,26 +221,26 @@ void Viewer::take_events(double wall_s) {
         }
         move_free_camera(wall_s);
     }
-    const PadButtons pressed = input_->pad_buttons();
-    for (const ViewCommand what : pad_commands(state_.keys, pad_before_, pressed)) {
+    const GamepadButtons pressed = input_->pad_buttons();
+    for (const ViewCommand what : pad_commands(state_.keys, previous_pad_buttons_, pressed)) {
         command(what);
     }
-    pad_before_ = pressed;
+    previous_pad_buttons_ = pressed;
     fly_by_hand(wall_s, typing);
     if (!gui_->wants_pointer()) {
         const auto height = static_cast<float>(std::max(input_->size().y, 1));
         if (events.dragged != glm::vec2(0.0F)) {
-            state_.wanted = dragged(state_.wanted, events.dragged / height);
+            state_.next_settings = dragged(state_.next_settings, events.dragged / height);
         }
         if (events.wheel_clicks != 0.0) {
-            state_.wanted = zoomed(state_.wanted, events.wheel_clicks);
+            state_.next_settings = zoomed(state_.next_settings, events.wheel_clicks);
         }
     }
 }
 
 void Viewer::move_free_camera(double wall_s) {
     using A = HeldAction;
-    const auto is_down = [&](A action) { return input_->is_down(state_.keys.key_of(action)); };
+    const auto is_down = [&](A chosen_action) { return input_->is_down(state_.keys.key_of(chosen_action)); };
     const auto sense = [&](A more, A less) {
         return static_cast<int>(is_down(more)) - static_cast<int>(is_down(less));
     };
@@ -249,7 +249,7 @@ void Viewer::move_free_camera(double wall_s) {
         .up = sense(A::CameraUp, A::CameraDown),
         .ahead = sense(A::CameraAhead, A::CameraBack),
         .fast = is_down(A::CameraFast)};
-    state_.wanted = moved(state_.wanted, move, wall_s);
+    state_.next_settings = moved(state_.next_settings, move, wall_s);
 }
 
 void Viewer::fly_by_hand(double wall_s, bool typing) {
@@ -267,43 +267,43 @@ void Viewer::fly_by_hand(double wall_s, bool typing) {
     simulation.set_controls(controls_after(simulation.controls(), devices, wall_s));
 }
 
-void Viewer::apply_wanted() {
+void Viewer::apply_next_settings() {
     using scene::View;
-    settings::RunSettings& wanted = state_.wanted;
-    if (wanted.view.kind != session_->settings().view.kind &&
-        (wanted.view.kind == View::Free) != (wanted.view.eye_m && wanted.view.look_m)) {
-        wanted = with_view(wanted, wanted.view.kind, session_->camera());
+    settings::RunSettings& next_settings = state_.next_settings;
+    if (next_settings.view.kind != session_->settings().view.kind &&
+        (next_settings.view.kind == View::Free) != (next_settings.view.eye_m && next_settings.view.look_m)) {
+        next_settings = with_view(next_settings, next_settings.view.kind, session_->camera());
     }
     if (live_recorder_) { // A replay knows one view.
-        wanted = session_->settings();
+        next_settings = session_->settings();
         return;
     }
     if (listener_) {
-        wanted.path.name = settings::live_path;
+        next_settings.path.name = settings::live_path;
     }
-    wanted = world::with_sun_followed(
-        std::move(wanted), session_->settings(), session_->world().ground_place);
-    if (wanted == session_->settings()) {
+    next_settings = world::with_sun_updated(
+        std::move(next_settings), session_->settings(), session_->world().ground_place);
+    if (next_settings == session_->settings()) {
         return;
     }
-    const bool other_flight = settings::change_between(session_->settings(), state_.wanted) >=
+    const bool other_flight = settings::change_between(session_->settings(), state_.next_settings) >=
                               settings::SettingsChange::World;
     try {
         if (other_flight && recording_) {
             throw Error("a recording keeps what is loaded: stop it first (F9)");
         }
-        session_->apply(state_.wanted);
+        session_->apply(state_.next_settings);
     } catch (const Error& fault) {
-        say(fault.what());
-        const glm::ivec2 size_px = state_.wanted.view.size_px;
-        state_.wanted = session_->settings();
-        state_.wanted.view.size_px = size_px;
+        show_message(fault.what());
+        const glm::ivec2 size_px = state_.next_settings.view.size_px;
+        state_.next_settings = session_->settings();
+        state_.next_settings.view.size_px = size_px;
         return;
     }
-    state_.wanted.air = session_->settings().air; // another place has another sun at its time
+    state_.next_settings.air = session_->settings().air; // another place has another sun at its time
     if (other_flight) {
         restart_playback();
-        follow_others();
+        restart_live_flight();
     }
 }
 
@@ -311,7 +311,7 @@ void Viewer::apply_wanted() {
 /// the ground is meshed ahead.
 void Viewer::draw() {
     const double next_s = state_.playback.time_s;
-    const bool ahead = session_->settings().ground.mesh_ahead;
+    const bool ahead = session_->settings().ground.mesh_async;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
     session_->pictures().aim_at_window(input_->size_px());

@@ -43,10 +43,10 @@ struct ViewOptions {
     /// The folder of a recording that begins with the first frame.
     std::optional<std::filesystem::path> record;
     /// The folder in which recordings and pictures get folders of their own.
-    std::filesystem::path records_into;
+    std::filesystem::path recordings_folder;
     /// The user's own folder for the layout of panels and the mark that the first steps were shown;
     /// an empty path keeps nothing.
-    std::filesystem::path keeps_into;
+    std::filesystem::path config_folder;
     /// Others fly, by packets.
     std::optional<flight::ListenerOptions> listener;
     /// Does not say on standard error what comes from them.
@@ -69,7 +69,7 @@ public:
 
     /// Handles all input since the last turn and shows the next picture. Returns false when the
     /// window is to be closed. Throws Error (driver, disk full).
-    bool turn();
+    bool run_frame();
 
     /// Ends the recording, if there is one, and returns the line that says where its report is.
     /// Throws Error.
@@ -84,11 +84,11 @@ public:
     GLFWwindow* window() const;
 
 private:
-    void take_events(double wall_s);
+    void handle_input(double wall_s);
     void read_layout();
     void read_keys();
     void save_layout() noexcept;
-    bool is_to_close();
+    bool should_close();
     void press(const WindowEvents::Key& key);
     void command(ViewCommand what);
     bool view_command(ViewCommand what);
@@ -97,11 +97,11 @@ private:
     void fly_by_hand(double wall_s, bool typing);
     void move_free_camera(double wall_s);
     void fit_to_window();
-    void take_requests();
-    void take_flight_requests(const ViewRequests& requests);
-    void take_file_requests(const ViewRequests& requests);
+    void handle_requests();
+    void handle_flight_requests(const ViewRequests& requests);
+    void handle_file_requests(const ViewRequests& requests);
     void count_wrong_pixels();
-    void toggle_hand();
+    void toggle_manual_flight();
     void go_to(double time_s);
     void toggle_recording();
     void start_recording(const std::filesystem::path& folder);
@@ -110,17 +110,17 @@ private:
         std::shared_ptr<visuals::gl::WindowContext> context, const settings::RunSettings& settings);
     void present(visuals::scene::Renderer& renderer);
     void toggle_full_screen();
-    void apply_wanted();
+    void apply_next_settings();
     void restart_playback();
     void draw();
     void draw_live();
-    void follow_others();
+    void restart_live_flight();
     void start_live_recording(const std::filesystem::path& folder);
     std::string finish_live_recording();
-    double take_packets();
+    double receive_packets();
     void record_frame(const report::FrameRecord& record);
     void drop_recording();
-    void say(const std::string& text);
+    void show_message(const std::string& text);
     std::filesystem::path unused_path(const std::string& stem, const std::string& ending) const;
     void wait_for_display(double turn_began_s) const;
 
@@ -140,7 +140,7 @@ private:
     /// Records a flight that other programs fly.
     std::optional<flight::FlightRecorder> live_recorder_;
     base::Stopwatch clock_;
-    double last_turn_s_ = 0.0;
+    double last_frame_s_ = 0.0;
     /// Simulated time of the next picture.
     double shown_s_ = 0.0;
     /// When the input of the picture after the next was read.
@@ -148,7 +148,7 @@ private:
     /// When the input of the next picture was read.
     double shown_input_s_ = 0.0;
     /// Buttons of the gamepad that were pressed a turn ago.
-    PadButtons pad_before_{};
+    GamepadButtons previous_pad_buttons_{};
     /// When the last picture was shown.
     double presented_s_ = 0.0;
     double refresh_hz_ = 60.0;
@@ -156,9 +156,9 @@ private:
     std::optional<PanelLayout> saved_layout_;
     double layout_saved_s_ = 0.0;
     /// The driver waits for the display's refresh.
-    bool waits_ = false;
+    bool vsync_is_active_ = false;
     /// Place and size of the window before it filled the screen.
-    glm::ivec2 windowed_at_{0};
+    glm::ivec2 windowed_position_{0};
     glm::ivec2 windowed_size_{0};
 };
 

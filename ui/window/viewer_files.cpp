@@ -32,16 +32,16 @@ fs::path layout_file(const fs::path& folder) {
 /// Shows the first steps once for each user. Where the user's folder cannot be written, nothing is
 /// kept and the viewer works all the same.
 void Viewer::read_layout() {
-    if (options_.keeps_into.empty()) {
+    if (options_.config_folder.empty()) {
         return;
     }
-    const fs::path file = layout_file(options_.keeps_into);
+    const fs::path file = layout_file(options_.config_folder);
     try {
-        make_folder(options_.keeps_into);
-        state_.open.first_steps = !is_there(file);
+        make_folder(options_.config_folder);
+        state_.open.first_steps = !path_exists(file);
         if (!state_.open.first_steps) {
             saved_layout_ = layout_from(read_text_file(file, largest_layout_bytes));
-            state_.columns.choose(*saved_layout_);
+            state_.columns.restore_user_placed(*saved_layout_);
         }
     } catch (const Error&) {
         // Panels lie where they lie for a new user; the file is written anew.
@@ -50,53 +50,53 @@ void Viewer::read_layout() {
 
 /// Lines of the file of keys that are wrong are told and left out.
 void Viewer::read_keys() {
-    if (options_.keeps_into.empty()) {
+    if (options_.config_folder.empty()) {
         return;
     }
-    state_.keys_file = options_.keeps_into / "keys";
-    state_.keys_file_is_there = is_there(state_.keys_file);
+    state_.keys_file = options_.config_folder / "keys";
+    state_.keys_file_exists = path_exists(state_.keys_file);
     KeyMapFile read = read_key_map(state_.keys_file);
     state_.keys = std::move(read.keys);
-    state_.key_faults = std::move(read.faults);
-    input_->look_by(state_.keys.look_button);
-    for (const std::string& fault : state_.key_faults) {
-        base::say(false, fault);
+    state_.key_errors = std::move(read.errors);
+    input_->set_look_button(state_.keys.look_button);
+    for (const std::string& fault : state_.key_errors) {
+        base::print_note(false, fault);
     }
 }
 
 void Viewer::save_layout() noexcept {
-    layout_saved_s_ = last_turn_s_;
-    if (options_.keeps_into.empty()) {
+    layout_saved_s_ = last_frame_s_;
+    if (options_.config_folder.empty()) {
         return;
     }
     try {
-        saved_layout_ = state_.columns.chosen();
-        write_file(layout_file(options_.keeps_into), text_of_layout(*saved_layout_));
+        saved_layout_ = state_.columns.user_placed();
+        write_file(layout_file(options_.config_folder), text_of_layout(*saved_layout_));
     } catch (const std::exception&) {
-        options_.keeps_into.clear();
+        options_.config_folder.clear();
     }
 }
 
-void Viewer::take_file_requests(const ViewRequests& requests) {
+void Viewer::handle_file_requests(const ViewRequests& requests) {
     try {
         if (requests.write_keys) {
             write_file(state_.keys_file, text_of_key_map(state_.keys));
-            state_.keys_file_is_there = true;
-            say(fmt::format("keys: {}", state_.keys_file.string()));
+            state_.keys_file_exists = true;
+            show_message(fmt::format("keys: {}", state_.keys_file.string()));
         }
         if (requests.save_settings) {
-            settings::RunSettings saved = world::with_absolute_files(session_->settings());
+            settings::RunSettings saved = world::with_absolute_paths(session_->settings());
             saved.drawing.context = settings::ContextKind::OsMesa;
             write_file(*requests.save_settings, settings::settings_json(saved).dump(2) + "\n");
-            say(fmt::format("settings: {}", requests.save_settings->string()));
+            show_message(fmt::format("settings: {}", requests.save_settings->string()));
         }
         if (requests.load_settings) {
-            state_.wanted = settings::read_settings(*requests.load_settings);
-            state_.wanted.drawing.context = settings::ContextKind::Window;
+            state_.next_settings = settings::read_settings(*requests.load_settings);
+            state_.next_settings.drawing.context = settings::ContextKind::Window;
             fit_to_window();
         }
     } catch (const Error& fault) {
-        say(fault.what());
+        show_message(fault.what());
     }
 }
 

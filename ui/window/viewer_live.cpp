@@ -7,7 +7,7 @@
 namespace octant::ui::window {
 
 /// Lets others fly what is loaded now, where there are others.
-void Viewer::follow_others() {
+void Viewer::restart_live_flight() {
     if (listener_) {
         listener_->attach(*session_);
         state_.playback.playing = true;
@@ -15,7 +15,7 @@ void Viewer::follow_others() {
 }
 
 /// The time that is shown now. A recording that can no longer be written ends; the window does not.
-double Viewer::take_packets() {
+double Viewer::receive_packets() {
     try {
         return *listener_->take(*session_); // not in steps: always a picture
     } catch (const Error& fault) {
@@ -23,20 +23,20 @@ double Viewer::take_packets() {
             throw;
         }
         drop_recording();
-        say(fault.what());
+        show_message(fault.what());
         return *listener_->take(*session_);
     }
 }
 
 /// Shows what has come up to now.
 void Viewer::draw_live() {
-    const double time_s = take_packets();
-    for (const std::string& line : listener_->take_news()) {
-        base::say(options_.quiet, line);
+    const double time_s = receive_packets();
+    for (const std::string& line : listener_->take_new_messages()) {
+        base::print_note(options_.quiet, line);
     }
-    state_.wanted.air = session_->settings().air; // a host may have told another
+    state_.next_settings.air = session_->settings().air; // a host may have told another
     const bool records = live_recorder_.has_value();
-    session_->pictures().read_before_shown(records);
+    session_->pictures().set_reads_before_presenting(records);
     session_->pictures().aim_at_window(records && !painter_ ? glm::ivec2(0) : input_->size_px());
     report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
     listener_->finish_picture(record);

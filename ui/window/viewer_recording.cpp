@@ -13,20 +13,20 @@ namespace fs = std::filesystem;
 
 /// Before the first picture: a replay begins there, too. Pictures are drawn again without a window.
 void Viewer::start_live_recording(const fs::path& folder) {
-    settings::RunSettings settings = world::with_absolute_files(session_->settings());
+    settings::RunSettings settings = world::with_absolute_paths(session_->settings());
     settings.drawing.context = settings::ContextKind::OsMesa;
     live_recorder_.emplace(
-        flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .swept = {}},
+        flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .batch_context = {}},
         settings,
         *session_);
-    listener_->record_into(folder);
+    listener_->start_packet_recording(folder);
     state_.recording = folder;
-    say(fmt::format("recording into {}: the view stays as it is", folder.string()));
+    show_message(fmt::format("recording into {}: the view stays as it is", folder.string()));
 }
 
 std::string Viewer::finish_live_recording() {
     listener_->finish();
-    const flight::FlightEnd end = live_recorder_->finish(*session_);
+    const flight::FlightResult end = live_recorder_->finish(*session_);
     live_recorder_.reset();
     state_.recording.reset();
     return end.notes.back();
@@ -39,7 +39,7 @@ void Viewer::start_recording(const fs::path& folder) {
     }
     recording_.emplace(folder, *session_);
     state_.recording = recording_->folder();
-    say(fmt::format("recording into {}", folder.string()));
+    show_message(fmt::format("recording into {}", folder.string()));
 }
 
 std::optional<std::string> Viewer::finish_recording() {
@@ -57,18 +57,18 @@ std::optional<std::string> Viewer::finish_recording() {
 
 void Viewer::toggle_recording() {
     if (listener_ && !live_recorder_) {
-        say("flights of others are recorded from their first picture on: octant listen --record");
+        show_message("flights of others are recorded from their first picture on: octant listen --record");
         return;
     }
     try {
         if (const auto report = finish_recording()) {
-            say(*report);
+            show_message(*report);
         } else {
             start_recording(unused_path("flight", ""));
         }
     } catch (const Error& fault) {
         drop_recording();
-        say(fault.what());
+        show_message(fault.what());
     }
 }
 
@@ -94,7 +94,7 @@ void Viewer::record_frame(const report::FrameRecord& record) {
         }
     } catch (const Error& fault) {
         drop_recording();
-        say(fault.what());
+        show_message(fault.what());
     }
 }
 

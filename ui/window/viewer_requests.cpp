@@ -4,8 +4,8 @@
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/report/png_file.h"
-#include "ui/settings/flown_aircraft.h"
-#include "ui/window/look_control.h"
+#include "ui/settings/aircraft_entry.h"
+#include "ui/window/camera_control.h"
 #include "ui/window/view_keys.h"
 #include "ui/window/viewer.h"
 
@@ -24,7 +24,7 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr double jump_s = 2.0;
+constexpr double skip_s = 2.0;
 
 void next_inset(settings::RunSettings& settings) {
     using scene::View;
@@ -69,13 +69,13 @@ bool Viewer::view_command(ViewCommand what) {
          {C::Free, View::Free}}};
     const auto view = std::ranges::find(views, what, &std::pair<C, View>::first);
     if (view != views.end()) {
-        state_.wanted = with_view(state_.wanted, view->second, session_->camera());
+        state_.next_settings = with_view(state_.next_settings, view->second, session_->camera());
     } else if (what == C::NextInset) {
-        next_inset(state_.wanted);
+        next_inset(state_.next_settings);
     } else if (what == C::ResetLook) {
-        state_.wanted = looking_straight(state_.wanted);
+        state_.next_settings = with_straight_look(state_.next_settings);
     } else if (what == C::ShowMesh) {
-        next_mesh_look(state_.wanted);
+        next_mesh_look(state_.next_settings);
     } else {
         return false;
     }
@@ -134,13 +134,13 @@ void Viewer::flight_command(ViewCommand what) {
         requests.go_to_s = playback.begin_s;
         return;
     case C::Back:
-        requests.go_to_s = playback.time_s - jump_s;
+        requests.go_to_s = playback.time_s - skip_s;
         return;
     case C::Forward:
-        requests.go_to_s = playback.time_s + jump_s;
+        requests.go_to_s = playback.time_s + skip_s;
         return;
-    case C::ByHand:
-        requests.toggle_hand = true;
+    case C::ManualFlight:
+        requests.toggle_manual_flight = true;
         return;
     case C::LevelOff:
         requests.level_off = true;
@@ -163,11 +163,11 @@ void Viewer::flight_command(ViewCommand what) {
     }
 }
 
-void Viewer::take_requests() {
+void Viewer::handle_requests() {
     const ViewRequests requests = std::exchange(state_.requests, ViewRequests());
     state_.requests.leave = requests.leave;
     state_.requests.leave_recording = requests.leave_recording;
-    take_flight_requests(requests);
+    handle_flight_requests(requests);
     if (requests.toggle_recording) {
         toggle_recording();
     }
@@ -180,18 +180,18 @@ void Viewer::take_requests() {
     if (requests.count_wrong_pixels) {
         count_wrong_pixels();
     }
-    take_file_requests(requests);
+    handle_file_requests(requests);
 }
 
-void Viewer::take_flight_requests(const ViewRequests& requests) {
+void Viewer::handle_flight_requests(const ViewRequests& requests) {
     if (listener_) {
-        if (requests.toggle_hand || requests.go_to_s) {
-            say("others fly this aircraft");
+        if (requests.toggle_manual_flight || requests.go_to_s) {
+            show_message("others fly this aircraft");
         }
         return;
     }
-    if (requests.toggle_hand) {
-        toggle_hand();
+    if (requests.toggle_manual_flight) {
+        toggle_manual_flight();
     }
     flight::Simulation& simulation = session_->simulation();
     if (requests.level_off && simulation.by_hand()) {
@@ -202,9 +202,9 @@ void Viewer::take_flight_requests(const ViewRequests& requests) {
         state_.playback.step_frame(1.0 / session_->rate_hz(), simulation.by_hand());
     }
     if (requests.go_to_s && recording_) {
-        say("a recording goes on in time: stop it first (F9)");
+        show_message("a recording goes on in time: stop it first (F9)");
     } else if (requests.go_to_s && simulation.by_hand()) {
-        say("by hand there is no path to go along: H gives it back to its path");
+        show_message("by hand there is no path to go along: H gives it back to its path");
     } else if (requests.go_to_s) {
         go_to(*requests.go_to_s);
     }
@@ -222,16 +222,16 @@ void Viewer::go_to(double time_s) {
 
 /// Gives the aircraft to the pilot or back to the path, which goes on from where it is at that
 /// time.
-void Viewer::toggle_hand() {
+void Viewer::toggle_manual_flight() {
     flight::Simulation& simulation = session_->simulation();
     if (!simulation.by_hand()) {
         simulation.advance_to(simulation.time_s());
-        const std::string aircraft = settings::shape_of(session_->settings().path.aircraft.front());
-        const sim::AircraftKind& kind = base::flown_as(aircraft);
+        const std::string aircraft = settings::aircraft_shape(session_->settings().path.aircraft.front());
+        const sim::AircraftKind& kind = base::aircraft_kind_of(aircraft);
         simulation.take_over(kind);
         state_.playback.playing = true;
         const KeyMap& keys = state_.keys;
-        say(fmt::format(
+        show_message(fmt::format(
             "by hand{}: {}, {}, {} and {} are the stick, {} and {} the throttle, {} gives it back",
             aircraft == kind.name ? "" : fmt::format(" as an {}", kind.name),
             keys.name_of(HeldAction::Pull),
@@ -240,7 +240,7 @@ void Viewer::toggle_hand() {
             keys.name_of(HeldAction::RollRight),
             keys.name_of(HeldAction::ThrottleUp),
             keys.name_of(HeldAction::ThrottleDown),
-            keys.name_of(ViewCommand::ByHand)));
+            keys.name_of(ViewCommand::ManualFlight)));
         return;
     }
     go_to(state_.playback.time_s);
@@ -249,8 +249,8 @@ void Viewer::toggle_hand() {
 /// Returns the first of the paths stem-1, stem-2, ... that does not exist yet.
 fs::path Viewer::unused_path(const std::string& stem, const std::string& ending) const {
     for (int number = 1;; ++number) {
-        const fs::path path = options_.records_into / fmt::format("{}-{}{}", stem, number, ending);
-        if (!is_there(path)) {
+        const fs::path path = options_.recordings_folder / fmt::format("{}-{}{}", stem, number, ending);
+        if (!path_exists(path)) {
             return path;
         }
     }
@@ -260,10 +260,10 @@ void Viewer::take_screenshot() {
     const fs::path file = unused_path("picture", ".png");
     try {
         session_->read_picture();
-        report::write_png(file, flight::view_of(session_->picture()));
-        say(fmt::format("picture: {}", file.string()));
+        report::write_png(file, flight::pixel_view_of(session_->picture()));
+        show_message(fmt::format("picture: {}", file.string()));
     } catch (const Error& fault) {
-        say(fault.what());
+        show_message(fault.what());
     }
 }
 
@@ -272,7 +272,7 @@ void Viewer::count_wrong_pixels() {
         const flight::PixelCheck check = flight::check_pixels(*session_);
         state_.wrong_pixels = {check.wrong, check.differing, check.pixels};
     } catch (const Error& fault) {
-        say(fault.what());
+        show_message(fault.what());
     }
 }
 
@@ -282,8 +282,8 @@ void Viewer::toggle_full_screen() {
         glfwSetWindowMonitor(
             window,
             nullptr,
-            windowed_at_.x,
-            windowed_at_.y,
+            windowed_position_.x,
+            windowed_position_.y,
             windowed_size_.x,
             windowed_size_.y,
             GLFW_DONT_CARE);
@@ -292,10 +292,10 @@ void Viewer::toggle_full_screen() {
     GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
     if (mode == nullptr) {
-        say("expected a monitor to fill, got none");
+        show_message("expected a monitor to fill, got none");
         return;
     }
-    glfwGetWindowPos(window, &windowed_at_.x, &windowed_at_.y);
+    glfwGetWindowPos(window, &windowed_position_.x, &windowed_position_.y);
     glfwGetWindowSize(window, &windowed_size_.x, &windowed_size_.y);
     glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }

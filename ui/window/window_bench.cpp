@@ -19,16 +19,16 @@ WindowTimes times_of(const std::vector<double>& frame_ms) {
     return {statistics.p50_ms, statistics.p99_ms};
 }
 
-ViewOptions unhurried(ViewOptions options) {
+ViewOptions without_vsync_and_realtime(ViewOptions options) {
     options.vsync = false;
-    options.keeps_into.clear();
+    options.config_folder.clear();
     return options;
 }
 
 } // namespace
 
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
-    Viewer viewer(unhurried(options));
+    Viewer viewer(without_vsync_and_realtime(options));
     settings::RunSettings settings = viewer.session().settings();
     settings.drawing.context = settings::ContextKind::OsMesa;
     flight::Session session(settings);
@@ -49,9 +49,9 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
         };
         timed(without, [&] { session.draw(frame); });
         viewer.state().open.shown = false;
-        timed(hidden, [&] { viewer.turn(); });
+        timed(hidden, [&] { viewer.run_frame(); });
         viewer.state().open.shown = true;
-        timed(open, [&] { viewer.turn(); });
+        timed(open, [&] { viewer.run_frame(); });
         progress.show(frame + 1);
     }
     progress.finish();

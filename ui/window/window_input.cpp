@@ -15,9 +15,9 @@ struct WindowCallbacks {
         return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
     }
 
-    static void key(GLFWwindow* window, int key, int /*scan_code*/, int action, int /*mods*/) {
-        if (action != GLFW_RELEASE) {
-            input_of(window).events_.keys.push_back({key, action == GLFW_REPEAT});
+    static void key(GLFWwindow* window, int key, int /*scan_code*/, int chosen_action, int /*mods*/) {
+        if (chosen_action != GLFW_RELEASE) {
+            input_of(window).events_.keys.push_back({key, chosen_action == GLFW_REPEAT});
         }
     }
 
@@ -53,8 +53,8 @@ bool WindowInput::is_down(int key) const {
     return key != GLFW_KEY_UNKNOWN && glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
-PadButtons WindowInput::pad_buttons() const {
-    PadButtons buttons{};
+GamepadButtons WindowInput::pad_buttons() const {
+    GamepadButtons buttons{};
     for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
         GLFWgamepadstate gamepad;
         if (glfwGetGamepadState(id, &gamepad) == GLFW_TRUE) {
@@ -67,7 +67,7 @@ PadButtons WindowInput::pad_buttons() const {
 
 PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
     PilotDevices devices;
-    const auto is_held = [&](HeldAction action) { return is_down(keys.key_of(action)); };
+    const auto is_held = [&](HeldAction chosen_action) { return is_down(keys.key_of(chosen_action)); };
     devices.keys = {
         .pull = is_held(HeldAction::Pull),
         .push = is_held(HeldAction::Push),
@@ -93,7 +93,7 @@ PilotDevices WindowInput::pilot_devices(const KeyMap& keys) const {
             int axes = 0;
             const float* const values = glfwGetJoystickAxes(id, &axes);
             devices.joystick =
-                joystick_of(keys, std::span(values, static_cast<std::size_t>(std::max(axes, 0))));
+                mapped_joystick(keys, std::span(values, static_cast<std::size_t>(std::max(axes, 0))));
         }
     }
     return devices;

@@ -43,7 +43,7 @@ public:
     WindowEvents take();
 
     /// The pointer drags the view while this button, GLFW_MOUSE_BUTTON_..., is held.
-    void look_by(int button) { look_button_ = button; }
+    void set_look_button(int button) { look_button_ = button; }
 
     /// False for a key that there is not.
     bool is_down(int key) const;
@@ -53,7 +53,7 @@ public:
     PilotDevices pilot_devices(const KeyMap& keys) const;
 
     /// Returns which buttons of the first gamepad are pressed; none where there is no gamepad.
-    PadButtons pad_buttons() const;
+    GamepadButtons pad_buttons() const;
 
     /// Returns the size of the window's picture in pixels, which is 0 while it is minimised.
     glm::ivec2 size_px() const;

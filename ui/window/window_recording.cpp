@@ -9,7 +9,7 @@
 #include "ui/flight/track_files.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
-#include "visuals/groundfile/damage_tally.h"
+#include "visuals/groundfile/tile_damage_log.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ constexpr const char* flight_name = "flight.csv";
 settings::RunSettings from_step(
     const flight::Session& session, long step, const std::filesystem::path& folder, bool by_hand) {
     settings::RunSettings settings =
-        world::as_recorded(world::with_absolute_files(session.settings()), folder);
+        world::settings_in_recording(world::with_absolute_paths(session.settings()), folder);
     settings.drawing.context = settings::ContextKind::OsMesa;
     settings.time.frames.reset();
     settings.time.seconds.reset();
@@ -62,9 +62,9 @@ report::RunInfo info_of(
     const settings::RunSettings& to_repeat,
     const std::filesystem::path& folder) {
     report::RunInfo info =
-        flight::run_info(world::with_absolute_files(session.settings()), session, folder);
+        flight::run_info(world::with_absolute_paths(session.settings()), session, folder);
     info.settings_json = settings::settings_json(to_repeat).dump(2);
-    info.facts.emplace_back(report::flown_fact, "in a window, by the clock");
+    info.facts.emplace_back(report::window_fact, "in a window, by the clock");
     return info;
 }
 
@@ -111,14 +111,14 @@ void WindowRecording::add(report::FrameRecord record, flight::Session& session) 
     const base::Stopwatch writing;
     record.frame = frames_++;
     last_time_s_ = record.sim_time_s;
-    last_hash_ = session.picture_state_hash();
+    last_hash_ = session.state_hash_of_last_picture();
     if (!by_hand_ && session.simulation().by_hand()) {
         by_hand_ = true;
         recording_.set_settings(settings::settings_json(settings_to_repeat(session)).dump(2));
     }
     if (record.sim_time_s >= next_picture_s_) {
         session.read_picture();
-        recording_.add_picture(record.frame, flight::view_of(session.picture()));
+        recording_.add_picture(record.frame, flight::pixel_view_of(session.picture()));
         next_picture_s_ += picture_every_s;
     }
     if (by_hand_ && record.wall_s - flushed_wall_s_ >= flush_every_s) {
@@ -164,7 +164,7 @@ std::string WindowRecording::finish(flight::Session& session) {
         sim::Trajectory(std::vector<sim::AircraftState>(states.begin(), states.end())),
         session.world().ground_frame.get());
     recording_.finish(
-        {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::damage_lines()});
+        {last_hash_, std::nullopt, report::read_cpu_times(), visuals::groundfile::tile_damage_messages()});
     session.simulation().stop_log();
     return flight::write_report(recording_.folder());
 }

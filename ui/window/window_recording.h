@@ -2,7 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "ui/flight/session.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -39,9 +39,9 @@ private:
     std::size_t states_to_the_end(flight::Session& session) const;
 
     long first_step_;
-    report::Recording recording_;
+    report::RecordingWriter recording_;
     bool by_hand_;
-    std::optional<GrowingFile> flight_; ///< flight.csv
+    std::optional<AppendedFile> flight_; ///< flight.csv
     std::size_t states_written_ = 0;
     int frames_ = 0;
     /// The next picture may have been simulated before the beginning of the recording.

@@ -9,7 +9,7 @@
 namespace octant::ui::world {
 
 using models::polygons::FileAxes;
-using From = AircraftAxes::From;
+using AxesSource = AircraftAxes::AxesSource;
 
 namespace {
 
@@ -33,15 +33,15 @@ glm::dvec3 up_in_file(const FileAxes& axes) {
     return axes.file_from_body({0.0, 0.0, -1.0});
 }
 
-std::string_view source_of(From from) {
-    switch (from) {
-    case From::Given:
+std::string_view source_of(AxesSource source) {
+    switch (source) {
+    case AxesSource::Given:
         return "as --axes says";
-    case From::Format:
+    case AxesSource::Format:
         return "as files of this format have it";
-    case From::Guess:
+    case AxesSource::Guess:
         return "guessed from the shape";
-    case From::Usual:
+    case AxesSource::Default:
         break;
     }
     return "taken for granted, the shape does not say";
@@ -54,17 +54,17 @@ AircraftAxes aircraft_axes(
     const std::filesystem::path& file,
     const models::TriangleMesh& mesh) {
     if (setting != automatic) {
-        return {FileAxes::from_text(setting), From::Given};
+        return {FileAxes::from_text(setting), AxesSource::Given};
     }
     if (const auto axes = models::meshfile::axes_of_format(file)) {
-        return {*axes, From::Format};
+        return {*axes, AxesSource::Format};
     }
-    const auto usual = models::meshfile::usual_axes(file);
-    const auto guessed = models::polygons::guessed_axes(mesh);
-    if (guessed && (!usual || up_in_file(*guessed) == up_in_file(*usual))) {
-        return {*guessed, From::Guess};
+    const auto default_axes = models::meshfile::default_axes_of_format(file);
+    const auto guessed = models::polygons::guess_axes(mesh);
+    if (guessed && (!default_axes || up_in_file(*guessed) == up_in_file(*default_axes))) {
+        return {*guessed, AxesSource::Guess};
     }
-    return {usual.value_or(FileAxes()), From::Usual};
+    return {default_axes.value_or(FileAxes()), AxesSource::Default};
 }
 
 void check_axes(const std::string& setting) {
@@ -73,19 +73,19 @@ void check_axes(const std::string& setting) {
     }
 }
 
-std::string in_words(const AircraftAxes& axes) {
+std::string axes_text(const AircraftAxes& axes) {
     return fmt::format(
         "nose towards {}, up {}: {}",
         axis_along(axes.axes, {1.0, 0.0, 0.0}),
         axis_along(axes.axes, {0.0, 0.0, -1.0}),
-        source_of(axes.from));
+        source_of(axes.source));
 }
 
-std::string note_of(const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (axes.from == From::Given || axes.from == From::Format) {
+std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file) {
+    if (axes.source == AxesSource::Given || axes.source == AxesSource::Format) {
         return {};
     }
-    return fmt::format("{}: {}; --axes to change", file.filename().string(), in_words(axes));
+    return fmt::format("{}: {}; --axes to change", file.filename().string(), axes_text(axes));
 }
 
 } // namespace octant::ui::world

@@ -12,10 +12,10 @@ namespace octant::ui::world {
 struct AircraftAxes {
     /// Usual: its shape does not say, so that it is taken as its format's scenes mostly lie, else
     /// as x right, y up, z back.
-    enum class From { Given, Format, Guess, Usual };
+    enum class AxesSource { Given, Format, Guess, Default };
 
     models::polygons::FileAxes axes;
-    From from = From::Usual;
+    AxesSource source = AxesSource::Default;
 };
 
 /// The setting --axes: "auto", or directions such as "right,up,back". With "auto" the format
@@ -30,9 +30,9 @@ AircraftAxes aircraft_axes(
 void check_axes(const std::string& setting);
 
 /// "nose towards -x, up +y: guessed from the shape".
-std::string in_words(const AircraftAxes& axes);
+std::string axes_text(const AircraftAxes& axes);
 
 /// What a person should be told of axes that were not given: empty for those of a format.
-std::string note_of(const AircraftAxes& axes, const std::filesystem::path& file);
+std::string axes_note(const AircraftAxes& axes, const std::filesystem::path& file);
 
 } // namespace octant::ui::world

@@ -3,7 +3,7 @@
 #include "models/polygons/file_axes.h"
 #include "models/polygons/mesh_polygons.h"
 #include "models/polygons/mtl_reader.h"
-#include "models/polygons/obj_lines.h"
+#include "models/polygons/obj_line_reader.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
@@ -12,8 +12,8 @@
 #include "ui/settings/order_cache_name.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_aircraft.h"
-#include "ui/world/model_files.h"
-#include "ui/world/order_folder.h"
+#include "ui/world/referenced_files.h"
+#include "ui/world/order_cache_folder.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/cockpit_dials.h"
@@ -43,11 +43,11 @@ namespace shading = visuals::shading;
 namespace {
 
 /// What loading comes upon beside the models.
-struct Found {
+struct LoadNotes {
     std::vector<std::string> notes;
     std::vector<std::filesystem::path> order_files;
     /// Where painting orders are kept.
-    std::optional<std::filesystem::path> order_folder;
+    std::optional<std::filesystem::path> order_cache_folder;
 
     void note(const std::vector<std::string>& more) {
         notes.insert(notes.end(), more.begin(), more.end());
@@ -71,9 +71,9 @@ struct OrderLimits {
 
 draworder::OrderedModel with_order(
     models::polygons::PolygonModel model,
-    const AircraftInputs& inputs,
+    const AircraftSources& inputs,
     const OrderLimits& most,
-    Found& found) {
+    LoadNotes& load_notes) {
     if (inputs.hidden_surface != scene::HiddenSurface::Octant ||
         model.polygons.size() > most.polygons) {
         draworder::DrawOrder order = draworder::file_order(model);
@@ -82,14 +82,14 @@ draworder::OrderedModel with_order(
     draworder::OrderOptions options;
     options.method = inputs.order_method;
     options.seconds = std::min(inputs.order_seconds, most.seconds);
-    if (!found.order_folder) {
+    if (!load_notes.order_cache_folder) {
         return draworder::ordered(std::move(model), options);
     }
     ordercache::CachedOrder cached =
-        ordercache::cached_order(*found.order_folder, std::move(model), options);
-    found.note(cached.notes);
-    if (settings::names_order_folder(inputs.order_cache)) {
-        found.order_files.push_back(cached.file);
+        ordercache::cached_order(*load_notes.order_cache_folder, std::move(model), options);
+    load_notes.note(cached.notes);
+    if (settings::is_order_cache_folder(inputs.order_cache)) {
+        load_notes.order_files.push_back(cached.file);
     }
     return std::move(cached.ordered);
 }
@@ -115,7 +115,7 @@ bool names_pictures_or_glass(std::string_view line, const std::filesystem::path&
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all
 /// triangles are the mesh of a surface, which refinement in flight serves better.
 bool is_polygon_model(const std::filesystem::path& file) {
-    if (ending_of(file) != ".obj") {
+    if (extension_of(file) != ".obj") {
         return false;
     }
     std::size_t triangles = 0;
@@ -134,18 +134,18 @@ bool is_polygon_model(const std::filesystem::path& file) {
 }
 
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
-planning::AircraftModel ready(
+planning::AircraftModel finished_model(
     models::polygons::PolygonModel model,
     const sim::AircraftKind* kind,
-    const AircraftInputs& inputs,
+    const AircraftSources& inputs,
     const OrderLimits& most,
-    Found& found) {
+    LoadNotes& load_notes) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
     const models::polygons::PolygonModel whole = model;
-    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, found);
-    found.note(ordered.notes);
+    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, load_notes);
+    load_notes.note(ordered.notes);
     std::vector<glm::vec3> normals =
-        shading::normals_of_pieces(whole, shading::corner_normals(whole), ordered.model);
+        shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
     planning::AircraftModel made = planning::aircraft_model(
         std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
     // Orders move points by a hair: the camera keeps its place however hidden surfaces are removed.
@@ -154,61 +154,61 @@ planning::AircraftModel ready(
 }
 
 models::polygons::PolygonModel
-read_polygon_model(const std::filesystem::path& file, const std::string& axes, Found& found) {
+read_polygon_model(const std::filesystem::path& file, const std::string& axes, LoadNotes& load_notes) {
     if (file.parent_path() == base::data_folder() / "models") {
         return models::polygons::read_obj(file);
     }
-    const models::polygons::FileAxes usual;
-    models::polygons::PolygonModel model = models::polygons::read_obj(file, usual);
-    models::TriangleMesh shape = models::polygons::as_triangles(model);
+    const models::polygons::FileAxes default_axes;
+    models::polygons::PolygonModel model = models::polygons::read_obj(file, default_axes);
+    models::TriangleMesh shape = models::polygons::mesh_from_polygons(model);
     for (glm::dvec3& vertex_m : shape.vertices_m) {
-        vertex_m = usual.file_from_body(vertex_m);
+        vertex_m = default_axes.file_from_body(vertex_m);
     }
     const AircraftAxes shown = aircraft_axes(axes, file, shape);
-    if (std::string note = note_of(shown, file); !note.empty()) {
-        found.notes.push_back(std::move(note));
+    if (std::string note = axes_note(shown, file); !note.empty()) {
+        load_notes.notes.push_back(std::move(note));
     }
-    return shown.axes.text() == usual.text() ? std::move(model)
+    return shown.axes.text() == default_axes.text() ? std::move(model)
                                              : models::polygons::read_obj(file, shown.axes);
 }
 
 /// The polygons that stand in for a mesh far away. Without a painting order they only throw
 /// shadows.
-planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftInputs& inputs, Found& found) {
+planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inputs, LoadNotes& load_notes) {
     if (mesh.polygons.polygons.size() <= max_polygons_of_a_mesh) {
         try {
-            return ready(
+            return finished_model(
                 mesh.polygons,
                 nullptr,
                 inputs,
                 {max_polygons_of_a_mesh, max_seconds_of_a_mesh},
-                found);
+                load_notes);
         } catch (const Error& fault) {
-            found.notes.push_back(
+            load_notes.notes.push_back(
                 fmt::format("{}; the mesh is drawn at every distance instead", fault.what()));
         }
     }
     mesh.polygons_error_m = std::numeric_limits<double>::infinity();
-    return ready(std::move(mesh.polygons), nullptr, inputs, {}, found);
+    return finished_model(std::move(mesh.polygons), nullptr, inputs, {}, load_notes);
 }
 
 planning::AircraftModel
-load_model(const std::string& name, const AircraftInputs& inputs, Found& found) {
+load_model(const std::string& name, const AircraftSources& inputs, LoadNotes& load_notes) {
     const std::filesystem::path file = base::aircraft_file(name);
     if (is_polygon_model(file)) {
-        models::polygons::PolygonModel model = read_polygon_model(file, inputs.axes, found);
-        found.note(model.notes);
-        return ready(
+        models::polygons::PolygonModel model = read_polygon_model(file, inputs.axes, load_notes);
+        load_notes.note(model.notes);
+        return finished_model(
             std::move(model),
             sim::find_aircraft_kind(name),
             inputs,
             {max_polygons_of_a_model, inputs.order_seconds},
-            found);
+            load_notes);
     }
     MeshAircraft mesh =
-        read_mesh_aircraft(file, inputs.axes, found.order_folder.value_or(std::filesystem::path()));
-    found.note(mesh.notes);
-    planning::AircraftModel model = far_model(mesh, inputs, found);
+        read_mesh_aircraft(file, inputs.axes, load_notes.order_cache_folder.value_or(std::filesystem::path()));
+    load_notes.note(mesh.notes);
+    planning::AircraftModel model = far_model(mesh, inputs, load_notes);
     add_meshes(model, mesh);
     return model;
 }
@@ -227,9 +227,9 @@ std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft)
 
 } // namespace
 
-AircraftInputs
-aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> shapes) {
-    AircraftInputs inputs{
+AircraftSources
+aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes) {
+    AircraftSources inputs{
         .shapes = std::move(shapes),
         .files = {},
         .axes = settings.path.axes,
@@ -240,41 +240,41 @@ aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> 
     for (const std::string& shape : inputs.shapes) {
         const std::filesystem::path file = base::aircraft_file(shape);
         const LineReader opened(file);
-        add_stamp(file, inputs.files);
-        for (const std::filesystem::path& named : files_named_by(file)) {
-            add_stamp(named, inputs.files);
+        add_mtime(file, inputs.files);
+        for (const std::filesystem::path& named : referenced_files(file)) {
+            add_mtime(named, inputs.files);
         }
     }
     return inputs;
 }
 
-LoadedAircraft load_aircraft(const AircraftInputs& inputs) {
+LoadedAircraft load_aircraft(const AircraftSources& inputs) {
     LoadedAircraft loaded;
     loaded.inputs = inputs;
-    Found told;
-    told.order_folder = order_folder(inputs.order_cache);
+    LoadNotes told;
+    told.order_cache_folder = order_cache_folder(inputs.order_cache);
     const auto add = [&](planning::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
     std::vector<std::string> names;
     for (const std::string& name : inputs.shapes) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        loaded.aircraft.push_back(static_cast<std::uint32_t>(found - names.begin()));
-        if (found == names.end()) {
+        const auto load_notes = std::find(names.begin(), names.end(), name);
+        loaded.aircraft.push_back(static_cast<std::uint32_t>(load_notes - names.begin()));
+        if (load_notes == names.end()) {
             names.push_back(name);
             add(load_model(name, inputs, told));
         }
     }
     for (std::uint32_t i = 0; i < names.size(); ++i) {
         const sim::AircraftKind* kind = sim::find_aircraft_kind(names[i]);
-        if (kind == nullptr || kind->plain_name.empty()) {
+        if (kind == nullptr || kind->simple_type_name.empty()) {
             continue;
         }
-        const std::string plain(kind->plain_name);
-        const auto found = std::find(names.begin(), names.end(), plain);
+        const std::string plain(kind->simple_type_name);
+        const auto load_notes = std::find(names.begin(), names.end(), plain);
         loaded.far_models.push_back(
-            {i, static_cast<std::uint32_t>(found - names.begin()), kind->plain_error_m});
-        if (found == names.end()) {
+            {i, static_cast<std::uint32_t>(load_notes - names.begin()), kind->simple_model_error_m});
+        if (load_notes == names.end()) {
             names.push_back(plain);
             add(load_model(plain, inputs, told));
         }

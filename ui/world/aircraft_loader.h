@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
-#include "ui/world/file_stamps.h"
+#include "ui/world/file_mtimes.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/scene.h"
@@ -17,28 +17,28 @@
 namespace octant::ui::world {
 
 /// What aircraft are loaded of: where all of it is the same, so are they.
-struct AircraftInputs {
+struct AircraftSources {
     /// Names or files.
     std::vector<std::string> shapes;
     /// The files of the shapes and those that these name.
-    std::vector<FileStamp> files;
+    std::vector<FileMtime> files;
     /// As PathSettings has them.
     std::string axes;
     visuals::scene::HiddenSurface hidden_surface{};
-    visuals::draworder::Method order_method{};
+    visuals::draworder::OrderMethod order_method{};
     double order_seconds = 0.0;
     std::string order_cache;
 
-    bool operator==(const AircraftInputs&) const = default;
+    bool operator==(const AircraftSources&) const = default;
 };
 
 /// Throws Error where a file cannot be opened.
-AircraftInputs
-aircraft_inputs(const settings::RunSettings& settings, std::vector<std::string> shapes);
+AircraftSources
+aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes);
 
 /// The aircraft of a run, as Scene has them.
 struct LoadedAircraft {
-    AircraftInputs inputs;
+    AircraftSources inputs;
     std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models;
     std::vector<std::uint32_t> aircraft;
     std::vector<visuals::planning::FarModel> far_models;
@@ -53,6 +53,6 @@ struct LoadedAircraft {
 
 /// Loads aircraft, and the cockpit of the first one where it has one: polygon models with their
 /// painting orders, chains of levels, and meshes, which get levels here. Throws Error.
-LoadedAircraft load_aircraft(const AircraftInputs& inputs);
+LoadedAircraft load_aircraft(const AircraftSources& inputs);
 
 } // namespace octant::ui::world

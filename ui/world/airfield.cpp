@@ -27,7 +27,7 @@ namespace heights = models::heights;
 
 namespace {
 
-GroundBelow below(const heights::HeightField& field) {
+PlacementGround placement_ground(const heights::HeightField& field) {
     return {
         [&field](double x_m, double y_m) { return field.height_at(x_m, y_m); },
         field.half_extent_m(),
@@ -35,12 +35,12 @@ GroundBelow below(const heights::HeightField& field) {
 }
 
 /// Below the beginning of a path, along the way its aircraft looks there, or near the first 15 km.
-heights::RunwayWish wish_of(const sim::Trajectory& path, double water_m) {
+heights::RunwayRequest runway_request_of(const sim::Trajectory& path, double water_m) {
     constexpr double step_m = 500.0;
     constexpr std::size_t max_places = 31;
     const sim::AircraftState& first = path.samples().front();
     const glm::dvec3 ahead = first.body_to_world * glm::dvec3(1.0, 0.0, 0.0);
-    heights::RunwayWish wish;
+    heights::RunwayRequest wish;
     wish.path_m.emplace_back(first.position_m);
     for (const sim::AircraftState& state : path.samples()) {
         const glm::dvec2 place_m(state.position_m);
@@ -59,7 +59,7 @@ void check_site(const std::optional<heights::RunwaySite>& site) {
     const std::string expected = fmt::format(
         "--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
         "needs cuttings and embankments of at most {:.0f} m",
-        heights::looked_for_within_m / 1000.0,
+        heights::runway_search_radius_m / 1000.0,
         heights::max_earthwork_m);
     if (!site) {
         throw Error(fmt::format("{}, got only water or the edge of the map", expected));
@@ -70,11 +70,11 @@ void check_site(const std::optional<heights::RunwaySite>& site) {
     }
 }
 
-std::string note_of(const heights::RunwaySite& site, const heights::RunwayWish& wish) {
+std::string note_of(const heights::RunwaySite& site, const heights::RunwayRequest& wish) {
     const std::array<std::string, 2> numbers =
         visuals::nature::runway_numbers(site.strip.heading_rad);
     std::string where = "where the path begins";
-    if (!site.is_as_wished) {
+    if (!site.matches_request) {
         const glm::dvec2 way_m =
             site.strip.place({0.5 * site.strip.length_m, 0.0}) - wish.path_m.front();
         const double bearing_deg = deg_from_rad(std::atan2(way_m.x, way_m.y));
@@ -94,21 +94,21 @@ std::string note_of(const heights::RunwaySite& site, const heights::RunwayWish& 
 
 } // namespace
 
-RunwayFinder runway_finder(
+RunwayFinder make_runway_finder(
     const settings::RunSettings& settings,
     const std::optional<LoadedPath>& script,
-    std::optional<KnownPlace>& known) {
+    std::optional<PathPlacement>& given_placement) {
     if (!settings.ground.airfield) {
         return nullptr;
     }
     return [&](const heights::HeightField& field, std::vector<std::string>& notes) {
         std::vector<std::string> told_later;
-        const GroundBelow ground = below(field);
+        const PlacementGround ground = placement_ground(field);
         const Flight first = script ? place_flight(settings, *script, ground, told_later)
                                     : live_flight(settings, ground);
-        known = {first.place_m, first.heading_rad};
+        given_placement = {first.place_m, first.heading_rad};
         const bool has_water = ellipsoid_below(field.place).is_earth();
-        const heights::RunwayWish wish = wish_of(
+        const heights::RunwayRequest wish = runway_request_of(
             first.trajectory,
             has_water ? settings.air.water_level_m : -std::numeric_limits<double>::infinity());
         const auto site = heights::runway_site(field, wish);
@@ -118,7 +118,7 @@ RunwayFinder runway_finder(
     };
 }
 
-RunwayFinder known_runway(std::shared_ptr<const heights::RunwayStrip> runway) {
+RunwayFinder fixed_runway_finder(std::shared_ptr<const heights::RunwayStrip> runway) {
     if (!runway) {
         return nullptr;
     }

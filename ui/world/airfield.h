@@ -13,13 +13,13 @@ namespace octant::ui::world {
 
 /// Finds the runway of a run where its first aircraft begins, along the way it looks, or near
 /// there; null where the settings ask for none. `script`: nothing where others fly the aircraft.
-/// `known` is set to where its path lies over the ground as it was. All must outlive it.
-RunwayFinder runway_finder(
+/// `given_placement` is set to where its path lies over the ground as it was. All must outlive it.
+RunwayFinder make_runway_finder(
     const settings::RunSettings& settings,
     const std::optional<LoadedPath>& script,
-    std::optional<KnownPlace>& known);
+    std::optional<PathPlacement>& given_placement);
 
 /// Says where it lies already; null where there is none.
-RunwayFinder known_runway(std::shared_ptr<const models::heights::RunwayStrip> runway);
+RunwayFinder fixed_runway_finder(std::shared_ptr<const models::heights::RunwayStrip> runway);
 
 } // namespace octant::ui::world

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t max_aircraft = 256;
 
 /// Throws Error with the line, which is known here alone, for an aircraft that is none.
-void check_aircraft(const flightpaths::Fields& fields, const std::string& aircraft) {
+void check_aircraft(const flightpaths::TomlFields& fields, const std::string& aircraft) {
     try {
         base::aircraft_file(aircraft);
     } catch (const Error& fault) {
@@ -25,12 +25,12 @@ void check_aircraft(const flightpaths::Fields& fields, const std::string& aircra
 
 void take_entity(const std::filesystem::path& file, const toml::node& node, EntityTable& table) {
     const toml::table& keys = *node.as_table();
-    flightpaths::Fields fields(file, keys);
-    const int type = fields.required_whole("type", 0, std::numeric_limits<std::uint16_t>::max());
+    flightpaths::TomlFields fields(file, keys);
+    const int type = fields.required_integer("type", 0, std::numeric_limits<std::uint16_t>::max());
     const std::string aircraft = fields.required_text("aircraft");
     check_aircraft(fields, aircraft);
     const int count = keys.contains("count")
-                          ? fields.required_whole("count", 1, static_cast<int>(max_aircraft))
+                          ? fields.required_integer("count", 1, static_cast<int>(max_aircraft))
                           : 1;
     fields.finish();
     if (!table.types.emplace(static_cast<std::uint16_t>(type), table.aircraft.size()).second) {
@@ -48,7 +48,7 @@ void take_entity(const std::filesystem::path& file, const toml::node& node, Enti
 EntityTable read_entity_table(const std::filesystem::path& file) {
     const toml::table root =
         flightpaths::parse_toml(file, read_text_file(file, std::size_t{1} << 20U));
-    flightpaths::Fields fields(file, root);
+    flightpaths::TomlFields fields(file, root);
     EntityTable table;
     for (const toml::node& node : fields.required_tables("entity")) {
         take_entity(file, node, table);

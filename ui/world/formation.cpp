@@ -11,7 +11,7 @@ namespace {
 
 constexpr int max_abreast = 9;
 
-int abreast_of(int aircraft) {
+int aircraft_abreast(int aircraft) {
     return aircraft <= max_abreast
                ? aircraft
                : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
@@ -20,24 +20,24 @@ int abreast_of(int aircraft) {
 } // namespace
 
 Formation::Formation(int aircraft, double largest_radius_m)
-    : abreast_(abreast_of(aircraft))
-    , lines_(aircraft <= max_abreast ? 1 : abreast_)
-    , ranks_(abreast_ / 2)
-    , aside_m_(1.7 * largest_radius_m)
-    , back_m_(0.5 * largest_radius_m) {}
+    : abreast_(aircraft_abreast(aircraft))
+    , lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_)
+    , wingmen_per_side_(abreast_ / 2)
+    , lateral_spacing_m_(1.7 * largest_radius_m)
+    , trail_spacing_m_(0.5 * largest_radius_m) {}
 
-sim::AircraftState Formation::wingman_of(const sim::AircraftState& leader, int number) const {
+sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, int number) const {
     const int place = number % abreast_;
-    const int line = number / abreast_ % lines_;
-    const int layer = number / abreast_ / lines_;
+    const int line = number / abreast_ % lines_per_layer_;
+    const int layer = number / abreast_ / lines_per_layer_;
     const double rank = (place + 1) / 2; // NOLINT(bugprone-integer-division): whole ranks
     const double side = place % 2 == 1 ? 1.0 : -1.0;
     const double heading_rad = euler_from_body_to_world(leader.body_to_world).heading_rad;
     const glm::dvec3 ahead = direction_from_heading(heading_rad);
     const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
     sim::AircraftState state = leader;
-    state.position_m += rank * (side * aside_m_ * right - back_m_ * ahead);
-    state.position_m += glm::dvec3(0.0, 0.0, line * aside_m_) - layer * 2.0 * aside_m_ * ahead;
+    state.position_m += rank * (side * lateral_spacing_m_ * right - trail_spacing_m_ * ahead);
+    state.position_m += glm::dvec3(0.0, 0.0, line * lateral_spacing_m_) - layer * 2.0 * lateral_spacing_m_ * ahead;
     return state;
 }
 
@@ -45,7 +45,7 @@ double Formation::framed_radius_m(double leader_radius_m) const {
     // The camera stands three radii behind and sees a little more than a third of a right angle to
     // either side.
     constexpr double distances_per_aside = 2.2;
-    const double distance_m = ranks_ * (distances_per_aside * aside_m_ + back_m_);
+    const double distance_m = wingmen_per_side_ * (distances_per_aside * lateral_spacing_m_ + trail_spacing_m_);
     return std::max(leader_radius_m, distance_m / 3.0);
 }
 

@@ -13,7 +13,7 @@ public:
     Formation(int aircraft, double largest_radius_m);
 
     /// State of wingman `number` (from 1) beside the leader.
-    sim::AircraftState wingman_of(const sim::AircraftState& leader, int number) const;
+    sim::AircraftState wingman_state(const sim::AircraftState& leader, int number) const;
 
     /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the
     /// leader's own radius unless the formation is too wide for it.
@@ -23,13 +23,13 @@ private:
     /// Aircraft in a line, the leader's place among them.
     int abreast_;
     /// Lines one above the other, in each layer.
-    int lines_;
+    int lines_per_layer_;
     /// Wingmen to one side of a line's middle.
-    int ranks_;
+    int wingmen_per_side_;
     /// How far a rank stands beside the one before.
-    double aside_m_;
+    double lateral_spacing_m_;
     /// How far a rank stands behind the one before.
-    double back_m_;
+    double trail_spacing_m_;
 };
 
 } // namespace octant::ui::world

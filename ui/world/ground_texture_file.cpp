@@ -12,16 +12,16 @@ namespace scene = visuals::scene;
 using scene::GroundShading;
 
 std::optional<scene::GroundTexture> load_ground_texture(
-    const landscape::GroundSource& ground,
+    const landscape::GroundTextureSource& ground,
     const settings::RunSettings& settings,
-    DrawnBy drawn_by,
+    RenderDevice device,
     std::vector<std::string>& notes) {
     const visuals::nature::Climate climate = landscape::climate_at(ground.place);
     if (settings.air.drape) {
-        const models::heights::Image drape = models::heights::laid_on_ground(
+        const models::heights::Image drape = models::heights::resampled_to_ground(
             models::heights::read_image(*settings.air.drape),
             ground.area,
-            landscape::largest_texture);
+            landscape::max_texture_size_px);
         if (!drape.note.empty()) {
             notes.push_back(drape.note);
         }
@@ -29,7 +29,7 @@ std::optional<scene::GroundTexture> load_ground_texture(
     }
     const bool textured =
         settings.air.ground_shading == GroundShading::Texture ||
-        (settings.air.ground_shading == GroundShading::Auto && drawn_by == DrawnBy::Gpu);
+        (settings.air.ground_shading == GroundShading::Auto && device == RenderDevice::Gpu);
     return textured ? std::optional(
                           landscape::ground_texture(ground.samples, settings.air, nullptr, climate))
                     : std::nullopt;

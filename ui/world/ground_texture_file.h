@@ -11,15 +11,15 @@
 namespace octant::ui::world {
 
 /// What decides whether a texture is worth its time where the settings leave it open.
-enum class DrawnBy { Processor, Gpu };
+enum class RenderDevice { Cpu, Gpu };
 
 /// The texture of the ground; nothing where it is drawn by its vertices' colours. What a person
 /// should be told goes to `notes`. The settings have passed settings::check_settings. Throws Error
 /// for a drape that cannot be read or laid over the ground.
 std::optional<visuals::scene::GroundTexture> load_ground_texture(
-    const visuals::landscape::GroundSource& ground,
+    const visuals::landscape::GroundTextureSource& ground,
     const settings::RunSettings& settings,
-    DrawnBy drawn_by,
+    RenderDevice device,
     std::vector<std::string>& notes);
 
 } // namespace octant::ui::world

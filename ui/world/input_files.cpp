@@ -7,10 +7,10 @@
 #include "sim/base/hash.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
-#include "ui/settings/flown_aircraft.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/order_cache_name.h"
 #include "ui/settings/terrain_name.h"
-#include "ui/world/model_files.h"
+#include "ui/world/referenced_files.h"
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::string hash_of_file(const fs::path& file) {
     }
     std::ifstream in(file, std::ios::binary);
     if (!in || is_folder(file)) {
-        error_in(file, "expected a file that can be read, got none");
+        throw_error_in(file, "expected a file that can be read, got none");
     }
     Hash hash;
     std::vector<char> piece(std::size_t{1} << 20);
@@ -54,7 +54,7 @@ bool is_live(const settings::RunSettings& settings) {
 }
 
 bool is_folder_or_pattern(const std::string& name) {
-    return models::heights::is_many(name) && !models::heights::is_name_within_file(name);
+    return models::heights::is_many(name) && !models::heights::is_subdataset_name(name);
 }
 
 void make_path_absolute(std::string& path, const std::string& aircraft) {
@@ -64,7 +64,7 @@ void make_path_absolute(std::string& path, const std::string& aircraft) {
 }
 
 /// The ways from a model's folder to those of the files it names that lie there or below.
-std::vector<fs::path> ways_below(const fs::path& model, const std::vector<fs::path>& named) {
+std::vector<fs::path> relative_paths_below(const fs::path& model, const std::vector<fs::path>& named) {
     const fs::path folder = fs::absolute(model).lexically_normal().parent_path();
     std::vector<fs::path> ways;
     for (const fs::path& file : named) {
@@ -108,40 +108,40 @@ struct Collector {
         }
         const fs::path own = base::data_folder();
         if (file.parent_path().parent_path() == own) {
-            files.push_back({file, file.lexically_relative(own).string(), Kept::BuiltIn});
+            files.push_back({file, file.lexically_relative(own).string(), FileLocation::BuiltIn});
         } else {
             files.push_back(
-                {file, (folder_for(file, others) / file.filename()).string(), Kept::Inside});
+                {file, (folder_for(file, others) / file.filename()).string(), FileLocation::Copied});
         }
         return true;
     }
 
-    void add_outside(const fs::path& file) {
+    void add_external(const fs::path& file) {
         if (!has(file)) {
-            files.push_back({file, file.filename().string(), Kept::Outside});
+            files.push_back({file, file.filename().string(), FileLocation::External});
         }
     }
 
     /// An aircraft and the files that it names: those beside it or in folders below are kept with
     /// it.
     void add_model(const fs::path& file) {
-        const std::vector<fs::path> named = files_named_by(file);
-        const std::vector<fs::path> below = ways_below(file, named);
+        const std::vector<fs::path> named = referenced_files(file);
+        const std::vector<fs::path> below = relative_paths_below(file, named);
         if (!add(file, below)) {
             return;
         }
         const InputFile model = files.back();
         for (const fs::path& way : below) {
-            const std::string kept = (fs::path(model.name).parent_path() / way).string();
-            if (!has_name(kept)) {
-                files.push_back({file.parent_path() / way, kept, model.kept});
+            const std::string location = (fs::path(model.name).parent_path() / way).string();
+            if (!has_name(location)) {
+                files.push_back({file.parent_path() / way, location, model.location});
             }
         }
         for (const fs::path& other : named) {
             if (std::ranges::none_of(below, [&](const fs::path& way) {
                     return (fs::absolute(file).parent_path() / way).lexically_normal() == other;
                 })) {
-                add_outside(other);
+                add_external(other);
             }
         }
     }
@@ -163,7 +163,7 @@ std::vector<fs::path> ground_files(const std::string& terrain) {
     }
     std::vector<fs::path> files;
     for (const fs::path& map : models::heights::map_inputs({terrain})) {
-        for (const fs::path& file : models::heights::files_behind(map)) {
+        for (const fs::path& file : models::heights::referenced_files(map)) {
             if (is_file(file) && std::ranges::find(files, file) == files.end()) {
                 files.push_back(file);
             }
@@ -172,14 +172,14 @@ std::vector<fs::path> ground_files(const std::string& terrain) {
     return files;
 }
 
-settings::RunSettings with_absolute_files(settings::RunSettings settings) {
+settings::RunSettings with_absolute_paths(settings::RunSettings settings) {
     // A name that is built in comes first everywhere, also where a file of that name lies about.
-    const std::string pilot = settings::shape_of(settings.path.aircraft.front());
+    const std::string pilot = settings::aircraft_shape(settings.path.aircraft.front());
     if (!is_live(settings)) {
         make_path_absolute(settings.path.name, pilot);
     }
     for (std::string& name : settings.path.aircraft) {
-        settings::FlownAircraft flown = settings::flown_aircraft(name);
+        settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
         if (base::aircraft_file(flown.shape) == flown.shape) {
             flown.shape = absolute(flown.shape);
         }
@@ -198,7 +198,7 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
     if (settings.air.drape) {
         settings.air.drape = absolute(*settings.air.drape);
     }
-    if (settings::names_order_folder(settings.surface.order_cache)) {
+    if (settings::is_order_cache_folder(settings.surface.order_cache)) {
         settings.surface.order_cache = absolute(settings.surface.order_cache);
     }
     return settings;
@@ -207,24 +207,24 @@ settings::RunSettings with_absolute_files(settings::RunSettings settings) {
 std::vector<InputFile> input_files(const settings::RunSettings& settings) {
     Collector found;
     if (!is_live(settings)) {
-        const std::string pilot = settings::shape_of(settings.path.aircraft.front());
+        const std::string pilot = settings::aircraft_shape(settings.path.aircraft.front());
         found.add(base::path_file(settings.path.name, pilot));
     }
     for (const std::string& name : settings.path.aircraft) {
-        const settings::FlownAircraft flown = settings::flown_aircraft(name);
+        const settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
         found.add_model(base::aircraft_file(flown.shape));
         if (flown.path) {
             found.add(base::path_file(*flown.path, flown.shape));
         }
     }
     for (const fs::path& file : ground_files(settings.path.terrain)) {
-        found.add_outside(file);
+        found.add_external(file);
     }
     if (names_system_file(settings)) {
         found.add(*settings.path.terrain_system);
     }
     if (settings.air.drape) {
-        found.add_outside(*settings.air.drape);
+        found.add_external(*settings.air.drape);
     }
     return std::move(found.files);
 }
@@ -238,12 +238,12 @@ input_hashes(const settings::RunSettings& settings) {
     return hashes;
 }
 
-settings::RunSettings as_recorded(const settings::RunSettings& settings, const fs::path& folder) {
+settings::RunSettings settings_in_recording(const settings::RunSettings& settings, const fs::path& folder) {
     const std::vector<InputFile> inputs = input_files(settings);
     const fs::path from = fs::absolute(folder).lexically_normal();
     for (const InputFile& input : inputs) {
         const fs::path way = absolute_path(input.file).lexically_relative(from / inputs_folder);
-        if (input.kept == Kept::Outside && !way.empty() && *way.begin() != "..") {
+        if (input.location == FileLocation::External && !way.empty() && *way.begin() != "..") {
             throw Error(fmt::format(
                 "--record: expected another folder than that of the run's own '{}', got '{}'",
                 printable(input.name),
@@ -253,10 +253,10 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
     const auto rename = [&](std::string& name) {
         const auto found = std::ranges::find_if(
             inputs, [&](const InputFile& input) { return input.file == fs::path(name); });
-        if (found != inputs.end() && found->kept == Kept::Inside) {
+        if (found != inputs.end() && found->location == FileLocation::Copied) {
             name = found->name;
         } else if (
-            (found != inputs.end() && found->kept == Kept::Outside) ||
+            (found != inputs.end() && found->location == FileLocation::External) ||
             (found == inputs.end() && fs::path(name).is_absolute())) {
             name = fs::absolute(name).lexically_normal().lexically_proximate(from).string();
         }
@@ -264,7 +264,7 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
     settings::RunSettings renamed = settings;
     rename(renamed.path.name);
     for (std::string& name : renamed.path.aircraft) {
-        settings::FlownAircraft flown = settings::flown_aircraft(name);
+        settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
         rename(flown.shape);
         if (flown.path) {
             rename(*flown.path);
@@ -278,29 +278,29 @@ settings::RunSettings as_recorded(const settings::RunSettings& settings, const f
     if (renamed.air.drape) {
         rename(*renamed.air.drape);
     }
-    if (settings::names_order_folder(renamed.surface.order_cache)) {
+    if (settings::is_order_cache_folder(renamed.surface.order_cache)) {
         renamed.surface.order_cache = (fs::path(inputs_folder) / "orders").string();
     }
     return renamed;
 }
 
-KeptFiles
-files_to_keep(const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
+CopiedFiles
+files_to_copy(const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
     constexpr std::size_t largest_bytes = std::size_t{1} << 30;
-    KeptFiles kept;
+    CopiedFiles location;
     for (const InputFile& input : input_files(settings)) {
-        if (input.kept == Kept::Inside) {
-            kept.emplace_back(input.name, read_file(input.file, largest_bytes));
+        if (input.location == FileLocation::Copied) {
+            location.emplace_back(input.name, read_file(input.file, largest_bytes));
         }
     }
     for (const fs::path& file : order_files) {
         if (is_file(file)) { // one that could not be written was told
-            kept.emplace_back(
+            location.emplace_back(
                 (fs::path(inputs_folder) / "orders" / file.filename()).string(),
                 read_file(file, largest_bytes));
         }
     }
-    return kept;
+    return location;
 }
 
 } // namespace octant::ui::world

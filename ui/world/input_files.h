@@ -11,16 +11,16 @@ namespace octant::ui::world {
 
 /// The settings with every file in them by its absolute name, so that they mean the same in any
 /// folder.
-settings::RunSettings with_absolute_files(settings::RunSettings settings);
+settings::RunSettings with_absolute_paths(settings::RunSettings settings);
 
 /// Where a recording has a file that its run reads.
-enum class Kept {
+enum class FileLocation {
     /// A copy lies in the recording.
-    Inside,
+    Copied,
     /// The file lies in the program's own folder.
     BuiltIn,
     /// The file is too large to copy: a terrain, which is known by its hash.
-    Outside
+    External
 };
 
 /// A file that a run reads.
@@ -29,7 +29,7 @@ struct InputFile {
     /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the
     /// file's own name.
     std::string name;
-    Kept kept = Kept::Inside;
+    FileLocation location = FileLocation::Copied;
 };
 
 /// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain
@@ -47,14 +47,14 @@ input_hashes(const settings::RunSettings& settings);
 /// The settings as a recording in that folder has them: files by their names inside it, those
 /// outside by the way to them from there. settings::read_settings finds them again.
 settings::RunSettings
-as_recorded(const settings::RunSettings& settings, const std::filesystem::path& folder);
+settings_in_recording(const settings::RunSettings& settings, const std::filesystem::path& folder);
 
 /// Copies of files that are to lie in a recording: their names in it and their bytes.
-using KeptFiles = std::vector<std::pair<std::string, std::string>>;
+using CopiedFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads what as_recorded() names inside the recording, and the painting orders that were used.
+/// Reads what settings_in_recording() names inside the recording, and the painting orders that were used.
 /// Throws Error.
-KeptFiles files_to_keep(
+CopiedFiles files_to_copy(
     const settings::RunSettings& settings, const std::vector<std::filesystem::path>& order_files);
 
 } // namespace octant::ui::world

@@ -40,7 +40,7 @@ constexpr std::array libraries{
     Library{"osg", "OpenSceneGraph", ".flt .ive .osg .osgb .osgt"}};
 
 const Library* library_of(const fs::path& file) {
-    const std::string ending = ending_of(file);
+    const std::string ending = extension_of(file);
     for (const Library& library : libraries) {
         const auto endings = split_words(library.endings);
         if (std::ranges::find(endings, ending) != endings.end()) {
@@ -51,13 +51,13 @@ const Library* library_of(const fs::path& file) {
 }
 
 /// In the reader's own words where it told what it expected; else it crashed or met its limits.
-[[noreturn]] void refuse(const fs::path& file, const Library& library, std::string_view complaint) {
-    if (const std::string named = file.string() + ": "; complaint.starts_with(named)) {
-        complaint.remove_prefix(named.size());
+[[noreturn]] void refuse(const fs::path& file, const Library& library, std::string_view error_line) {
+    if (const std::string named = file.string() + ": "; error_line.starts_with(named)) {
+        error_line.remove_prefix(named.size());
     }
     constexpr std::size_t longest = 300;
-    const std::string words = one_line(complaint.substr(0, longest));
-    error_in(
+    const std::string words = one_line(error_line.substr(0, longest));
+    throw_error_in(
         file,
         words.starts_with("expected ")
             ? words
@@ -110,19 +110,19 @@ read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& opt
     const Library& library = *library_of(file);
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
-        error_in(file, "expected a file that can be read, got none");
+        throw_error_in(file, "expected a file that can be read, got none");
     }
     if (fs::file_size(file, ignored) > largest_bytes) {
-        error_in(file, fmt::format("expected at most {} bytes, got more", largest_bytes));
+        throw_error_in(file, fmt::format("expected at most {} bytes, got more", largest_bytes));
     }
     const fs::path program = reader_program();
     if (program.empty()) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected a build with {} for {} files, got one without",
                 library.name,
-                ending_of(file)));
+                extension_of(file)));
     }
     const ShortFolder folder;
     const fs::path out = folder.path() / "mesh.obj";
@@ -134,11 +134,11 @@ read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& opt
          file.string(),
          out.string()});
     if (!child) {
-        error_in(program, "expected a program that can be run, got another file");
+        throw_error_in(program, "expected a program that can be run, got another file");
     }
-    const report::ProgramEnding ending = child->finish();
+    const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) {
-        refuse(file, library, ending.last_complaint);
+        refuse(file, library, ending.last_error_line);
     }
     models::TriangleMesh mesh = models::meshfile::read_mesh(out);
     mesh.name = file.stem().string();

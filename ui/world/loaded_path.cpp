@@ -1,6 +1,6 @@
 #include "ui/world/loaded_path.h"
 
-#include "flightpaths/acmi_tape.h"
+#include "flightpaths/acmi_recording.h"
 #include "flightpaths/path_script.h"
 #include "flightpaths/recorded_track.h"
 #include "sim/aircraft_kind.h"
@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 /// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
 constexpr double track_clearance_m = 50.0;
 
-const sim::AircraftKind& flown_kind(const flightpaths::PathScript& script) {
+const sim::AircraftKind& aircraft_kind_of_path(const flightpaths::PathScript& script) {
     try {
         return sim::aircraft_kind(script.aircraft);
     } catch (const Error& fault) {
-        error_at(script.file, script.aircraft_line, fault.what());
+        throw_error_at(script.file, script.aircraft_line, fault.what());
     }
 }
 
@@ -70,7 +70,7 @@ LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape
 }
 
 /// A tape as it is, or the first one in a zip file.
-std::string tape_text(const fs::path& file) {
+std::string tacview_note(const fs::path& file) {
     constexpr std::size_t largest_tape = std::size_t{256} << 20;
     const std::string bytes = read_file(file, largest_tape);
     if (!bytes.starts_with("PK")) {
@@ -78,16 +78,16 @@ std::string tape_text(const fs::path& file) {
     }
     const std::vector<report::ZipEntry> entries = report::zip_entries(file);
     const auto tape = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
-        return ending_of(entry.name) == ".acmi" || ending_of(entry.name) == ".txt";
+        return extension_of(entry.name) == ".acmi" || extension_of(entry.name) == ".txt";
     });
     if (tape == entries.end() || tape->bytes > largest_tape) {
-        error_in(file, "expected a tape of at most 256 MiB in it (.acmi), got none");
+        throw_error_in(file, "expected a tape of at most 256 MiB in it (.acmi), got none");
     }
     return report::zip_text(file, tape->name, largest_tape);
 }
 
 /// The known aircraft that has this type in Tacview, the first one for any other.
-const sim::AircraftKind& shown_as(const std::string& type) {
+const sim::AircraftKind& aircraft_for_type(const std::string& type) {
     const auto tags = split_fields(type, '+');
     const auto kinds = sim::aircraft_kinds();
     const auto same = std::ranges::find_if(kinds, [&](const sim::AircraftKind& kind) {
@@ -100,27 +100,27 @@ const sim::AircraftKind& shown_as(const std::string& type) {
 }
 
 /// What a person should be told of who is who.
-std::string note_of(const flightpaths::TapedAircraft& first, const std::string& shape) {
-    const std::string_view usual = shown_as(first.type).name;
+std::string note_of(const flightpaths::RecordedAircraft& first, const std::string& shape) {
+    const std::string_view type_name = aircraft_for_type(first.type).name;
     return fmt::format(
         "{}{}{} is followed, as {}{}",
         printable(first.name.empty() ? "an aircraft" : first.name),
         first.type.empty() ? "" : ", ",
         printable(first.type),
         printable(shape),
-        shape == usual ? "" : fmt::format("; --aircraft {} is of its type", usual));
+        shape == type_name ? "" : fmt::format("; --aircraft {} is of its type", type_name));
 }
 
-LoadedPath from_tape(const fs::path& file, const std::string& shape) {
-    flightpaths::AcmiTape tape = flightpaths::acmi_tape(tape_text(file), file);
+LoadedPath from_tacview(const fs::path& file, const std::string& shape) {
+    flightpaths::AcmiRecording tape = flightpaths::parse_acmi(tacview_note(file), file);
     LoadedPath loaded =
         from_track({std::move(tape.aircraft.front().trajectory), tape.origin, {}}, shape);
     loaded.is_tape = true;
     loaded.notes = std::move(tape.notes);
     loaded.notes.push_back(note_of(tape.aircraft.front(), shape));
     for (std::size_t i = 1; i < tape.aircraft.size(); ++i) {
-        loaded.others.push_back(std::move(tape.aircraft[i].trajectory));
-        loaded.other_shapes.emplace_back(shown_as(tape.aircraft[i].type).name);
+        loaded.other_trajectories.push_back(std::move(tape.aircraft[i].trajectory));
+        loaded.other_aircraft.emplace_back(aircraft_for_type(tape.aircraft[i].type).name);
     }
     return loaded;
 }
@@ -129,14 +129,14 @@ LoadedPath from_tape(const fs::path& file, const std::string& shape) {
 
 LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient) {
     const fs::path file = base::path_file(path, shape);
-    if (ending_of(file) == ".acmi") {
-        return from_tape(file, shape);
+    if (extension_of(file) == ".acmi") {
+        return from_tacview(file, shape);
     }
     if (file.extension() != ".toml") {
         return from_track(flightpaths::read_recorded_track(file), shape);
     }
     const flightpaths::PathScript script = flightpaths::read_path_script(file);
-    const sim::AircraftKind& kind = flown_kind(script);
+    const sim::AircraftKind& kind = aircraft_kind_of_path(script);
     flightpaths::FlownPath flown = flightpaths::fly(script, kind, lenient);
     note_what_flies(path, shape, kind, flown.notes);
     return {

@@ -2,7 +2,7 @@
 
 #include "flightpaths/fly_script.h"
 #include "sim/aircraft_limits.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 
@@ -21,13 +21,13 @@ struct LoadedPath {
     std::optional<sim::AircraftLimits> limits;
     /// That of a track which knows where it was flown: its axes are a TransverseMercator frame's
     /// there.
-    std::optional<GeoPlace> origin;
-    std::vector<flightpaths::LegBegin> legs;
+    std::optional<GeoPosition> origin;
+    std::vector<flightpaths::LegStart> legs;
     std::vector<std::string> notes;
     /// Of a tape with several aircraft, those that fly beside this one, in its axes and by its
     /// clock, and the built-in aircraft that each is shown as.
-    std::vector<sim::Trajectory> others;
-    std::vector<std::string> other_shapes;
+    std::vector<sim::Trajectory> other_trajectories;
+    std::vector<std::string> other_aircraft;
     bool is_tape = false;
 };
 

@@ -6,10 +6,10 @@
 #include "ui/base/stopwatch.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/library_mesh.h"
-#include "ui/world/mesh_input.h"
-#include "ui/world/prepared_meshes.h"
-#include "ui/world/refine_input.h"
-#include "ui/world/turning_parts.h"
+#include "ui/world/mesh_loader.h"
+#include "ui/world/refine_mesh_cache.h"
+#include "ui/world/refine_mesh.h"
+#include "ui/world/body_axes.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
@@ -34,7 +34,7 @@ constexpr std::size_t far_faces = 250;
 
 std::shared_ptr<const refine::ProgressiveMesh>
 turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
-    refine::ProgressiveParts parts = mesh.whole_parts();
+    refine::ProgressiveMeshData parts = mesh.full_data();
     parts.origin_m = axes.body_from_file(parts.origin_m);
     for (glm::vec3& position_m : parts.positions_m) {
         position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));
@@ -69,7 +69,7 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
 
 /// Tells where nose and top were found.
 void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::filesystem::path& file) {
-    if (std::string note = note_of(axes, file); !note.empty()) {
+    if (std::string note = axes_note(axes, file); !note.empty()) {
         aircraft.notes.push_back(std::move(note));
     }
 }
@@ -78,21 +78,21 @@ void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::files
 /// `aircraft`, in axes of the file.
 RefineMesh hierarchy_in(
     const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
-    const RefineInput input{.file = file.string(), .base = 0, .quiet = true};
+    const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
     if (refine::is_progressive_file(file)) {
         return read_refine_mesh(input);
     }
     const meshfile::ReadOptions options{.pictures = true, .backs = true};
-    meshfile::TurningModel model;
-    if (is_there(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
-        model = meshfile::read_turning_model(file, options);
+    meshfile::RotatingModel model;
+    if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
+        model = meshfile::read_rotating_model(file, options);
         aircraft.turning = std::move(model.parts);
         aircraft.clear = std::move(model.clear);
     } else {
-        model.body = read_mesh_input(input.file, options);
+        model.body = load_mesh(input.file, options);
     }
-    return cache.empty() ? made_refine_mesh(input, std::move(model.body))
-                         : prepared_refine_mesh(cache, input, std::move(model.body));
+    return cache.empty() ? make_refine_mesh(input, std::move(model.body))
+                         : cached_refine_mesh(cache, input, std::move(model.body));
 }
 
 MeshAircraft from_hierarchy(
@@ -112,15 +112,15 @@ MeshAircraft from_hierarchy(
     loosely.samples = 0;
     aircraft.polygons_error_m =
         measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
-    aircraft.polygons = models::polygons::as_polygons(far);
-    for (meshfile::TurningPart& part : aircraft.turning) {
-        turn_part(part, axes.axes);
+    aircraft.polygons = models::polygons::polygons_from_mesh(far);
+    for (meshfile::RotatingPart& part : aircraft.turning) {
+        rotate_part_to_body(part, axes.axes);
     }
-    turn_mesh(aircraft.clear.mesh, axes.axes);
+    rotate_mesh_to_body(aircraft.clear.mesh, axes.axes);
     aircraft.polygons_error_m = std::max(
         {aircraft.polygons_error_m,
          add_far_parts(aircraft.turning, aircraft.polygons),
-         add_far_clear(aircraft.clear.mesh, aircraft.polygons)});
+         add_far_transparent(aircraft.clear.mesh, aircraft.polygons)});
     if (!aircraft.turning.empty()) {
         aircraft.notes.push_back(
             fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
@@ -141,7 +141,7 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
     MeshAircraft aircraft;
     add_note(aircraft, found, file);
     aircraft.polygons = chain.polygons ? std::move(*chain.polygons)
-                                       : models::polygons::as_polygons(chain.levels.back().mesh);
+                                       : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
     aircraft.polygons_error_m =
         chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
     for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
@@ -153,7 +153,7 @@ MeshAircraft from_chain(const std::filesystem::path& file, const std::string& se
     }
     for (meshfile::ChainLevel& level : chain.levels) {
         if (level.error_m < aircraft.polygons_error_m) {
-            turn_mesh(level.mesh, axes);
+            rotate_mesh_to_body(level.mesh, axes);
             aircraft.levels.push_back(std::move(level));
         }
     }
@@ -174,7 +174,7 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
         std::vector<planning::TurningMesh> parts;
-        for (const meshfile::TurningPart& part : aircraft.turning) {
+        for (const meshfile::RotatingPart& part : aircraft.turning) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
         }
         planning::add_turning(model, parts);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/meshfile/level_chain.h"
-#include "models/meshfile/turning_model.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/polygons/polygon_model.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/progressive_mesh.h"
@@ -21,9 +21,9 @@ struct MeshAircraft {
     /// Null where there are levels.
     std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
     /// What turns beside the hierarchy; its pivots are those of the polygons.
-    std::vector<models::meshfile::TurningPart> turning;
+    std::vector<models::meshfile::RotatingPart> turning;
     /// Surfaces that are seen through, which the hierarchy leaves out; often none.
-    models::meshfile::ClearSurfaces clear;
+    models::meshfile::TransparentSurfaces clear;
     /// What is drawn of it far away.
     models::polygons::PolygonModel polygons;
     /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.

@@ -25,10 +25,10 @@ double first_time_s(const RunSettings& settings, const sim::Trajectory& path) {
 
 } // namespace
 
-void PictureTimes::cut_to(std::size_t frames) {
-    if (frames < at_s.size()) {
-        at_s.resize(frames);
-        until_s = at_s.back();
+void PictureTimes::truncate_to(std::size_t frames) {
+    if (frames < times_s.size()) {
+        times_s.resize(frames);
+        last_step_s = times_s.back();
     }
 }
 
@@ -37,24 +37,24 @@ PictureTimes picture_times_of(const RunSettings& settings, const Flight& flight)
     const double from_s = first_time_s(settings, path);
     PictureTimes times;
     times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
-    times.until_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds)
+    times.last_step_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds)
                                           : path.end_s();
     if (settings.time.frame_per_sample) {
         const double half_frame_s = 0.5 / times.rate_hz;
         for (const sim::AircraftState& sample : path.samples()) {
-            if (sample.time_s >= from_s && sample.time_s <= times.until_s + half_frame_s) {
-                times.at_s.push_back(sample.time_s);
+            if (sample.time_s >= from_s && sample.time_s <= times.last_step_s + half_frame_s) {
+                times.times_s.push_back(sample.time_s);
             }
         }
     } else {
         const auto count =
-            static_cast<long>(std::floor((times.until_s - from_s) * times.rate_hz + 1e-6)) + 1;
+            static_cast<long>(std::floor((times.last_step_s - from_s) * times.rate_hz + 1e-6)) + 1;
         for (long frame = 0; frame < count; ++frame) {
-            times.at_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
+            times.times_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
         }
     }
     if (settings.time.frames) {
-        times.cut_to(static_cast<std::size_t>(*settings.time.frames));
+        times.truncate_to(static_cast<std::size_t>(*settings.time.frames));
     }
     return times;
 }

@@ -11,13 +11,13 @@ namespace octant::ui::world {
 /// When the pictures of a run are taken.
 struct PictureTimes {
     /// At least one.
-    std::vector<double> at_s;
+    std::vector<double> times_s;
     double rate_hz = 0.0;
     /// The time of the last simulation step of the run.
-    double until_s = 0.0;
+    double last_step_s = 0.0;
 
     /// Leaves the first so many, at least one; does nothing where there are no more.
-    void cut_to(std::size_t frames);
+    void truncate_to(std::size_t frames);
 };
 
 /// Throws Error when the run would start behind the path's end.

@@ -1,13 +1,13 @@
 #include "ui/world/placed_flight.h"
 
-#include "flightpaths/carried_path.h"
+#include "flightpaths/reprojected_path.h"
 #include "flightpaths/placement.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/transverse_mercator.h"
 #include "sim/base/units.h"
-#include "ui/world/place_text.h"
+#include "ui/world/path_origin_text.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -22,19 +22,19 @@ namespace octant::ui::world {
 namespace {
 
 /// Whether a track lies over this ground where it was flown.
-bool lies_at_its_place(
-    const settings::RunSettings& settings, const LoadedPath& loaded, const GroundBelow& ground) {
+bool has_own_origin(
+    const settings::RunSettings& settings, const LoadedPath& loaded, const PlacementGround& ground) {
     return loaded.origin && ground.frame && !settings.path.place;
 }
 
 /// A track that lies over this ground where it was flown, in the ground's axes; another one as it
 /// is.
 LoadedPath in_axes_of(
-    const GroundBelow& ground,
+    const PlacementGround& ground,
     const settings::RunSettings& settings,
     LoadedPath loaded,
     std::vector<std::string>& notes) {
-    if (lies_at_its_place(settings, loaded, ground)) {
+    if (has_own_origin(settings, loaded, ground)) {
         const TransverseMercator own(*loaded.origin);
         const Ellipsoid ellipsoid = ground.frame->origin().ellipsoid;
         if (!ellipsoid.is_earth()) {
@@ -42,21 +42,21 @@ LoadedPath in_axes_of(
                 "the track's latitudes and longitudes are taken as places on {}",
                 name_of_body(ellipsoid)));
         }
-        loaded.trajectory = flightpaths::carried(loaded.trajectory, own, *ground.frame);
-        for (sim::Trajectory& other : loaded.others) {
-            other = flightpaths::carried(other, own, *ground.frame);
+        loaded.trajectory = flightpaths::reprojected(loaded.trajectory, own, *ground.frame);
+        for (sim::Trajectory& other : loaded.other_trajectories) {
+            other = flightpaths::reprojected(other, own, *ground.frame);
         }
     }
     return loaded;
 }
 
-flightpaths::Placement placement_of(
-    const settings::RunSettings& settings, const LoadedPath& loaded, const GroundBelow& ground) {
-    flightpaths::Placement placement;
-    const bool at_its_own_place = lies_at_its_place(settings, loaded, ground);
+flightpaths::PlacementOptions placement_of(
+    const settings::RunSettings& settings, const LoadedPath& loaded, const PlacementGround& ground) {
+    flightpaths::PlacementOptions placement;
+    const bool at_its_own_place = has_own_origin(settings, loaded, ground);
     if (settings.path.place) {
         placement.place_m =
-            place_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
+            path_origin_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
     } else if (at_its_own_place) {
         placement.place_m = ground.frame->local_from_geo(*loaded.origin);
         placement.heading_rad = 0.0;
@@ -70,7 +70,7 @@ flightpaths::Placement placement_of(
         throw Error(fmt::format(
             "--height-mode follow: expected an aircraft with known limits beside a recorded track, "
             "got '{}'",
-            printable(settings::shape_of(settings.path.aircraft.front()))));
+            printable(settings::aircraft_shape(settings.path.aircraft.front()))));
     }
     return placement;
 }
@@ -82,7 +82,7 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
 /// A tape's aircraft may stand on a ground that lies a little lower than ours: where its heights
 /// meet ours, all of the tape is lifted clear, and a note says so.
 flightpaths::PlacedPath
-placed(const LoadedPath& loaded, flightpaths::Placement placement, const GroundBelow& ground) {
+placed_path(const LoadedPath& loaded, flightpaths::PlacementOptions placement, const PlacementGround& ground) {
     if (!loaded.is_tape || placement.mode != sim::HeightMode::Datum) {
         return flightpaths::place_over_ground(
             loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
@@ -106,11 +106,11 @@ placed(const LoadedPath& loaded, flightpaths::Placement placement, const GroundB
 flightpaths::PlacedPath placed_by_name(
     const std::string& name,
     const LoadedPath& loaded,
-    const flightpaths::Placement& placement,
-    const GroundBelow& ground) {
+    const flightpaths::PlacementOptions& placement,
+    const PlacementGround& ground) {
     try {
-        return placed(loaded, placement, ground);
-    } catch (const flightpaths::LeavesMap& fault) {
+        return placed_path(loaded, placement, ground);
+    } catch (const flightpaths::OutsideMapError& fault) {
         throw Error(fmt::format(
             "{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, and "
             "--terrain none has no end",
@@ -124,7 +124,7 @@ flightpaths::PlacedPath placed_by_name(
 }
 
 /// A path as it is flown from another time on.
-sim::Trajectory begun_at(const sim::Trajectory& path, double time_s) {
+sim::Trajectory starting_at_time(const sim::Trajectory& path, double time_s) {
     std::vector<sim::AircraftState> samples(path.samples().begin(), path.samples().end());
     for (sim::AircraftState& state : samples) {
         state.time_s += time_s - path.start_s();
@@ -135,23 +135,23 @@ sim::Trajectory begun_at(const sim::Trajectory& path, double time_s) {
 } // namespace
 
 std::string path_of(const settings::RunSettings& settings) {
-    return settings::flown_aircraft(settings.path.aircraft.front())
+    return settings::parse_aircraft_entry(settings.path.aircraft.front())
         .path.value_or(settings.path.name);
 }
 
-GroundBelow below(const SceneGround& ground) {
+PlacementGround placement_ground(const SceneGround& ground) {
     return {
         [&ground](double x_m, double y_m) { return ground.ground->height_at(x_m, y_m); },
         ground.ground->half_extent_m(),
         ground.frame};
 }
 
-Flight live_flight(const settings::RunSettings& settings, const GroundBelow& ground) {
+Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground) {
     constexpr double above_ground_m = 300.0;
     constexpr double usual_rate_hz = 60.0;
     glm::dvec2 place_m(0.0);
     if (settings.path.place) {
-        place_m = place_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
+        place_m = path_origin_from_text(*settings.path.place, ground.frame.get(), ground.half_extent_m);
     }
     sim::AircraftState state;
     const double ground_m = ground.height_at(place_m.x, place_m.y).value_or(0.0);
@@ -165,26 +165,26 @@ Flight live_flight(const settings::RunSettings& settings, const GroundBelow& gro
         .place_m = place_m,
         .lowest_clearance_m = above_ground_m,
         .legs = {},
-        .others = {}};
+        .other_trajectories = {}};
 }
 
 Flight place_flight(
     const settings::RunSettings& settings,
     LoadedPath loaded,
-    const GroundBelow& ground,
+    const PlacementGround& ground,
     std::vector<std::string>& notes,
-    const std::optional<KnownPlace>& known) {
+    const std::optional<PathPlacement>& given_placement) {
     loaded = in_axes_of(ground, settings, std::move(loaded), notes);
-    flightpaths::Placement placement = placement_of(settings, loaded, ground);
-    if (known) {
-        placement.place_m = known->place_m;
-        placement.heading_rad = known->heading_rad;
+    flightpaths::PlacementOptions placement = placement_of(settings, loaded, ground);
+    if (given_placement) {
+        placement.place_m = given_placement->place_m;
+        placement.heading_rad = given_placement->heading_rad;
     }
     flightpaths::PlacedPath path = placed_by_name(path_of(settings), loaded, placement, ground);
     add(notes, path.notes);
-    std::map<std::size_t, sim::Trajectory> others;
-    for (std::size_t i = 0; i < loaded.others.size(); ++i) {
-        others.emplace(i + 1, flightpaths::placed_beside(loaded.others[i], path));
+    std::map<std::size_t, sim::Trajectory> other_trajectories;
+    for (std::size_t i = 0; i < loaded.other_trajectories.size(); ++i) {
+        other_trajectories.emplace(i + 1, flightpaths::with_same_placement(loaded.other_trajectories[i], path));
     }
     const auto stem = [](const std::string& name) {
         return std::filesystem::path(name).stem().string();
@@ -193,7 +193,7 @@ Flight place_flight(
         .trajectory = std::move(path.trajectory),
         .title = fmt::format(
             "{} {} over {}",
-            stem(settings::shape_of(settings.path.aircraft.front())),
+            stem(settings::aircraft_shape(settings.path.aircraft.front())),
             stem(path_of(settings)),
             stem(settings.path.terrain)),
         .rate_hz = loaded.rate_hz,
@@ -203,21 +203,21 @@ Flight place_flight(
         .lowest_clearance_m = path.lowest_clearance_m,
         .lowest_clearance_s = path.lowest_clearance_at_s,
         .legs = std::move(loaded.legs),
-        .others = std::move(others)};
+        .other_trajectories = std::move(other_trajectories)};
 }
 
 sim::Trajectory own_path(
     const settings::RunSettings& settings,
-    const settings::FlownAircraft& flown,
+    const settings::AircraftEntry& flown,
     const glm::dvec2& begin_m,
-    const GroundBelow& ground,
+    const PlacementGround& ground,
     const Flight& first,
     std::vector<std::string>& notes) {
     const LoadedPath loaded = in_axes_of(
         ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
     add(notes, loaded.notes);
-    flightpaths::Placement placement = placement_of(settings, loaded, ground);
-    if (!lies_at_its_place(settings, loaded, ground)) {
+    flightpaths::PlacementOptions placement = placement_of(settings, loaded, ground);
+    if (!has_own_origin(settings, loaded, ground)) {
         placement.heading_rad = first.heading_rad;
         const glm::dvec3 start_m = loaded.trajectory.samples().front().position_m;
         const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));
@@ -225,7 +225,7 @@ sim::Trajectory own_path(
     }
     flightpaths::PlacedPath path = placed_by_name(*flown.path, loaded, placement, ground);
     add(notes, path.notes);
-    return begun_at(path.trajectory, first.trajectory.start_s() + flown.from_s);
+    return starting_at_time(path.trajectory, first.trajectory.start_s() + flown.from_s);
 }
 
 } // namespace octant::ui::world

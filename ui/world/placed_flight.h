@@ -3,7 +3,7 @@
 #include "sim/base/earth_frame.h"
 #include "sim/base/ground_height.h"
 #include "sim/trajectory.h"
-#include "ui/settings/flown_aircraft.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings.h"
 #include "ui/world/flight.h"
 #include "ui/world/loaded_path.h"
@@ -22,13 +22,13 @@ namespace octant::ui::world {
 std::string path_of(const settings::RunSettings& settings);
 
 /// Where a path has been laid before.
-struct KnownPlace {
+struct PathPlacement {
     glm::dvec2 place_m{0.0};
     double heading_rad = 0.0;
 };
 
 /// What laying a path over a ground asks of it.
-struct GroundBelow {
+struct PlacementGround {
     GroundHeight height_at;
     glm::dvec2 half_extent_m{0.0};
     /// How it lies on the earth; null for made ground.
@@ -36,28 +36,28 @@ struct GroundBelow {
 };
 
 /// It refers to the ground.
-GroundBelow below(const SceneGround& ground);
+PlacementGround placement_ground(const SceneGround& ground);
 
 /// Where the first aircraft stands that others fly, until somebody moves it. Throws Error.
-Flight live_flight(const settings::RunSettings& settings, const GroundBelow& ground);
+Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
 
 /// Lays the first aircraft's path over the ground, and with it all that a tape has beside it. Adds
-/// what a person should be told to the notes. `known`: there, and not where settings and ground
+/// what a person should be told to the notes. `given_placement`: there, and not where settings and ground
 /// say. Throws Error.
 Flight place_flight(
     const settings::RunSettings& settings,
     LoadedPath loaded,
-    const GroundBelow& ground,
+    const PlacementGround& ground,
     std::vector<std::string>& notes,
-    const std::optional<KnownPlace>& known = std::nullopt);
+    const std::optional<PathPlacement>& given_placement = std::nullopt);
 
 /// An aircraft's own path over the ground: it begins at this place, turned as the first one's,
 /// unless it knows where it was flown. Throws Error.
 sim::Trajectory own_path(
     const settings::RunSettings& settings,
-    const settings::FlownAircraft& flown,
+    const settings::AircraftEntry& flown,
     const glm::dvec2& begin_m,
-    const GroundBelow& ground,
+    const PlacementGround& ground,
     const Flight& first,
     std::vector<std::string>& notes);
 

@@ -3,7 +3,7 @@
 #include "models/heights/height_field_import.h"
 #include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
-#include "ui/world/kept_ground.h"
+#include "ui/world/ground_cache.h"
 
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace octant::ui::world {
 
 models::heights::HeightField
 load_height_field(const std::string& name_or_file, const models::heights::ImportOptions& options) {
-    models::heights::check_system(options);
+    models::heights::check_coordinate_system(options);
     if (auto made = built_in_ground(name_or_file)) {
         return std::move(*made);
     }
@@ -36,7 +36,7 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
     return field;
 }
 
-std::optional<std::string> note_of_few_samples(
+std::optional<std::string> few_samples_note(
     const std::string& name,
     const glm::ivec2& samples,
     int asked_triangles,
@@ -56,7 +56,7 @@ std::optional<std::string> note_of_few_samples(
 }
 
 std::optional<std::string>
-note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m) {
+low_eye_note(const glm::dvec3& eye_m, const std::optional<double>& ground_m) {
     if (!ground_m || eye_m.z >= *ground_m) {
         return std::nullopt;
     }

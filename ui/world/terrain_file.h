@@ -19,7 +19,7 @@ load_height_field(const std::string& name_or_file, const models::heights::Import
 
 /// What a person should be told who asks for more triangles than the samples of a ground make;
 /// nothing where they suffice. `option`: one that cures it.
-std::optional<std::string> note_of_few_samples(
+std::optional<std::string> few_samples_note(
     const std::string& name,
     const glm::ivec2& samples,
     int asked_triangles,
@@ -28,7 +28,7 @@ std::optional<std::string> note_of_few_samples(
 /// What a person should be told whose eye point lies under the ground, which is so high there;
 /// nothing where it does not.
 std::optional<std::string>
-note_of_low_eye(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
+low_eye_note(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
 
 /// What settings say of files that do not say it themselves.
 models::heights::ImportOptions import_options(const settings::PathSettings& settings);

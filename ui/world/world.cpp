@@ -5,14 +5,14 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
 #include "sim/hidden_height.h"
-#include "ui/settings/flown_aircraft.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/airfield.h"
 #include "ui/world/loaded_path.h"
 #include "ui/world/placed_flight.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_of_time.h"
+#include "ui/world/sun_at_time.h"
 #include "ui/world/terrain_file.h"
 
 #include <glm/common.hpp>
@@ -48,14 +48,14 @@ void add_own_paths(const settings::RunSettings& settings, const SceneGround& gro
     const std::vector<std::string>& aircraft = settings.path.aircraft;
     const Formation abreast(static_cast<int>(aircraft.size()), largest_radius_m(world.scene));
     for (std::size_t i = 1; i < aircraft.size(); ++i) {
-        const settings::FlownAircraft flown = settings::flown_aircraft(aircraft[i]);
+        const settings::AircraftEntry flown = settings::parse_aircraft_entry(aircraft[i]);
         if (!flown.path) {
             continue;
         }
-        const glm::dvec2 begin_m(abreast.wingman_of(start, static_cast<int>(i)).position_m);
+        const glm::dvec2 begin_m(abreast.wingman_state(start, static_cast<int>(i)).position_m);
         try {
-            world.flight.others.insert_or_assign(
-                i, own_path(settings, flown, begin_m, below(ground), world.flight, world.notes));
+            world.flight.other_trajectories.insert_or_assign(
+                i, own_path(settings, flown, begin_m, placement_ground(ground), world.flight, world.notes));
         } catch (const Error& fault) {
             throw Error(fmt::format("{}: {}", printable(aircraft[i]), fault.what()));
         }
@@ -67,13 +67,13 @@ void check_wingmen(const World& world) {
     const Formation formation = formation_of(world.scene, world.flight);
     int number = 0;
     for (std::size_t i = 1; i < world.scene.aircraft.size(); ++i) {
-        if (world.flight.others.contains(i)) {
+        if (world.flight.other_trajectories.contains(i)) {
             continue;
         }
         ++number;
         std::vector<sim::AircraftState> states;
         for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
-            states.push_back(formation.wingman_of(leader, number));
+            states.push_back(formation.wingman_state(leader, number));
         }
         try {
             flightpaths::check_over_ground(
@@ -95,8 +95,8 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
     std::vector<std::string> in_formation_before;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const sim::AircraftKind* const kind = sim::find_aircraft_kind(shapes[i]);
-        const auto own = world.flight.others.find(i);
-        const bool in_formation = i > 0 && own == world.flight.others.end();
+        const auto own = world.flight.other_trajectories.find(i);
+        const bool in_formation = i > 0 && own == world.flight.other_trajectories.end();
         if (kind == nullptr || (in_formation && std::ranges::find(in_formation_before, shapes[i]) !=
                                                     in_formation_before.end())) {
             continue;
@@ -104,9 +104,9 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
         if (in_formation) {
             in_formation_before.push_back(shapes[i]);
         }
-        const std::string beyond = flightpaths::beyond_limits(
+        const std::string beyond = flightpaths::limits_violation(
             kind->limits,
-            own == world.flight.others.end() ? world.flight.trajectory : own->second,
+            own == world.flight.other_trajectories.end() ? world.flight.trajectory : own->second,
             in_formation && has_script);
         if (!beyond.empty()) {
             world.notes.push_back(fmt::format(
@@ -123,7 +123,7 @@ std::vector<std::string>
 shapes_of(const settings::RunSettings& settings, const std::vector<std::string>& of_tape) {
     std::vector<std::string> shapes;
     for (const std::string& aircraft : settings.path.aircraft) {
-        shapes.push_back(settings::shape_of(aircraft));
+        shapes.push_back(settings::aircraft_shape(aircraft));
     }
     for (std::size_t i = shapes.size() - 1; i < of_tape.size(); ++i) {
         shapes.push_back(of_tape[i]);
@@ -134,7 +134,7 @@ shapes_of(const settings::RunSettings& settings, const std::vector<std::string>&
 /// Throws Error where aircraft that others fly, or the first one, are to do what they cannot.
 void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     for (std::size_t i = 0; i < settings.path.aircraft.size(); ++i) {
-        const settings::FlownAircraft flown = settings::flown_aircraft(settings.path.aircraft[i]);
+        const settings::AircraftEntry flown = settings::parse_aircraft_entry(settings.path.aircraft[i]);
         if (flown.path && (is_live || (i == 0 && flown.from_s > 0.0))) {
             throw Error(fmt::format(
                 "aircraft: expected {}, got '{}'",
@@ -146,7 +146,7 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
 
 std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
     std::vector<planning::NamedTime> legs;
-    for (const flightpaths::LegBegin& leg : flight.legs) {
+    for (const flightpaths::LegStart& leg : flight.legs) {
         legs.push_back({leg.time_s, leg.label});
     }
     return std::make_shared<const planning::DrawnPath>(
@@ -154,7 +154,7 @@ std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
 }
 
 /// What the tower is placed by; `flight` keeps the states.
-scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>& flight) {
+scene::TowerWish tower_request(const World& world, std::vector<sim::AircraftState>& flight) {
     constexpr int looks = 160;
     const sim::Trajectory& path = world.flight.trajectory;
     for (int i = 0; i <= looks; ++i) {
@@ -170,33 +170,33 @@ scene::TowerWish tower_wish(const World& world, std::vector<sim::AircraftState>&
 }
 
 /// The ground of another world where it has the heights of these settings, else one that is loaded.
-SceneGround ground_beside(
-    const World* beside,
+SceneGround shared_or_load_ground(
+    const World* shared_world,
     const settings::RunSettings& settings,
-    DrawnBy drawn_by,
+    RenderDevice device,
     const RunwayFinder& find_runway) {
     // Levelled heights are those of one flight.
-    if (beside != nullptr && !settings.ground.airfield && !beside->scene.ground->runway()) {
+    if (shared_world != nullptr && !settings.ground.airfield && !shared_world->scene.ground->runway()) {
         SceneGround other;
-        other.inputs = beside->terrain;
-        other.filled_voids = beside->filled_voids;
-        other.ground = beside->scene.ground;
-        other.place = beside->ground_place;
-        if (auto shared = shared_scene_ground(other, settings, drawn_by)) {
+        other.inputs = shared_world->terrain;
+        other.filled_voids = shared_world->filled_voids;
+        other.ground = shared_world->scene.ground;
+        other.place = shared_world->ground_place;
+        if (auto shared = shared_scene_ground(other, settings, device)) {
             return std::move(*shared);
         }
     }
-    return load_scene_ground(settings, drawn_by, find_runway);
+    return load_scene_ground(settings, device, find_runway);
 }
 
 } // namespace
 
 Formation formation_of(const planning::Scene& scene, const Flight& flight) {
-    const std::size_t own = std::min(flight.others.size(), scene.aircraft.size() - 1);
+    const std::size_t own = std::min(flight.other_trajectories.size(), scene.aircraft.size() - 1);
     return {static_cast<int>(scene.aircraft.size() - own), largest_radius_m(scene)};
 }
 
-void states_beside(
+void formation_states(
     const Flight& flight,
     const Formation& formation,
     const sim::AircraftState& leader,
@@ -205,16 +205,16 @@ void states_beside(
     states.front() = leader;
     int number = 0;
     for (std::size_t i = 1; i < states.size(); ++i) {
-        const auto own = flight.others.find(i);
-        if (own == flight.others.end()) {
-            states[i] = formation.wingman_of(leader, ++number);
+        const auto own = flight.other_trajectories.find(i);
+        if (own == flight.other_trajectories.end()) {
+            states[i] = formation.wingman_state(leader, ++number);
             continue;
         }
         const sim::Trajectory& path = own->second;
         states[i] = path.state_at(time_s);
         states[i].time_s = leader.time_s;
         if (time_s < path.start_s() || time_s > path.end_s()) {
-            states[i].position_m.z = sim::hidden_height_m;
+            states[i].position_m.z = sim::absent_height_m;
         }
     }
 }
@@ -233,7 +233,7 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
         return world.scene.ground->height_at(x_m, y_m);
     };
     std::vector<sim::AircraftState> flight;
-    const scene::TowerWish wish = tower_wish(world, flight);
+    const scene::TowerWish wish = tower_request(world, flight);
     const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
     points.tower = placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground)
                                   : scene::tower_for(wish, ground);
@@ -253,9 +253,9 @@ void check_clouds(const scene::AirSettings& air, const visuals::landscape::Groun
     }
 }
 
-World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const World* beside) {
+World load_world(const settings::RunSettings& settings, RenderDevice device, const World* shared_world) {
     settings::check_settings(settings);
-    check_place(settings.path);
+    check_path_origin(settings.path);
     const bool is_live = settings.path.name == settings::live_path;
     check_own_paths(settings, is_live);
     // Paths and names of files are quickly looked at: what is wrong with them is told at once.
@@ -263,19 +263,19 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
     if (!is_live) {
         script = load_path(
             path_of(settings),
-            settings::shape_of(settings.path.aircraft.front()),
+            settings::aircraft_shape(settings.path.aircraft.front()),
             settings.path.lenient);
     }
-    const AircraftInputs inputs = aircraft_inputs(
-        settings, shapes_of(settings, script ? script->other_shapes : std::vector<std::string>()));
+    const AircraftSources inputs = aircraft_sources(
+        settings, shapes_of(settings, script ? script->other_aircraft : std::vector<std::string>()));
     // Beside the aircraft, whose draw order is one thread's work. What is wrong with them is told
     // first.
-    std::optional<KnownPlace> known;
+    std::optional<PathPlacement> given_placement;
     std::future<SceneGround> coming_ground = std::async(std::launch::async, [&] {
-        return ground_beside(beside, settings, drawn_by, runway_finder(settings, script, known));
+        return shared_or_load_ground(shared_world, settings, device, make_runway_finder(settings, script, given_placement));
     });
-    LoadedAircraft aircraft = beside != nullptr && beside->aircraft.inputs == inputs
-                                  ? beside->aircraft
+    LoadedAircraft aircraft = shared_world != nullptr && shared_world->aircraft.inputs == inputs
+                                  ? shared_world->aircraft
                                   : load_aircraft(inputs);
     SceneGround ground = coming_ground.get();
     check_clouds(settings.air, *ground.ground);
@@ -286,8 +286,8 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
     }
     add_notes(world.notes, ground.notes);
     world.flight =
-        script ? place_flight(settings, std::move(*script), below(ground), world.notes, known)
-               : live_flight(settings, below(ground));
+        script ? place_flight(settings, std::move(*script), placement_ground(ground), world.notes, given_placement)
+               : live_flight(settings, placement_ground(ground));
     world.scene.ground = ground.ground;
     world.scene.ground_texture = ground.texture;
     world.scene.models = aircraft.models;
@@ -302,17 +302,17 @@ World load_world(const settings::RunSettings& settings, DrawnBy drawn_by, const 
         check_wingmen(world);
         note_limits(inputs.shapes, world);
     }
-    world.leader_kind = sim::find_aircraft_kind(settings::shape_of(settings.path.aircraft.front()));
+    world.leader_kind = sim::find_aircraft_kind(settings::aircraft_shape(settings.path.aircraft.front()));
     world.terrain = std::move(ground.inputs);
     world.filled_voids = ground.filled_voids;
     world.ground_name = std::move(ground.name);
     world.ground_place = ground.place;
     world.ground_frame = ground.frame;
-    std::ranges::move(notes_of_sun(settings, ground.place), std::back_inserter(world.notes));
+    std::ranges::move(sun_notes(settings, ground.place), std::back_inserter(world.notes));
     world.points = fixed_points(settings, world);
     if (settings.view.kind == scene::View::Free) {
         const glm::dvec3& eye_m = world.points.free_eye_m;
-        if (auto low = note_of_low_eye(eye_m, ground.ground->height_at(eye_m.x, eye_m.y))) {
+        if (auto low = low_eye_note(eye_m, ground.ground->height_at(eye_m.x, eye_m.y))) {
             world.notes.push_back(std::move(*low));
         }
     }

@@ -2,7 +2,7 @@
 
 #include "sim/aircraft_kind.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/aircraft_loader.h"
@@ -32,14 +32,14 @@ struct World {
         .trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
         .title = {},
         .legs = {},
-        .others = {}};
+        .other_trajectories = {}};
     visuals::scene::FixedPoints points;
     /// What `scene` has its aircraft of.
     LoadedAircraft aircraft;
-    TerrainInputs terrain;
+    TerrainSources terrain;
     std::int64_t filled_voids = 0; ///< of the terrain
     std::string ground_name;
-    std::optional<GeoPlace> ground_place;
+    std::optional<GeoPosition> ground_place;
     /// How the ground lies on the earth; null where that is not known.
     std::shared_ptr<const EarthFrame> ground_frame;
     /// What a person should be told: voids filled, legs clipped, ...
@@ -50,7 +50,7 @@ struct World {
 Formation formation_of(const visuals::planning::Scene& scene, const Flight& flight);
 
 /// The states of all aircraft at a time at which the first one's is `leader`.
-void states_beside(
+void formation_states(
     const Flight& flight,
     const Formation& formation,
     const sim::AircraftState& leader,
@@ -64,12 +64,12 @@ visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, 
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);
 
-/// Loads aircraft, ground and path of a run and lays the path over the ground. `beside`: a world
+/// Loads aircraft, ground and path of a run and lays the path over the ground. `shared_world`: a world
 /// with which the two share what is loaded of the same inputs: aircraft with their orders, heights,
 /// and the whole ground where these settings mesh and colour it alike. Throws Error.
 World load_world(
     const settings::RunSettings& settings,
-    DrawnBy drawn_by = DrawnBy::Processor,
-    const World* beside = nullptr);
+    RenderDevice device = RenderDevice::Cpu,
+    const World* shared_world = nullptr);
 
 } // namespace octant::ui::world

@@ -12,11 +12,11 @@ namespace {
 
 using draworder::DrawOrder;
 using models::polygons::FileAxes;
-using separation::Decider;
-using separation::Factors;
+using separation::DecidingPolygon;
+using separation::PlaneFactors;
 using separation::LocalModel;
 using separation::LocalPolygon;
-using separation::Witness;
+using separation::SeparatingPlaneProof;
 
 std::string text_of(const glm::dvec3& v) {
     return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0); // no negative zeros
@@ -39,19 +39,19 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
 
 } // namespace
 
-CertificateText::CertificateText(double size_m, std::function<void()> part_done)
+CertificateText::CertificateText(double size_m, std::function<void()> on_part_done)
     : size_m_(size_m)
-    , part_done_(std::move(part_done)) {}
+    , on_part_done_(std::move(on_part_done)) {}
 
 void CertificateText::add_model(
     const models::polygons::PolygonModel& model, const LocalModel& local, const FileAxes& axes) {
     append(text_, "octant-certificate 1\n");
     append(text_, "tolerance {}\n", local.tolerance * size_m_);
     const auto place = [&](const glm::dvec3& point_m) {
-        return text_of(axes.file_from_body(point_m) - local.about_m);
+        return text_of(axes.file_from_body(point_m) - local.reference_m);
     };
-    if (local.about_m != glm::dvec3(0.0)) {
-        append(text_, "about {}\n", text_of(local.about_m));
+    if (local.reference_m != glm::dvec3(0.0)) {
+        append(text_, "about {}\n", text_of(local.reference_m));
     }
     for (const glm::dvec3& vertex_m : model.vertices_m) {
         append(text_, "vertex {}\n", place(vertex_m));
@@ -79,7 +79,7 @@ void CertificateText::add_tree(
         add_numbers(order.polygons_of(list));
     }
     for (const DrawOrder::Node& node : order.nodes()) {
-        const bool is_choice = node.kind == DrawOrder::Kind::Choice;
+        const bool is_choice = node.kind == DrawOrder::Kind::ViewSplit;
         const char* const if_nothing = is_choice ? " unclaimed" : " nothing";
         const std::string children =
             text_of_child(node.front, if_nothing) + text_of_child(node.back, if_nothing);
@@ -87,14 +87,14 @@ void CertificateText::add_tree(
             append(text_, "node sequence{}\n", children);
             continue;
         }
-        const bool parts = node.kind == DrawOrder::Kind::Parting;
+        const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
         append(
             text_,
             "node {} {}{}{}\n",
             parts ? "parting" : "choice",
             text_of(local.about({axes.file_from_body(node.plane.normal), node.plane.offset_m})),
             children,
-            parts ? text_of_child(node.along) + text_of_child(node.against) : "");
+            parts ? text_of_child(node.coplanar_front) + text_of_child(node.coplanar_back) : "");
     }
 }
 
@@ -103,7 +103,7 @@ void CertificateText::begin_pairs(int part, std::uint32_t later, std::size_t /*c
     run_length_ = 0;
 }
 
-void CertificateText::add_pair(Decider by) {
+void CertificateText::add_pair(DecidingPolygon by) {
     if (by != run_by_) {
         add_run();
         run_by_ = by;
@@ -118,18 +118,18 @@ void CertificateText::end_pairs() {
 
 void CertificateText::add_run() {
     if (run_length_ > 0) {
-        const char letter = run_by_ == Decider::Earlier ? 'e'
-                            : run_by_ == Decider::Later ? 'l'
+        const char letter = run_by_ == DecidingPolygon::Earlier ? 'e'
+                            : run_by_ == DecidingPolygon::Later ? 'l'
                                                         : '-';
         append(text_, " {}{}", run_length_, letter);
         run_length_ = 0;
     }
 }
 
-void CertificateText::add_witness(
-    int part, const Witness& witness, std::uint32_t earlier, std::uint32_t later) {
+void CertificateText::add_plane_proof(
+    int part, const SeparatingPlaneProof& plane_proof, std::uint32_t earlier, std::uint32_t later) {
     const std::string where = fmt::format("{} {} {}", text_of_child(part), earlier, later);
-    if (witness.kind == Witness::Kind::None) {
+    if (plane_proof.kind == SeparatingPlaneProof::Kind::None) {
         append(text_, "unproved{}\n", where);
         ++unproved_;
         return;
@@ -137,25 +137,25 @@ void CertificateText::add_witness(
     append(
         text_,
         "{}{} {} {}",
-        witness.kind == Witness::Kind::Sum ? "sum" : "never",
+        plane_proof.kind == SeparatingPlaneProof::Kind::Sum ? "sum" : "never",
         where,
-        witness.factors.earlier,
-        witness.factors.later);
-    add_walls(witness.factors);
+        plane_proof.factors.earlier,
+        plane_proof.factors.later);
+    add_walls(plane_proof.factors);
 }
 
-void CertificateText::add_away(int part, std::uint32_t polygon, const Factors& factors) {
+void CertificateText::add_back_facing(int part, std::uint32_t polygon, const PlaneFactors& factors) {
     append(text_, "away{} {}", text_of_child(part), polygon);
     add_walls(factors);
 }
 
-void CertificateText::add_doubt(int part, std::uint32_t polygon) {
+void CertificateText::add_unproved(int part, std::uint32_t polygon) {
     append(text_, "unproved{} {}\n", text_of_child(part), polygon);
     ++unproved_;
 }
 
 void CertificateText::end_part(std::size_t /*polygons*/) {
-    part_done_();
+    on_part_done_();
 }
 
 std::string CertificateText::take() {
@@ -170,9 +170,9 @@ void CertificateText::add_numbers(std::span<const std::uint32_t> numbers) {
 }
 
 /// The factor of 1 is a length.
-void CertificateText::add_walls(const Factors& factors) {
+void CertificateText::add_walls(const PlaneFactors& factors) {
     append(text_, " {}", factors.one * size_m_);
-    for (const double factor : factors.walls) {
+    for (const double factor : factors.region_planes) {
         append(text_, " {}", factor);
     }
     text_ += '\n';

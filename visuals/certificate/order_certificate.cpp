@@ -22,7 +22,7 @@ OrderCertificate order_certificate(
         });
         text.add_model(model, local, axes);
         text.add_tree(order, local, axes);
-        draworder::walk_proof({model, order, axes, local}, text);
+        draworder::visit_proof({model, order, axes, local}, text);
         OrderCertificate made{text.take(), text.unproved()};
         if (best.text.empty() || made.unproved < best.unproved) {
             best = std::move(made);

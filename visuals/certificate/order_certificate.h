@@ -22,7 +22,7 @@ struct OrderCertificate {
 /// model's size is sought with one of 1e-8 and then 5e-8, which the text tells; what is left is
 /// marked as such and counted. The
 /// order is one for every eye of the model (draworder::Method::Tree or Bsp), or for those that a
-/// choice with nothing on one side leaves (eyes_beyond.h); of the others nothing is claimed.
+/// choice with nothing on one side leaves (with_min_distance.h); of the others nothing is claimed.
 ///
 /// `progress(done, all)` counts nodes and lists. The time grows with the pairs.
 OrderCertificate order_certificate(

@@ -10,7 +10,7 @@ namespace octant::visuals::draworder {
 /// bits each (H. S. Warren, "Hacker's Delight", 2003, section 5-1), because without a processor's
 /// own instruction std::popcount is a function call for every word.
 inline std::size_t
-count_common(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
+count_common_bits(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
     constexpr std::uint64_t pairs = 0x5555555555555555;
     constexpr std::uint64_t nibbles = 0x3333333333333333;
     constexpr std::uint64_t bytes = 0x0f0f0f0f0f0f0f0f;

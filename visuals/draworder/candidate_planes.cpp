@@ -156,7 +156,7 @@ candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, 
     return each_once(planes);
 }
 
-FaceSide side_of(const Plane& plane, const Face& face, double on_plane) {
+PlaneSide side_of(const Plane& plane, const Face& face, double on_plane) {
     double least = on_plane;
     double largest = -on_plane;
     for (const glm::dvec3& corner : face.corners) {
@@ -167,9 +167,9 @@ FaceSide side_of(const Plane& plane, const Face& face, double on_plane) {
     return {least >= -on_plane, largest <= on_plane};
 }
 
-PlaneSides
+PolygonsByPlaneSide
 sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among) {
-    PlaneSides sides(model.faces.size());
+    PolygonsByPlaneSide sides(model.faces.size());
     for (const std::uint32_t polygon : among) {
         const Face& face = model.faces[polygon];
         const auto [before, behind] = side_of(plane, face, model.tolerances.on_plane);
@@ -181,7 +181,7 @@ sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint3
         }
         if (before && behind && face.plane) {
             const bool along = glm::dot(plane.normal, face.plane->normal) > 0.0;
-            (along ? sides.unseen_behind : sides.unseen_in_front).add(polygon);
+            (along ? sides.back_facing_behind : sides.back_facing_in_front).add(polygon);
         }
     }
     return sides;

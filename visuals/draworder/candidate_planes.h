@@ -2,7 +2,7 @@
 
 #include "sim/base/plane.h"
 #include "visuals/draworder/model_faces.h"
-#include "visuals/draworder/region_graph.h"
+#include "visuals/draworder/occlusion_graph_builder.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,29 +27,29 @@ candidate_planes(const ModelFaces& model, std::span<const std::uint32_t> among, 
 
 /// Where a face lies to a plane. Both are true when it lies in the plane, and neither when it
 /// straddles it.
-struct FaceSide {
+struct PlaneSide {
     bool before = false;
     bool behind = false;
 };
 
 /// Where a face lies to a plane, with `on_plane` as the tolerance.
-FaceSide side_of(const Plane& plane, const Face& face, double on_plane);
+PlaneSide side_of(const Plane& plane, const Face& face, double on_plane);
 
 /// Where polygons lie to a plane that cuts a region of eyes, and for each side of it those polygons
 /// that lie in the plane and face away from all eyes there.
-struct PlaneSides {
-    explicit PlaneSides(std::size_t count)
+struct PolygonsByPlaneSide {
+    explicit PolygonsByPlaneSide(std::size_t count)
         : sets{PolygonSet(count), PolygonSet(count)}
-        , unseen_in_front(count)
-        , unseen_behind(count) {}
+        , back_facing_in_front(count)
+        , back_facing_behind(count) {}
 
-    SideSets sets;
-    PolygonSet unseen_in_front;
-    PolygonSet unseen_behind;
+    PlaneSideSets sets;
+    PolygonSet back_facing_in_front;
+    PolygonSet back_facing_behind;
 };
 
 /// Where the polygons `among` lie to a plane.
-PlaneSides
+PolygonsByPlaneSide
 sides_of(const Plane& plane, const ModelFaces& model, std::span<const std::uint32_t> among);
 
 } // namespace octant::visuals::draworder

@@ -5,7 +5,7 @@
 
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/view_cell.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,16 +21,16 @@ namespace {
 constexpr std::size_t max_axis_planes = 3'000;
 
 /// The number of edges that lie on cycles on either side of a plane.
-std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const Cycles& cycles) {
-    const PlaneSides sides = sides_of(plane, work.faces, cycles.polygons);
+std::size_t left_on_rings(const Plane& plane, const WorkingModel& work, const CyclicPart& cycles) {
+    const PolygonsByPlaneSide sides = sides_of(plane, work.faces, cycles.polygons);
     const auto& [front, back] = sides.sets;
-    CyclicEdges rings;
-    return rings.count(cycles.inner, cycles.polygons, back, front, sides.unseen_in_front) +
-           rings.count(cycles.inner, cycles.polygons, front, back, sides.unseen_behind);
+    CyclicEdgeCounter rings;
+    return rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front) +
+           rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
 }
 
 /// The best coordinate along each axis, in the faces' space.
-glm::dvec3 best_coordinates(const WorkingModel& work, const Cycles& cycles) {
+glm::dvec3 best_coordinates(const WorkingModel& work, const CyclicPart& cycles) {
     glm::dvec3 best(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 normal(0.0);
@@ -64,8 +64,8 @@ glm::dvec3 middle_m(const models::polygons::PolygonModel& model) {
 } // namespace
 
 std::vector<glm::dvec3> cell_centres(const WorkingModel& work) {
-    RegionGraphs graphs(work.faces);
-    const EyeNode root = eye_node(graphs, EyeRegion::everywhere());
+    OcclusionGraphBuilder graphs(work.faces);
+    const ViewCell root = view_cell(graphs, ViewRegion::all_space());
     const glm::dvec3 best_m = best_coordinates(work, root.cycles) * work.faces.unit_m;
     std::vector<glm::dvec3> centres;
     const auto add = [&](const glm::dvec3& centre_m) {

@@ -20,14 +20,14 @@ constexpr std::uint32_t unseen = ~std::uint32_t{0};
 
 } // namespace
 
-std::uint64_t CyclicEdges::row_word(std::uint32_t polygon, std::size_t word) const {
+std::uint64_t CyclicEdgeCounter::row_word(std::uint32_t polygon, std::size_t word) const {
     const std::uint64_t barred = hidden_->has(polygon) ? hiding_->words()[word] : 0;
     return graph_->row(polygon)[word] & allowed_[word] & ~barred;
 }
 
 /// Takes a finished component off the stack, given its first polygon, and counts the edges within
 /// it.
-void CyclicEdges::close(std::uint32_t polygon) {
+void CyclicEdgeCounter::close(std::uint32_t polygon) {
     const auto first = std::ranges::find(open_, polygon);
     if (open_.end() - first > 1) {
         std::ranges::fill(members_, std::uint64_t{0});
@@ -38,7 +38,7 @@ void CyclicEdges::close(std::uint32_t polygon) {
             for (std::size_t word = 0; word < members_.size(); ++word) {
                 row_[word] = row_word(*it, word);
             }
-            edges_ += count_common(row_, members_);
+            edges_ += count_common_bits(row_, members_);
         }
     }
     for (auto it = first; it != open_.end(); ++it) {
@@ -48,9 +48,9 @@ void CyclicEdges::close(std::uint32_t polygon) {
     ++next_component_;
 }
 
-void CyclicEdges::search_from(std::uint32_t root) {
+void CyclicEdgeCounter::search_from(std::uint32_t root) {
     const auto enter = [this](std::uint32_t polygon) {
-        number_[polygon] = low_[polygon] = next_number_++;
+        number_[polygon] = lowlink_[polygon] = next_number_++;
         open_.push_back(polygon);
         visits_.push_back({polygon, 0, row_word(polygon, 0)});
     };
@@ -67,58 +67,58 @@ void CyclicEdges::search_from(std::uint32_t root) {
             if (number_[to] == unseen) {
                 enter(to);
             } else if (component_[to] == unseen) {
-                low_[visit.polygon] = std::min(low_[visit.polygon], number_[to]);
+                lowlink_[visit.polygon] = std::min(lowlink_[visit.polygon], number_[to]);
             }
             continue;
         }
         const std::uint32_t done = visit.polygon;
         visits_.pop_back();
         if (!visits_.empty()) {
-            std::uint32_t& above = low_[visits_.back().polygon];
-            above = std::min(above, low_[done]);
+            std::uint32_t& above = lowlink_[visits_.back().polygon];
+            above = std::min(above, lowlink_[done]);
         }
-        if (low_[done] == number_[done]) {
+        if (lowlink_[done] == number_[done]) {
             close(done);
         }
     }
 }
 
-std::size_t CyclicEdges::count(
-    const HidingGraph& graph,
+std::size_t CyclicEdgeCounter::count(
+    const OcclusionGraph& graph,
     std::span<const std::uint32_t> among,
-    const PolygonSet& hiding,
-    const PolygonSet& hidden,
-    const PolygonSet& gone) {
+    const PolygonSet& occluders,
+    const PolygonSet& occluded,
+    const PolygonSet& removed) {
     graph_ = &graph;
-    hiding_ = &hiding;
-    hidden_ = &hidden;
-    const std::size_t words = hiding.words().size();
+    hiding_ = &occluders;
+    hidden_ = &occluded;
+    const std::size_t words = occluders.words().size();
     allowed_.assign(words, 0);
     members_.assign(words, 0);
     row_.assign(words, 0);
     number_.resize(graph.count());
-    low_.resize(graph.count());
+    lowlink_.resize(graph.count());
     component_.resize(graph.count());
     next_number_ = next_component_ = 0;
     edges_ = 0;
     for (const std::uint32_t polygon : among) {
         number_[polygon] = component_[polygon] = unseen;
-        if (!gone.has(polygon)) {
+        if (!removed.has(polygon)) {
             allowed_[polygon / 64] |= std::uint64_t{1} << (polygon % 64);
         }
     }
     for (const std::uint32_t polygon : among) {
-        if (number_[polygon] == unseen && !gone.has(polygon)) {
+        if (number_[polygon] == unseen && !removed.has(polygon)) {
             search_from(polygon);
         }
     }
     return edges_;
 }
 
-Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among) {
+CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint32_t> among) {
     const PolygonSet none(graph.count());
-    CyclicEdges search;
-    Cycles cycles{.polygons = {}, .components = {}, .inner = HidingGraph(graph.count())};
+    CyclicEdgeCounter search;
+    CyclicPart cycles{.polygons = {}, .components = {}, .inner = OcclusionGraph(graph.count())};
     cycles.edges = search.count(graph, among, none, none, none);
     std::vector<std::vector<std::uint32_t>> members(among.size());
     for (const std::uint32_t polygon : among) {
@@ -147,14 +147,14 @@ Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among)
     return cycles;
 }
 
-Cycles cycles_of(const HidingGraph& graph) {
+CyclicPart cyclic_part_of(const OcclusionGraph& graph) {
     std::vector<std::uint32_t> all(graph.count());
     std::iota(all.begin(), all.end(), 0U);
-    return cycles_of(graph, all);
+    return cyclic_part_of(graph, all);
 }
 
 std::vector<std::uint32_t>
-shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among) {
+shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among) {
     std::vector<std::uint32_t> best;
     for (const std::uint32_t start : among) {
         std::vector<std::uint32_t> came_from(graph.count(), unseen);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/draworder/hiding_graph.h"
+#include "visuals/draworder/occlusion_graph.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,38 +11,38 @@ namespace octant::visuals::draworder {
 
 /// The cyclic part of a hiding graph: its strongly connected components of two or more polygons,
 /// and the edges within them.
-struct Cycles {
+struct CyclicPart {
     std::vector<std::uint32_t> polygons; ///< The polygons of all components, ascending.
     /// The polygons of each component, ascending.
     std::vector<std::vector<std::uint32_t>> components;
-    HidingGraph inner;     ///< The edges within components.
+    OcclusionGraph inner;     ///< The edges within components.
     std::size_t edges = 0; ///< The number of these edges.
 };
 
 /// Finds the cyclic part by R. Tarjan, "Depth-first search and linear graph algorithms", 1972. Only
 /// the polygons `among` and the edges between them are looked at.
-Cycles cycles_of(const HidingGraph& graph, std::span<const std::uint32_t> among);
+CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
 
 /// The cyclic part among all polygons.
-Cycles cycles_of(const HidingGraph& graph);
+CyclicPart cyclic_part_of(const OcclusionGraph& graph);
 
 /// A cycle with the fewest polygons ("ring"): each is hidden by the next, and the last by the
 /// first. Empty when there is no cycle. The search starts from the polygons `among`.
 std::vector<std::uint32_t>
-shortest_ring(const HidingGraph& graph, std::span<const std::uint32_t> among);
+shortest_cycle(const OcclusionGraph& graph, std::span<const std::uint32_t> among);
 
 /// Counts the edges that lie within strongly connected components, for many variants of one graph
 /// in turn. Its memory is reused.
-class CyclicEdges {
+class CyclicEdgeCounter {
 public:
     /// The number of such edges in `graph` restricted to the polygons `among`, without edges into
-    /// or out of `gone`, and without those by which a polygon of `hiding` hides one of `hidden`.
+    /// or out of `removed`, and without those by which a polygon of `occluders` hides one of `occluded`.
     std::size_t count(
-        const HidingGraph& graph,
+        const OcclusionGraph& graph,
         std::span<const std::uint32_t> among,
-        const PolygonSet& hiding,
-        const PolygonSet& hidden,
-        const PolygonSet& gone);
+        const PolygonSet& occluders,
+        const PolygonSet& occluded,
+        const PolygonSet& removed);
 
     /// For each polygon of `among` the number of its component, after count().
     std::span<const std::uint32_t> component_of() const { return component_; }
@@ -61,12 +61,12 @@ private:
     void search_from(std::uint32_t root);
     void close(std::uint32_t polygon);
 
-    const HidingGraph* graph_ = nullptr;
+    const OcclusionGraph* graph_ = nullptr;
     const PolygonSet* hiding_ = nullptr;
     const PolygonSet* hidden_ = nullptr;
     std::vector<std::uint64_t> allowed_;
     std::vector<std::uint32_t> number_;
-    std::vector<std::uint32_t> low_;
+    std::vector<std::uint32_t> lowlink_;
     std::vector<std::uint32_t> component_;
     std::vector<std::uint64_t> members_;
     std::vector<std::uint64_t> row_;

@@ -6,7 +6,7 @@
 
 namespace octant::visuals::draworder {
 
-void add_pieces(
+void insert_cut_pieces(
     std::vector<std::uint32_t>& list,
     std::span<const std::uint32_t> cut_from,
     std::uint32_t first) {
@@ -21,16 +21,16 @@ void add_pieces(
             std::exchange(latest[cut_from[i]], static_cast<std::uint32_t>(first + i));
     }
     std::vector<std::uint32_t> with_pieces;
-    std::vector<std::uint32_t> to_do;
+    std::vector<std::uint32_t> pending;
     for (const std::uint32_t polygon : list) {
-        to_do.push_back(polygon);
-        while (!to_do.empty()) {
-            const std::uint32_t at = to_do.back();
-            to_do.pop_back();
+        pending.push_back(polygon);
+        while (!pending.empty()) {
+            const std::uint32_t at = pending.back();
+            pending.pop_back();
             with_pieces.push_back(at);
             for (const std::uint32_t next : {before[at], latest[at]}) {
                 if (next != none) {
-                    to_do.push_back(next);
+                    pending.push_back(next);
                 }
             }
         }

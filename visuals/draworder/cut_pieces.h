@@ -10,7 +10,7 @@ namespace octant::visuals::draworder {
 /// what it was cut from. As they lie in one plane, and a piece hides no more than the whole did,
 /// the list stays right. `cut_from[i]` is what piece `first` + i was cut from, with a lower number;
 /// the list has numbers below `first` only.
-void add_pieces(
+void insert_cut_pieces(
     std::vector<std::uint32_t>& list, std::span<const std::uint32_t> cut_from, std::uint32_t first);
 
 } // namespace octant::visuals::draworder

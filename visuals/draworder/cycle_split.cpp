@@ -19,18 +19,18 @@ namespace octant::visuals::draworder {
 namespace {
 
 /// The hiding graph among the polygons of a deadlock, for its eye or for its region.
-HidingGraph graph_of(RegionGraphs& graphs, const Deadlock& deadlock) {
-    const auto& among = deadlock.polygons;
-    HidingGraph pairs(graphs.model().faces.size());
+OcclusionGraph graph_of(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
+    const auto& among = persistent_cycle.polygons;
+    OcclusionGraph pairs(graphs.model().faces.size());
     for (const std::uint32_t a : among) {
         for (const std::uint32_t b : among) {
-            if (a != b && !graphs.model().ignored.hides(b, a)) {
+            if (a != b && !graphs.model().ignored.occludes(b, a)) {
                 pairs.add(b, a);
             }
         }
     }
-    return deadlock.eye ? graphs.at_eye(*deadlock.eye, pairs, among)
-                        : graphs.surviving(deadlock.region, pairs, among);
+    return persistent_cycle.eye ? graphs.at_eye(*persistent_cycle.eye, pairs, among)
+                        : graphs.surviving(persistent_cycle.region, pairs, among);
 }
 
 /// Whether a face reaches more than `margin` to both sides of a plane.
@@ -43,17 +43,17 @@ bool straddles(const Face& face, const Plane& plane, double margin) {
 /// The number of cyclic edges among the ring's polygons once one of them has been cut.
 std::size_t left_after(
     const ModelFaces& model,
-    const Deadlock& deadlock,
+    const PersistentCycle& persistent_cycle,
     const std::vector<std::uint32_t>& ring,
-    const Cut& cut) {
-    const Plane plane = *model.faces[cut.along].plane;
+    const PolygonCut& cut) {
+    const Plane plane = *model.faces[cut.cut_by].plane;
     const Face& whole = model.faces[cut.polygon];
     const std::size_t count = ring.size() + 1;
     ModelFaces pieces{
         .faces = {},
         .tolerances = model.tolerances,
-        .rigid = HidingGraph(count),
-        .ignored = HidingGraph(count),
+        .rigid = OcclusionGraph(count),
+        .ignored = OcclusionGraph(count),
         .notes = {}};
     for (const std::uint32_t polygon : ring) {
         pieces.faces.push_back(
@@ -67,30 +67,30 @@ std::size_t left_after(
         front_part(whole.outline, turned_over(plane), model.tolerances.inset),
         *whole.plane,
         model.tolerances.inset));
-    Deadlock among{std::vector<std::uint32_t>(count), deadlock.region, deadlock.eye};
+    PersistentCycle among{std::vector<std::uint32_t>(count), persistent_cycle.region, persistent_cycle.eye};
     std::iota(among.polygons.begin(), among.polygons.end(), 0U);
-    RegionGraphs graphs(pieces);
-    return cycles_of(graph_of(graphs, among)).edges;
+    OcclusionGraphBuilder graphs(pieces);
+    return cyclic_part_of(graph_of(graphs, among)).edges;
 }
 
 } // namespace
 
-std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock) {
+std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
     const ModelFaces& model = graphs.model();
-    std::vector<std::uint32_t> ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
+    std::vector<std::uint32_t> ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
     std::ranges::sort(ring);
-    std::optional<Cut> best;
+    std::optional<PolygonCut> best;
     std::size_t fewest = 0;
     for (const std::uint32_t polygon : ring) {
-        for (const std::uint32_t along : ring) {
+        for (const std::uint32_t cut_by : ring) {
             const Face& face = model.faces[polygon];
-            const auto& plane = model.faces[along].plane;
+            const auto& plane = model.faces[cut_by].plane;
             if (face.pivot || !plane || !straddles(face, *plane, 2.0 * model.tolerances.inset)) {
                 continue;
             }
-            const std::size_t left = left_after(model, deadlock, ring, {polygon, along});
+            const std::size_t left = left_after(model, persistent_cycle, ring, {polygon, cut_by});
             if (!best || left < fewest) {
-                best = Cut{polygon, along};
+                best = PolygonCut{polygon, cut_by};
                 fewest = left;
             }
         }
@@ -98,8 +98,8 @@ std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock) {
     return best;
 }
 
-std::optional<Precedence> weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock) {
-    const auto ring = shortest_ring(graph_of(graphs, deadlock), deadlock.polygons);
+std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle) {
+    const auto ring = shortest_cycle(graph_of(graphs, persistent_cycle), persistent_cycle.polygons);
     const auto& faces = graphs.model().faces;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t next = ring[(i + 1) % ring.size()];

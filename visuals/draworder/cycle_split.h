@@ -1,8 +1,8 @@
 #pragma once
 
-#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/view_cell.h"
 #include "visuals/draworder/precedence.h"
-#include "visuals/draworder/region_graph.h"
+#include "visuals/draworder/occlusion_graph_builder.h"
 
 #include <cstdint>
 #include <optional>
@@ -10,9 +10,9 @@
 namespace octant::visuals::draworder {
 
 /// A polygon to split, and the polygon in whose plane it is cut.
-struct Cut {
+struct PolygonCut {
     std::uint32_t polygon = 0;
-    std::uint32_t along = 0;
+    std::uint32_t cut_by = 0;
 };
 
 /// The cut that resolves most of a shortest ring of a deadlock. Of all pairs of the ring in which
@@ -21,11 +21,11 @@ struct Cut {
 /// there is no such pair. That happens only with turning polygons in the ring, because fixed ones
 /// lack an order only if one of them straddles the plane of another, or where the tolerances of two
 /// tests differ.
-std::optional<Cut> best_cut(RegionGraphs& graphs, const Deadlock& deadlock);
+std::optional<PolygonCut> best_polygon_cut(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
 
 /// The first pair with a turning polygon of a shortest ring of a deadlock: it is given up because
 /// no order can be right. Returns nothing where no polygon of the ring turns, or where rounding has
 /// left no ring.
-std::optional<Precedence> weakest_pair(RegionGraphs& graphs, const Deadlock& deadlock);
+std::optional<Precedence> pair_to_drop(OcclusionGraphBuilder& graphs, const PersistentCycle& persistent_cycle);
 
 } // namespace octant::visuals::draworder

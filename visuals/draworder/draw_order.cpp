@@ -42,8 +42,8 @@ DrawOrder::DrawOrder(std::vector<Node> nodes, std::span<const std::vector<std::u
     : nodes_(std::move(nodes)) {
     assert(!nodes_.empty() || lists.size() == 1);
     add_cells(lists);
-    one_cell_an_eye_ =
-        std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::Choice; });
+    has_one_cell_per_eye_ =
+        std::ranges::all_of(nodes_, [](const Node& node) { return node.kind == Kind::ViewSplit; });
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         for ([[maybe_unused]] const int child : {nodes_[i].front, nodes_[i].back}) {
             assert(child == nothing || child > static_cast<int>(i) || child < 0);
@@ -74,7 +74,7 @@ void DrawOrder::add_cells(std::span<const std::vector<std::uint32_t>> lists) {
 }
 
 int DrawOrder::cell_of(const glm::dvec3& eye_in_body_m) const {
-    assert(one_cell_an_eye_);
+    assert(has_one_cell_per_eye_);
     int at = nodes_.empty() ? ~0 : 0;
     while (at >= 0) {
         const Node& node = nodes_[static_cast<std::size_t>(at)];
@@ -86,7 +86,7 @@ int DrawOrder::cell_of(const glm::dvec3& eye_in_body_m) const {
 std::span<const DrawOrder::Range>
 DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
     walk.ranges.clear();
-    walk.to_do.assign(1, nodes_.empty() ? ~0 : 0);
+    walk.pending.assign(1, nodes_.empty() ? ~0 : 0);
     const auto paint = [&](const Range& range) {
         if (range.count == 0) {
             return;
@@ -98,9 +98,9 @@ DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
         }
         walk.ranges.push_back(range);
     };
-    while (!walk.to_do.empty()) {
-        const int at = walk.to_do.back();
-        walk.to_do.pop_back();
+    while (!walk.pending.empty()) {
+        const int at = walk.pending.back();
+        walk.pending.pop_back();
         if (at == nothing) {
             continue;
         }
@@ -110,14 +110,14 @@ DrawOrder::ranges_of(const glm::dvec3& eye_in_body_m, Walk& walk) const {
         }
         const Node& node = nodes_[static_cast<std::size_t>(at)];
         if (node.kind == Kind::Sequence) {
-            walk.to_do.insert(walk.to_do.end(), {node.back, node.front});
+            walk.pending.insert(walk.pending.end(), {node.back, node.front});
             continue;
         }
         const bool in_front = is_in_front(node, eye_in_body_m);
-        walk.to_do.push_back(in_front ? node.front : node.back);
-        if (node.kind == Kind::Parting) {
-            walk.to_do.push_back(in_front ? node.along : node.against);
-            walk.to_do.push_back(in_front ? node.back : node.front);
+        walk.pending.push_back(in_front ? node.front : node.back);
+        if (node.kind == Kind::PolygonSplit) {
+            walk.pending.push_back(in_front ? node.coplanar_front : node.coplanar_back);
+            walk.pending.push_back(in_front ? node.back : node.front);
         }
     }
     return walk.ranges;

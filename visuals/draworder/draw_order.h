@@ -33,7 +33,7 @@ public:
         bool operator==(const Range&) const = default;
     };
 
-    enum class Kind { Choice, Parting, Sequence };
+    enum class Kind { ViewSplit, PolygonSplit, Sequence };
 
     /// A child where nothing is painted.
     static constexpr int nothing = std::numeric_limits<int>::min();
@@ -43,15 +43,15 @@ public:
         Plane plane;   ///< Not of a sequence.
         int front = 0; ///< Where dot(normal, .) + offset >= 0; of a sequence what is painted first.
         int back = 0;  ///< The other one.
-        Kind kind = Kind::Choice;
-        int along = nothing;   ///< Of a parting: the cell of what lies in it and faces as it does.
-        int against = nothing; ///< Of a parting: the cell of what lies in it and faces back.
+        Kind kind = Kind::ViewSplit;
+        int coplanar_front = nothing;   ///< Of a parting: the cell of what lies in it and faces as it does.
+        int coplanar_back = nothing; ///< Of a parting: the cell of what lies in it and faces back.
     };
 
     /// The ranges that an eye paints, and memory that is used on the way to them.
     struct Walk {
         std::vector<Range> ranges;
-        std::vector<int> to_do;
+        std::vector<int> pending;
     };
 
     /// The paper's eight cells, the octants.
@@ -83,10 +83,10 @@ public:
     std::span<const Node> nodes() const { return nodes_; }
 
     /// Whether all nodes are choices, so that every eye lies in one cell.
-    bool one_cell_an_eye() const { return one_cell_an_eye_; }
+    bool has_one_cell_per_eye() const { return has_one_cell_per_eye_; }
 
     /// The cell in which an eye (body axes, metres) lies, 0 to cell_count - 1. Every eye must lie
-    /// in one (one_cell_an_eye, asserted).
+    /// in one (has_one_cell_per_eye, asserted).
     int cell_of(const glm::dvec3& eye_in_body_m) const;
 
     /// What is painted for an eye (body axes, metres), first painted first: consecutive ranges of
@@ -115,7 +115,7 @@ private:
     std::vector<std::uint32_t> polygons_;
     std::vector<Range> cells_;
     int list_count_ = 0;
-    bool one_cell_an_eye_ = true;
+    bool has_one_cell_per_eye_ = true;
 };
 
 /// The eye points that share a list.

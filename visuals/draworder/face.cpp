@@ -3,7 +3,7 @@
 // than the rounding prevents that.
 #include "visuals/draworder/face.h"
 
-#include "models/polygons/edge_parts.h"
+#include "models/polygons/separating_edge.h"
 
 #include <glm/geometric.hpp>
 
@@ -67,7 +67,7 @@ Face outline_face(std::span<const glm::dvec3> corners, const Plane& plane, doubl
             face.right * corner.x + face.up * corner.y - plane.normal * plane.offset_m);
     }
     for (std::size_t i = 0; i < face.flat.size(); ++i) {
-        face.along.push_back(glm::normalize(face.flat[(i + 1) % face.flat.size()] - face.flat[i]));
+        face.edge_directions.push_back(glm::normalize(face.flat[(i + 1) % face.flat.size()] - face.flat[i]));
     }
     return face;
 }
@@ -108,7 +108,7 @@ bool overlap_in_plane(const Face& a, const Face& b, double on_plane) {
                            behind_or_on(b, *a.plane, on_plane) &&
                            behind_or_on(a, {-b.plane->normal, -b.plane->offset_m}, on_plane);
     const auto parts = [](const Face& of, const Face& other) {
-        return models::polygons::edge_parts(of.corners, of.plane->normal, other.corners, 0.0);
+        return models::polygons::has_separating_edge(of.corners, of.plane->normal, other.corners, 0.0);
     };
     return one_plane && !parts(a, b) && !parts(b, a);
 }

@@ -15,7 +15,7 @@ namespace octant::visuals::draworder {
 
 /// What is compared in place of a polygon: its outline, shrunk by a hair so that polygons which
 /// only touch do not hide one another, or a body that a turning polygon sweeps (turning_parts.h).
-/// Lengths are in the unit of EyeRegion.
+/// Lengths are in the unit of ViewRegion.
 struct Face {
     /// Before shrinking; in order around an outline, in any order for a body.
     std::vector<glm::dvec3> outline;
@@ -24,13 +24,13 @@ struct Face {
     std::optional<Plane> plane;
     /// The corners in the coordinates (right, up), counter-clockwise.
     std::vector<glm::dvec2> flat;
-    std::vector<glm::dvec2> along; ///< The unit directions from each of them to the next one.
+    std::vector<glm::dvec2> edge_directions; ///< The unit directions from each of them to the next one.
     glm::dvec3 right{0.0};
     glm::dvec3 up{0.0};                 ///< Equal to cross(normal, right).
     std::optional<std::uint32_t> pivot; ///< The index in PolygonModel::pivots of what turns it.
 };
 
-/// Tolerances of hiding tests, in the unit of EyeRegion.
+/// Tolerances of hiding tests, in the unit of ViewRegion.
 struct Tolerances {
     /// Outlines are shrunk by this distance.
     double inset = models::planar::planar_tolerance;

@@ -4,8 +4,8 @@
 #include "visuals/draworder/model_faces.h"
 
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/hiding.h"
-#include "visuals/draworder/turning_parts.h"
+#include "visuals/draworder/occlusion.h"
+#include "visuals/draworder/swept_face.h"
 #include "visuals/separation/convex_separation.h"
 
 #include <glm/geometric.hpp>
@@ -34,7 +34,7 @@ Face outline_of(
     for (const std::uint32_t vertex : model.corners(polygon)) {
         corners.push_back((model.vertices_m[vertex] - faces.origin_m) / faces.unit_m);
     }
-    const Plane plane = faces.in_faces(models::polygons::plane_of(model, polygon));
+    const Plane plane = faces.to_face_space(models::polygons::plane_of(model, polygon));
     return outline_face(corners, plane, faces.tolerances.inset);
 }
 
@@ -42,7 +42,7 @@ Face outline_of(
 /// are left out that an order by polygon number breaks, and a note says so.
 void add_rigid_pairs(
     const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
-    HidingTest test(out.tolerances);
+    OcclusionTest test(out.tolerances);
     PolygonSet part(out.faces.size());
     std::vector<Face> still(out.faces.size());
     for (std::size_t i = 0; i < out.faces.size(); ++i) {
@@ -51,23 +51,23 @@ void add_rigid_pairs(
             still[i] = outline_of(model, i, out);
         }
     }
-    const EyeRegion all = EyeRegion::everywhere();
-    HidingGraph graph(out.faces.size());
+    const ViewRegion all = ViewRegion::all_space();
+    OcclusionGraph graph(out.faces.size());
     for_each_bit(part.words(), [&](std::size_t a) {
-        const EyeRegion before_a = *all.cut(*still[a].plane);
+        const ViewRegion before_a = *all.cut(*still[a].plane);
         for_each_bit(part.words(), [&](std::size_t b) {
             const bool possible = a != b && test.possible(still[b], still[a]);
             const auto eyes = possible ? before_a.cut(*still[b].plane) : std::nullopt;
             std::vector<glm::dvec4> generators;
             if (eyes) {
                 eyes->append_generators(generators);
-                if (test.hides(still[b], still[a], generators)) {
+                if (test.occludes(still[b], still[a], generators)) {
                     graph.add(b, a);
                 }
             }
         });
     });
-    const PaintSequence sequence = paint_sequence(out.faces.size(), graph.precedences(part));
+    const TopologicalOrder sequence = topological_order(out.faces.size(), graph.precedences(part));
     if (sequence.broken_cycles > 0) {
         out.notes.push_back(fmt::format(
             "{}: its polygons hide one another as it turns; no one order is right for all",
@@ -87,7 +87,7 @@ void add_rigid_pairs(
 /// Marks the pairs of a turning polygon with others that it collides with at some angle.
 void find_meetings(
     const models::polygons::PolygonModel& model, std::size_t polygon, ModelFaces& out) {
-    const HidingTest test(out.tolerances);
+    const OcclusionTest test(out.tolerances);
     const Face& face = out.faces[polygon];
     for (std::size_t other = 0; other < out.faces.size(); ++other) {
         const Face& met = out.faces[other];
@@ -129,7 +129,7 @@ Plane ModelFaces::in_model(const Plane& plane) const {
     return {plane.normal, plane.offset_m * unit_m - glm::dot(plane.normal, origin_m)};
 }
 
-Plane ModelFaces::in_faces(const Plane& plane) const {
+Plane ModelFaces::to_face_space(const Plane& plane) const {
     return {plane.normal, distance_m(plane, origin_m) / unit_m};
 }
 
@@ -140,13 +140,13 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
         .tolerances = {},
         .origin_m = origin_m,
         .unit_m = farthest_m(model, origin_m),
-        .rigid = HidingGraph(count),
-        .ignored = HidingGraph(count),
+        .rigid = OcclusionGraph(count),
+        .ignored = OcclusionGraph(count),
         .notes = {}};
     for (std::size_t i = 0; i < count; ++i) {
         const auto pivot = models::polygons::pivot_of(model, i);
         out.faces.push_back(
-            pivot ? turning_face(
+            pivot ? swept_face(
                         model,
                         i,
                         model.pivots[*pivot],

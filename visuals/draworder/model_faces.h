@@ -2,7 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/face.h"
-#include "visuals/draworder/hiding_graph.h"
+#include "visuals/draworder/occlusion_graph.h"
 
 #include <glm/vec3.hpp>
 
@@ -21,9 +21,9 @@ struct ModelFaces {
     /// Edges within turning parts, whose polygons keep their places to each other, and from each
     /// polygon to later ones that overlap it in its plane. They hold for every eye and have no
     /// cycles.
-    HidingGraph rigid;
+    OcclusionGraph rigid;
     /// Pairs that collide as they turn, in both directions; no order can be right for them.
-    HidingGraph ignored;
+    OcclusionGraph ignored;
     /// Messages about turning parts whose polygons no order paints correctly.
     std::vector<std::string> notes;
 
@@ -31,7 +31,7 @@ struct ModelFaces {
     Plane in_model(const Plane& plane) const;
 
     /// Converts a plane in body axes to the faces' space.
-    Plane in_faces(const Plane& plane) const;
+    Plane to_face_space(const Plane& plane) const;
 };
 
 /// Prepares a planar model (models/planar/planar_model.h). Outlines are shrunk by planar_tolerance

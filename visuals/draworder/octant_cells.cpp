@@ -4,7 +4,7 @@
 
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/octant_path.h"
-#include "visuals/draworder/region_tree.h"
+#include "visuals/draworder/view_space_tree.h"
 
 #include <glm/geometric.hpp>
 
@@ -27,8 +27,8 @@ Plane through_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
 }
 
 /// The region of an octant's eyes from the least distance on.
-EyeRegion octant_region(const glm::dvec3& signs, double min_distance) {
-    EyeRegion region = EyeRegion::everywhere();
+ViewRegion octant_region(const glm::dvec3& signs, double min_distance) {
+    ViewRegion region = ViewRegion::all_space();
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 normal(0.0);
         normal[axis] = signs[axis];
@@ -61,16 +61,16 @@ private:
     /// The subtree of the octants that differ from `first` in the signs of axes 0 to `axis`.
     int octants(int first, int axis);
     /// The subtree of a cell, which is divided as far as it needs.
-    int divide(EyeNode node, const OctantTriangle& corners, const std::string& path, int level);
+    int divide(ViewCell node, const OctantTriangle& corners, const std::string& path, int level);
     int add_cell(Cell cell);
     /// The subtree of a quarter that is divided by planes.
-    int by_planes(const EyeNode& node, const OctantTriangle& corners, const std::string& path);
+    int by_planes(const ViewCell& node, const OctantTriangle& corners, const std::string& path);
     int add_node(const Plane& plane);
 
     std::vector<DrawOrder::Node>& nodes() { return cells.nodes; }
 
     WorkingModel& work_;
-    RegionGraphs graphs_;
+    OcclusionGraphBuilder graphs_;
     double min_distance_;
     std::size_t entries_ = 0;
     std::vector<std::size_t> made_at_; ///< For each cell the number of polygons when it was made.
@@ -100,7 +100,7 @@ int CellBuilder::add_cell(Cell cell) {
 /// Walks down a tree of planes and collects for each cell the half-spaces that it is the
 /// intersection of.
 void collect_fronts(
-    const RegionTree& tree,
+    const ViewSpaceTree& tree,
     int at,
     const std::vector<Plane>& so_far,
     std::vector<std::vector<Plane>>& fronts) {
@@ -117,8 +117,8 @@ void collect_fronts(
 }
 
 int CellBuilder::by_planes(
-    const EyeNode& node, const OctantTriangle& corners, const std::string& path) {
-    RegionTree tree = region_tree(work_, node, {.forks = {.by_axes = true}});
+    const ViewCell& node, const OctantTriangle& corners, const std::string& path) {
+    ViewSpaceTree tree = view_space_tree(work_, node, {.plane_search = {.tries_axis_planes_first = true}});
     const int first_node = static_cast<int>(nodes().size());
     const int first_cell = static_cast<int>(cells.lists.size());
     const auto moved = [&](int child) {
@@ -137,15 +137,15 @@ int CellBuilder::by_planes(
 }
 
 int CellBuilder::divide(
-    EyeNode node, const OctantTriangle& corners, const std::string& path, int level) {
+    ViewCell node, const OctantTriangle& corners, const std::string& path, int level) {
     work_.spend(search_units(node));
-    if (work_.catch_up(node)) {
+    if (work_.add_new_pieces(node)) {
         node = part_of(graphs_, node, node.region);
     }
-    while (const auto deadlock = ring_at_eye(graphs_, node)) {
+    while (const auto persistent_cycle = cycle_at_eye(graphs_, node)) {
         work_.spend(search_units(node));
-        work_.resolve(*deadlock);
-        work_.catch_up(node);
+        work_.resolve(*persistent_cycle);
+        work_.add_new_pieces(node);
         node = part_of(graphs_, node, node.region);
     }
     if (node.cycles.edges == 0) {
@@ -154,7 +154,7 @@ int CellBuilder::divide(
     if (level == max_levels) {
         return by_planes(node, corners, path);
     }
-    const auto parts = quarters_of(corners);
+    const auto parts = subdivided(corners);
     std::array<int, 3> at{};
     for (std::size_t i = 0; i < 3; ++i) {
         at.at(i) =
@@ -162,8 +162,8 @@ int CellBuilder::divide(
     }
     std::array<int, 4> child{};
     for (std::size_t i = 0; i < 4; ++i) {
-        work_.catch_up(node);
-        EyeRegion part = node.region;
+        work_.add_new_pieces(node);
+        ViewRegion part = node.region;
         for (const Plane& plane : cone_of(parts.at(i))) {
             part = *part.cut(plane);
         }
@@ -186,8 +186,8 @@ int CellBuilder::octants(int first, int axis) {
         const glm::dvec3 signs = octant_signs(first);
         const OctantTriangle corners{
             {{signs.x, 0.0, 0.0}, {0.0, signs.y, 0.0}, {0.0, 0.0, signs.z}}};
-        const EyeRegion region = octant_region(signs, min_distance_);
-        return divide(eye_node(graphs_, region), corners, octant_name(first), 0);
+        const ViewRegion region = octant_region(signs, min_distance_);
+        return divide(view_cell(graphs_, region), corners, octant_name(first), 0);
     }
     glm::dvec3 normal(0.0);
     normal[axis] = 1.0;
@@ -202,7 +202,7 @@ int CellBuilder::octants(int first, int axis) {
 void CellBuilder::build() {
     octants(0, 2);
     for (std::size_t i = 0; i < cells.lists.size(); ++i) {
-        work_.catch_up(cells.lists[i], made_at_[i]);
+        work_.add_new_pieces(cells.lists[i], made_at_[i]);
     }
 }
 

@@ -26,7 +26,7 @@ struct OctantCells {
 /// Octant "sx sy sz" is the flat triangle A = (sx, 0, 0), B = (0, sy, 0), C = (0, 0, sz) as seen
 /// from the origin. Where its graph has a cycle it is divided at the midpoints of its sides into 0
 /// = (A, AB, CA), 1 = (AB, B, BC), 2 = (CA, BC, C), 3 = (BC, CA, AB). A quarter that is still
-/// cyclic is divided by planes as in region_tree.h: cones about one centre cannot approximate a
+/// cyclic is divided by planes as in view_space_tree.h: cones about one centre cannot approximate a
 /// plane that misses the centre, however fine they are, and each further level of them makes more
 /// cells than it saves.
 ///

@@ -64,13 +64,13 @@ bool faces_some_eye(
 /// The polygons of an octant's list, ascending.
 std::vector<std::uint32_t> listed_polygons(
     const models::polygons::PolygonModel& model,
-    const PaperOptions& options,
+    const PaperOrderOptions& options,
     const glm::dvec3& signs,
     double radius_m) {
     std::vector<std::uint32_t> listed;
     const glm::dvec3 viewpoint_m = signs * options.viewpoint_radii * radius_m;
     for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
-        const bool faces = options.listed == Listed::FromPoint
+        const bool faces = options.listed == ListingRule::FromPoint
                                ? faces_point(model, i, viewpoint_m)
                                : faces_some_eye(model, i, signs, radius_m);
         if (faces) {
@@ -85,10 +85,10 @@ std::vector<Precedence> all_pairs(std::span<const ScreenPolygon> polygons) {
     std::vector<Precedence> precedences;
     for (std::uint32_t a = 0; a < polygons.size(); ++a) {
         for (std::uint32_t b = a + 1; b < polygons.size(); ++b) {
-            const First first = paint_first(polygons[a], polygons[b]);
-            if (first == First::A) {
+            const PaintFirst first = paint_first(polygons[a], polygons[b]);
+            if (first == PaintFirst::A) {
                 precedences.push_back({a, b});
-            } else if (first == First::B) {
+            } else if (first == PaintFirst::B) {
                 precedences.push_back({b, a});
             }
         }
@@ -114,7 +114,7 @@ glm::dvec3 octant_signs(int octant) {
 }
 
 OctantOrders
-paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options) {
+paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options) {
     assert(glm::all(glm::greaterThan(options.viewpoint_radii, glm::dvec3(0.0))));
     const double radius_m = models::polygons::radius_m(model);
     OctantOrders orders;
@@ -125,9 +125,9 @@ paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& op
         std::vector<ScreenPolygon> seen;
         seen.reserve(listed.size());
         for (const std::uint32_t polygon : listed) {
-            seen.push_back(on_screen(model, polygon, view));
+            seen.push_back(screen_polygon(model, polygon, view));
         }
-        const PaintSequence sequence = paint_sequence(seen.size(), all_pairs(seen));
+        const TopologicalOrder sequence = topological_order(seen.size(), all_pairs(seen));
         for (const std::uint32_t place : sequence.order) {
             orders.lists[static_cast<std::size_t>(octant)].push_back(listed[place]);
         }

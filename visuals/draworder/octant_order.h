@@ -23,19 +23,19 @@ std::string octant_name(int octant);
 glm::dvec3 octant_signs(int octant);
 
 /// Which polygons are put into an octant's list.
-enum class Listed {
+enum class ListingRule {
     FromOctant, ///< Those that face some eye of the octant at or beyond the model's radius.
     FromPoint   ///< Those that face the octant's viewpoint P, as printed (step 1).
 };
 
 /// How the paper is read where it leaves a choice.
-struct PaperOptions {
+struct PaperOrderOptions {
     /// The viewpoint P of octant +++, in units of the model's radius R; for the other octants its
     /// signs change. Each component must be > 0, and with Screen::Perspective its length > 1
     /// (asserted).
     glm::dvec3 viewpoint_radii{3.0};
-    Screen screen = Screen::Parallel;
-    Listed listed = Listed::FromOctant;
+    ScreenProjection screen = ScreenProjection::Parallel;
+    ListingRule listed = ListingRule::FromOctant;
 };
 
 /// The painting orders of the eight octants.
@@ -50,7 +50,7 @@ struct OctantOrders {
 /// free, the lower polygon number comes first. The time grows with the square of the polygons
 /// listed.
 OctantOrders
-paper_orders(const models::polygons::PolygonModel& model, const PaperOptions& options = {});
+paper_orders(const models::polygons::PolygonModel& model, const PaperOrderOptions& options = {});
 
 /// The eye in body axes, metres: inverse(T R) * eye for an aircraft at `position_m` in the world
 /// with the attitude `body_to_world` (a unit quaternion). Its octant is the paper's run-time step,

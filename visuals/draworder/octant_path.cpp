@@ -64,7 +64,7 @@ bool is_octant_path(std::string_view text) {
     return true;
 }
 
-std::array<OctantTriangle, 4> quarters_of(const OctantTriangle& corners) {
+std::array<OctantTriangle, 4> subdivided(const OctantTriangle& corners) {
     const auto& [a, b, c] = corners;
     const glm::dvec3 ab = (a + b) / 2.0;
     const glm::dvec3 bc = (b + c) / 2.0;
@@ -72,7 +72,7 @@ std::array<OctantTriangle, 4> quarters_of(const OctantTriangle& corners) {
     return {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}}};
 }
 
-OctantTriangle corners_of_path(std::string_view path) {
+OctantTriangle octant_triangle(std::string_view path) {
     assert(is_octant_path(path));
     OctantTriangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -80,7 +80,7 @@ OctantTriangle corners_of_path(std::string_view path) {
         corners[i][static_cast<int>(i)] = path[i] == '+' ? 1.0 : -1.0;
     }
     for (std::size_t at = 4; at < path.size(); at += 2) {
-        corners = quarters_of(corners)[static_cast<std::size_t>(path[at] - '0')];
+        corners = subdivided(corners)[static_cast<std::size_t>(path[at] - '0')];
     }
     return corners;
 }

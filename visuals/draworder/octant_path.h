@@ -27,10 +27,10 @@ using OctantTriangle = std::array<glm::dvec3, 3>;
 
 /// The children of (A, B, C): with AB the midpoint of an edge, 0 = (A, AB, CA), 1 = (AB, B, BC),
 /// 2 = (CA, BC, C) and 3 = (BC, CA, AB).
-std::array<OctantTriangle, 4> quarters_of(const OctantTriangle& corners);
+std::array<OctantTriangle, 4> subdivided(const OctantTriangle& corners);
 
 /// The triangle that an octant path names; A, B, C of an octant lie on the axes of x, y, z.
-OctantTriangle corners_of_path(std::string_view path);
+OctantTriangle octant_triangle(std::string_view path);
 
 /// An octant path of the body axes as the file's axes say it: signs and children change places.
 std::string path_in_file(const std::string& path, const models::polygons::FileAxes& axes);

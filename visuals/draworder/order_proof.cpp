@@ -17,7 +17,7 @@ constexpr std::uint64_t units_of_none = 1'000'000;
 constexpr std::uint64_t units_of_polygon_in_part = 60;
 
 /// Counts what is found, and what that costs.
-class Counting : public ProofSink {
+class Counting : public ProofVisitor {
 public:
     explicit Counting(SearchBudget& budget)
         : budget_(budget) {}
@@ -28,32 +28,32 @@ public:
         budget_.spend(units_of_pair * count);
     }
 
-    void add_pair(separation::Decider /*by*/) override {}
+    void add_pair(separation::DecidingPolygon /*by*/) override {}
 
     void end_pairs() override {}
 
-    void add_witness(
+    void add_plane_proof(
         int /*part*/,
-        const separation::Witness& witness,
+        const separation::SeparatingPlaneProof& plane_proof,
         std::uint32_t earlier,
         std::uint32_t later) override {
-        if (witness.kind != separation::Witness::Kind::None) {
+        if (plane_proof.kind != separation::SeparatingPlaneProof::Kind::None) {
             budget_.spend(units_of_witness);
             return;
         }
         ++proof_.unproved;
-        if (proof_.open.size() < OrderProof::max_open) {
-            proof_.open.emplace_back(earlier, later);
+        if (proof_.unproved_pairs.size() < OrderProof::max_open) {
+            proof_.unproved_pairs.emplace_back(earlier, later);
         }
         budget_.spend(units_of_none);
     }
 
-    void add_away(
-        int /*part*/, std::uint32_t /*polygon*/, const separation::Factors& /*factors*/) override {
+    void add_back_facing(
+        int /*part*/, std::uint32_t /*polygon*/, const separation::PlaneFactors& /*factors*/) override {
         budget_.spend(units_of_witness);
     }
 
-    void add_doubt(int /*part*/, std::uint32_t /*polygon*/) override {
+    void add_unproved(int /*part*/, std::uint32_t /*polygon*/) override {
         ++proof_.unproved;
         budget_.spend(units_of_none);
     }
@@ -70,11 +70,11 @@ private:
 } // namespace
 
 OrderProof
-order_proof(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
+prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
     SearchBudget budget(seconds);
     OrderProof best;
     if (model.corner_vertices.empty()) {
-        best.is_whole = true;
+        best.is_complete = true;
         return best;
     }
     const models::polygons::FileAxes axes;
@@ -82,12 +82,12 @@ order_proof(const models::polygons::PolygonModel& model, const DrawOrder& order,
         const separation::LocalModel local = separation::local_model(model, axes, tolerance);
         Counting counting(budget);
         try {
-            walk_proof({model, order, axes, local}, counting);
-            counting.proof().is_whole = true;
+            visit_proof({model, order, axes, local}, counting);
+            counting.proof().is_complete = true;
         } catch (const SearchGivenUp&) {
-            return best.is_whole ? best : counting.proof();
+            return best.is_complete ? best : counting.proof();
         }
-        if (!best.is_whole || counting.proof().unproved < best.unproved) {
+        if (!best.is_complete || counting.proof().unproved < best.unproved) {
             best = counting.proof();
         }
         if (best.unproved == 0) {

@@ -15,15 +15,15 @@ struct OrderProof {
     /// Pairs and polygons for which no proof was found.
     std::uint64_t unproved = 0;
     /// The first of these pairs: which is painted earlier, which later.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> unproved_pairs;
     static constexpr std::size_t max_open = 100;
     /// Whether the whole order was looked at; else the work was spent before.
-    bool is_whole = false;
+    bool is_complete = false;
 };
 
 /// Proves an order pair by pair (proof_walk.h), as far as about so many seconds of work on one core
 /// go. They are counted, not timed: the same model and order give the same proof.
 OrderProof
-order_proof(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
+prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds);
 
 } // namespace octant::visuals::draworder

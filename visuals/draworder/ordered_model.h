@@ -4,7 +4,7 @@
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/order_method.h"
-#include "visuals/draworder/order_trial.h"
+#include "visuals/draworder/order_ray_test.h"
 #include "visuals/draworder/search_budget.h"
 
 #include <string>
@@ -13,25 +13,25 @@
 namespace octant::visuals::draworder {
 
 struct OrderOptions {
-    Method method = Method::Tree;
+    OrderMethod method = OrderMethod::Tree;
     /// Cells, Tree: about how long the search may take on one core. It is counted in work, not in
     /// time, so that the same model gives the same order everywhere.
     double seconds = 20.0;
     /// Cells, Tree: told how much of that is spent, 0 to 1; may be empty.
     SearchBudget::Progress progress = {};
     double min_distance_radii = 2.0; ///< Cells: exact for eyes with |x|+|y|+|z| >= this many radii.
-    PaperOptions paper;              ///< For Method::Paper.
+    PaperOrderOptions paper;              ///< For Method::Paper.
 };
 
 /// What an order was found by in the end.
-enum class DrawnBy {
+enum class OrderSource {
     Paper, ///< Octants as printed.
     Cells, ///< Octants divided further.
     Tree,  ///< Cells of a tree of planes over eye space.
     Parts, ///< Polygons divided where they hide one another in rings.
     Bsp,   ///< Polygons divided until each stands alone.
     /// Cells of a tree as far as the search came, polygons divided in the others.
-    TreeAndParts
+    TreeAndSplitPolygons
 };
 
 /// A model with its painting orders, in body axes.
@@ -46,14 +46,14 @@ struct OrderedModel {
     int splits = 0;                 ///< How many polygons were added by splitting.
     int cyclic_cells = 0;           ///< Paper: the number of octants with broken cycles; else 0.
     std::vector<std::string> notes; ///< Messages to the user; often none.
-    DrawnBy drawn_by = DrawnBy::Tree;
-    Trial trial{}; ///< Not for Method::Paper.
+    OrderSource found_by = OrderSource::Tree;
+    RayTestResult ray_test{}; ///< Not for Method::Paper.
 };
 
 /// Finds the painting orders of a model. Meant for loading: it may take seconds.
 ///
 /// There is an answer for any model. Where the search for cells is given up, what was found is
-/// kept, and in the other cells polygons are divided (parted_order.h); all of them where nothing
+/// kept, and in the other cells polygons are divided (bsp_order.h); all of them where nothing
 /// was found or the model has more polygons than are searched. Every order but that of
 /// Method::Paper is tried by rays before it is returned, and proved pair by pair as far as a
 /// fiftieth of the seconds goes (order_trial.h); one that is wrong is replaced in the same way, and

@@ -70,16 +70,16 @@ std::optional<Crossing> crossing(
 }
 
 /// Step 2, (5)-(8): decides by the depth ranges.
-First by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
+PaintFirst by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
     const double most = a.most.z - b.most.z;
     const double least = a.least.z - b.least.z;
     if (most > equal_within && least > equal_within) {
-        return First::B;
+        return PaintFirst::B;
     }
     if (most < -equal_within && least < -equal_within) {
-        return First::A;
+        return PaintFirst::A;
     }
-    return First::Either;
+    return PaintFirst::Either;
 }
 
 /// Step 3, (9)-(12): whether the screen bounding boxes are disjoint.
@@ -89,7 +89,7 @@ bool boxes_apart(const ScreenPolygon& a, const ScreenPolygon& b) {
 }
 
 /// Step 4, (13)-(29): decides by the depths at the first true crossing of two edges.
-First by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
+PaintFirst by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
     for (std::size_t i = 0; i < a.corners.size(); ++i) {
         for (std::size_t j = 0; j < b.corners.size(); ++j) {
             const auto at = crossing(
@@ -98,16 +98,16 @@ First by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
                 b.corners[j],
                 b.corners[(j + 1) % b.corners.size()]);
             if (at && std::abs(at->depth_a - at->depth_b) > equal_within) {
-                return at->depth_a < at->depth_b ? First::A : First::B;
+                return at->depth_a < at->depth_b ? PaintFirst::A : PaintFirst::B;
             }
         }
     }
-    return First::Either;
+    return PaintFirst::Either;
 }
 
 } // namespace
 
-ScreenView::ScreenView(const glm::dvec3& viewpoint_m, Screen screen, double scale_m)
+ScreenView::ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m)
     : distance_m_(glm::length(viewpoint_m))
     , scale_m_(scale_m)
     , screen_(screen) {
@@ -122,14 +122,14 @@ ScreenView::ScreenView(const glm::dvec3& viewpoint_m, Screen screen, double scal
 glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
     const glm::dvec3 in_view(
         glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_));
-    if (screen_ == Screen::Parallel) {
+    if (screen_ == ScreenProjection::Parallel) {
         return in_view / scale_m_;
     }
     assert(in_view.z < distance_m_);
     return in_view * (distance_m_ / (distance_m_ - in_view.z) / scale_m_);
 }
 
-ScreenPolygon on_screen(
+ScreenPolygon screen_polygon(
     const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
     ScreenPolygon seen;
     for (const std::uint32_t vertex : model.corners(polygon)) {
@@ -143,12 +143,12 @@ ScreenPolygon on_screen(
     return seen;
 }
 
-First paint_first(const ScreenPolygon& a, const ScreenPolygon& b) {
-    const First by_depth = by_depth_range(a, b);
-    if (by_depth != First::Either) {
+PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b) {
+    const PaintFirst by_depth = by_depth_range(a, b);
+    if (by_depth != PaintFirst::Either) {
         return by_depth;
     }
-    return boxes_apart(a, b) ? First::Either : by_first_crossing(a, b);
+    return boxes_apart(a, b) ? PaintFirst::Either : by_first_crossing(a, b);
 }
 
 } // namespace octant::visuals::draworder

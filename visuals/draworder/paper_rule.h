@@ -9,7 +9,7 @@
 namespace octant::visuals::draworder {
 
 /// How screen coordinates are made from a viewpoint; the paper does not say.
-enum class Screen {
+enum class ScreenProjection {
     Parallel,   ///< A parallel projection along the line from the viewpoint to the origin.
     Perspective ///< A perspective projection from the viewpoint, which looks at the origin.
 };
@@ -20,7 +20,7 @@ class ScreenView {
 public:
     /// The viewpoint must not be the origin, and scale_m > 0 (asserted). With Screen::Perspective
     /// every point that is mapped must be in front of the viewpoint (asserted).
-    ScreenView(const glm::dvec3& viewpoint_m, Screen screen, double scale_m);
+    ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m);
 
     glm::dvec3 screen_from_body(const glm::dvec3& point_m) const;
 
@@ -30,7 +30,7 @@ private:
     glm::dvec3 towards_eye_{0.0};
     double distance_m_ = 0.0;
     double scale_m_ = 0.0;
-    Screen screen_;
+    ScreenProjection screen_;
 };
 
 /// A polygon in screen coordinates, with its bounding box.
@@ -42,13 +42,13 @@ struct ScreenPolygon {
 
 /// A polygon of the model in screen coordinates.
 ScreenPolygon
-on_screen(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
+screen_polygon(const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view);
 
 /// Which of two polygons must be painted first.
-enum class First { A, B, Either };
+enum class PaintFirst { A, B, Either };
 
 /// Steps 2 to 4 of the paper for one pair of polygons: depth ranges, bounding boxes, and the first
 /// true crossing of their edges. The time is that of comparing all edges of a with all of b.
-First paint_first(const ScreenPolygon& a, const ScreenPolygon& b);
+PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b);
 
 } // namespace octant::visuals::draworder

@@ -32,8 +32,8 @@ public:
         }
     }
 
-    PaintSequence sequence() {
-        PaintSequence out;
+    TopologicalOrder sequence() {
+        TopologicalOrder out;
         while (out.order.size() < later_.size()) {
             std::uint32_t next = 0;
             if (ready_.empty()) {
@@ -81,7 +81,7 @@ private:
 
 } // namespace
 
-PaintSequence paint_sequence(std::size_t count, std::span<const Precedence> precedences) {
+TopologicalOrder topological_order(std::size_t count, std::span<const Precedence> precedences) {
     return Sequencer(count, precedences).sequence();
 }
 

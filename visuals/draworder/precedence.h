@@ -14,7 +14,7 @@ struct Precedence {
 };
 
 /// A painting order that was made from precedences.
-struct PaintSequence {
+struct TopologicalOrder {
     std::vector<std::uint32_t> order; ///< First painted first.
     int broken_cycles = 0; ///< How often a polygon came before one that it should follow.
 };
@@ -23,6 +23,6 @@ struct PaintSequence {
 /// these numbers, asserted), with the lowest number first wherever there is a choice. In a cycle
 /// the polygon that waits for the fewest others goes ahead, the lowest number among equals; each
 /// such step counts as a broken cycle.
-PaintSequence paint_sequence(std::size_t count, std::span<const Precedence> precedences);
+TopologicalOrder topological_order(std::size_t count, std::span<const Precedence> precedences);
 
 } // namespace octant::visuals::draworder

@@ -1,7 +1,7 @@
 // The walk need not be trusted: visuals/verify checks what is written of it, with none of its code.
 #include "visuals/draworder/proof_walk.h"
 
-#include "visuals/separation/pair_bits.h"
+#include "visuals/separation/polygon_pair_set.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,24 +16,24 @@ namespace octant::visuals::draworder {
 
 namespace {
 
-using separation::Decider;
+using separation::DecidingPolygon;
 using separation::LocalModel;
 using separation::LocalPolygon;
-using separation::PairBits;
-using separation::PolygonBits;
-using separation::Witness;
+using separation::PolygonPairSet;
+using separation::PolygonBitset;
+using separation::SeparatingPlaneProof;
 using Polygons = std::vector<std::uint32_t>;
 
 /// One walk.
-class Walking {
+class ProofWalker {
 public:
-    Walking(const OrderToProve& asked, ProofSink& sink)
-        : model_(asked.model)
-        , order_(asked.order)
-        , axes_(asked.axes)
-        , local_(asked.local)
-        , mark_(asked.model.polygons.size(), 0)
-        , sink_(sink) {}
+    ProofWalker(const ProofInput& input, ProofVisitor& visitor)
+        : model_(input.model)
+        , order_(input.order)
+        , axes_(input.axes)
+        , local_(input.local)
+        , mark_(input.model.polygons.size(), 0)
+        , sink_(visitor) {}
 
     void walk() {
         Polygons all;
@@ -53,7 +53,7 @@ private:
     /// they face such an eye.
     struct Task {
         int child = 0;
-        std::vector<Plane> walls; ///< In the unit of local_.
+        std::vector<Plane> region_planes; ///< In the unit of local_.
         Polygons expected;
         bool in_plane = false;
     };
@@ -62,91 +62,91 @@ private:
     /// and all that is known for them.
     struct Level {
         int child = 0;
-        std::size_t walls = 0;
-        PairBits known;
+        std::size_t region_planes = 0;
+        PolygonPairSet known;
     };
 
     void look_at(const Task& task) {
-        task.child < 0 ? look_at_list(task) : look_at_node(task);
+        task.child < 0 ? check_list(task) : check_node(task);
         sink_.end_part(task.expected.size());
     }
 
-    void look_at_list(const Task& task) {
+    void check_list(const Task& task) {
         const auto list = order_.polygons_of(~task.child);
-        look_for_missing(task, {list.begin(), list.end()});
+        find_missing_polygons(task, {list.begin(), list.end()});
         if (task.in_plane) {
             return;
         }
         if (!levels_.empty()) {
-            look_at_open_pairs(task, list);
+            check_unproved_pairs(task, list);
             return;
         }
         for (std::size_t later = 1; later < list.size(); ++later) {
-            const Polygons open = look_at_row(task.child, list.first(later), list[later]);
-            for (const std::uint32_t earlier : open) {
-                seek_witness(task.child, task.walls, earlier, list[later]);
+            const Polygons unproved_pairs = check_row(task.child, list.first(later), list[later]);
+            for (const std::uint32_t earlier : unproved_pairs) {
+                find_proof(task.child, task.region_planes, earlier, list[later]);
             }
         }
     }
 
     /// Of a list below choices the pairs that no plane of a polygon and no wall decides.
-    void look_at_open_pairs(const Task& task, std::span<const std::uint32_t> list) {
-        PolygonBits painted = levels_.back().known.none();
+    void check_unproved_pairs(const Task& task, std::span<const std::uint32_t> list) {
+        PolygonBitset painted = levels_.back().known.none();
         for (const std::uint32_t later : list) {
-            Polygons open;
-            levels_.back().known.for_each_open(
-                painted, later, [&](std::uint32_t earlier) { open.push_back(earlier); });
-            for (const std::uint32_t earlier : open) {
-                seek_for_eyes(task, earlier, later);
+            Polygons unproved_pairs;
+            levels_.back().known.for_each_missing(
+                painted, later, [&](std::uint32_t earlier) { unproved_pairs.push_back(earlier); });
+            for (const std::uint32_t earlier : unproved_pairs) {
+                find_proof_for_eyes(task, earlier, later);
             }
             separation::add(painted, later);
         }
     }
 
     /// Tells of a witness where it serves the most eyes.
-    void seek_for_eyes(const Task& task, std::uint32_t earlier, std::uint32_t later) {
-        Witness witness = witness_of(local_, task.walls, earlier, later);
-        auto& walls = witness.factors.walls;
+    void find_proof_for_eyes(const Task& task, std::uint32_t earlier, std::uint32_t later) {
+        SeparatingPlaneProof plane_proof = find_separating_plane(local_, task.region_planes, earlier, later);
+        auto& region_planes = plane_proof.factors.region_planes;
         std::size_t level = levels_.size() - 1;
-        if (witness.kind != Witness::Kind::None) {
-            while (level > 0 && walls[levels_[level].walls - 1] == 0.0) {
+        if (plane_proof.kind != SeparatingPlaneProof::Kind::None) {
+            while (level > 0 && region_planes[levels_[level].region_planes - 1] == 0.0) {
                 --level;
             }
-            walls.resize(levels_[level].walls);
+            region_planes.resize(levels_[level].region_planes);
         }
-        sink_.add_witness(levels_[level].child, witness, earlier, later);
+        sink_.add_plane_proof(levels_[level].child, plane_proof, earlier, later);
         for (; level < levels_.size(); ++level) {
             levels_[level].known.add(earlier, later);
         }
     }
 
-    void look_at_node(const Task& task) {
+    void check_node(const Task& task) {
         const DrawOrder::Node& node = order_.nodes()[static_cast<std::size_t>(task.child)];
-        if (node.kind == DrawOrder::Kind::Choice) {
-            look_at_choice(task, node);
+        if (node.kind == DrawOrder::Kind::ViewSplit) {
+            check_view_split(task, node);
             return;
         }
-        const std::array<int, 4> children{node.front, node.back, node.along, node.against};
+        const std::array<int, 4> children{node.front, node.back, node.coplanar_front, node.coplanar_back};
         std::array<Polygons, 4> parts;
         Polygons all;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             parts[i] = contents(children[i]);
             all.insert(all.end(), parts[i].begin(), parts[i].end());
         }
-        look_for_missing(task, all);
-        if (node.kind == DrawOrder::Kind::Parting) {
-            look_for_doubts(task.child, parts, wall_of(node));
+        find_missing_polygons(task, all);
+        if (node.kind == DrawOrder::Kind::PolygonSplit) {
+            find_unproved_pairs(task.child, parts, wall_of(node));
         }
         for (const std::uint32_t later : parts[1]) {
             if (node.kind == DrawOrder::Kind::Sequence && !parts[0].empty()) {
-                for (const std::uint32_t earlier : look_at_row(task.child, parts[0], later)) {
-                    seek_witness(task.child, task.walls, earlier, later);
+                for (const std::uint32_t earlier : check_row(task.child, parts[0], later)) {
+                    find_proof(task.child, task.region_planes, earlier, later);
                 }
             }
         }
         for (std::size_t i = 0; i < parts.size(); ++i) {
             if (children[i] != DrawOrder::nothing) {
-                to_do_.push_back({children[i], task.walls, std::move(parts[i]), i >= 2});
+                to_do_.push_back({children[i], task.region_planes, std::move(parts[i]), i >= 2});
             }
         }
     }
@@ -157,31 +157,31 @@ private:
     }
 
     /// What holds for all eyes is told at the first choice of a path, for all lists below it.
-    void look_at_choice(const Task& task, const DrawOrder::Node& node) {
+    void check_view_split(const Task& task, const DrawOrder::Node& node) {
         const bool is_first = levels_.empty();
         if (is_first) {
-            levels_.push_back({task.child, task.walls.size(), PairBits(model_.polygons.size())});
+            levels_.push_back({task.child, task.region_planes.size(), PolygonPairSet(model_.polygons.size())});
             const Polygons below = contents(task.child);
             for (const std::uint32_t later : below) {
-                look_at_row(task.child, below, later);
+                check_row(task.child, below, later);
             }
         }
         const Plane wall = wall_of(node);
-        look_at_side(task, node.front, wall);
-        look_at_side(task, node.back, {-wall.normal, -wall.offset_m});
+        check_side(task, node.front, wall);
+        check_side(task, node.back, {-wall.normal, -wall.offset_m});
         if (is_first) {
             levels_.pop_back();
         }
     }
 
-    void look_at_side(const Task& task, int child, const Plane& wall) {
+    void check_side(const Task& task, int child, const Plane& wall) {
         if (child == DrawOrder::nothing) {
             return; // nothing is painted for these eyes, and nothing is claimed for them
         }
-        Task side{child, task.walls, task.expected, false};
-        side.walls.push_back(wall);
-        Level level{child, side.walls.size(), levels_.back().known};
-        PolygonBits behind = level.known.none();
+        Task side{child, task.region_planes, task.expected, false};
+        side.region_planes.push_back(wall);
+        Level level{child, side.region_planes.size(), levels_.back().known};
+        PolygonBitset behind = level.known.none();
         Polygons before;
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
             if (is_behind(local_, i, wall, true)) {
@@ -212,10 +212,10 @@ private:
     /// The polygons that are painted below a child, ascending.
     Polygons contents(int child) const {
         Polygons found;
-        std::vector<int> to_do{child};
-        while (!to_do.empty()) {
-            const int next = to_do.back();
-            to_do.pop_back();
+        std::vector<int> pending{child};
+        while (!pending.empty()) {
+            const int next = pending.back();
+            pending.pop_back();
             if (next == DrawOrder::nothing) {
                 continue;
             }
@@ -225,7 +225,7 @@ private:
                 continue;
             }
             const DrawOrder::Node& node = order_.nodes()[static_cast<std::size_t>(next)];
-            to_do.insert(to_do.end(), {node.front, node.back, node.along, node.against});
+            pending.insert(pending.end(), {node.front, node.back, node.coplanar_front, node.coplanar_back});
         }
         std::ranges::sort(found);
         found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -233,7 +233,7 @@ private:
     }
 
     /// Tells why polygons that are expected need not be painted.
-    void look_for_missing(const Task& task, const Polygons& painted) {
+    void find_missing_polygons(const Task& task, const Polygons& painted) {
         for (const std::uint32_t polygon : painted) {
             mark_[polygon] = 1;
         }
@@ -241,10 +241,10 @@ private:
             if (mark_[polygon] != 0) {
                 continue;
             }
-            if (const auto factors = factors_away(local_, task.walls, polygon)) {
-                sink_.add_away(task.child, polygon, *factors);
+            if (const auto factors = find_back_facing_proof(local_, task.region_planes, polygon)) {
+                sink_.add_back_facing(task.child, polygon, *factors);
             } else {
-                sink_.add_doubt(task.child, polygon);
+                sink_.add_unproved(task.child, polygon);
             }
         }
         for (const std::uint32_t polygon : painted) {
@@ -254,15 +254,15 @@ private:
 
     /// Tells which pairs the plane of one polygon decides; returns the earlier polygons of the
     /// others.
-    Polygons look_at_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
+    Polygons check_row(int child, std::span<const std::uint32_t> earlier, std::uint32_t later) {
         sink_.begin_pairs(child, later, earlier.size());
-        Polygons open;
-        Decider last = Decider::Neither;
+        Polygons unproved_pairs;
+        DecidingPolygon last = DecidingPolygon::Neither;
         for (const std::uint32_t polygon : earlier) {
-            const Decider by =
-                polygon == later ? Decider::Neither : decider(local_, polygon, later, last);
-            if (by == Decider::Neither) {
-                open.push_back(polygon);
+            const DecidingPolygon by =
+                polygon == later ? DecidingPolygon::Neither : deciding_polygon(local_, polygon, later, last);
+            if (by == DecidingPolygon::Neither) {
+                unproved_pairs.push_back(polygon);
             } else if (!levels_.empty()) {
                 levels_.back().known.add(polygon, later);
             }
@@ -270,16 +270,16 @@ private:
             last = by;
         }
         sink_.end_pairs();
-        return open;
+        return unproved_pairs;
     }
 
-    void seek_witness(
-        int child, std::span<const Plane> walls, std::uint32_t earlier, std::uint32_t later) {
-        sink_.add_witness(child, witness_of(local_, walls, earlier, later), earlier, later);
+    void find_proof(
+        int child, std::span<const Plane> region_planes, std::uint32_t earlier, std::uint32_t later) {
+        sink_.add_plane_proof(child, find_separating_plane(local_, region_planes, earlier, later), earlier, later);
     }
 
     /// Tells which polygons are not where a parting needs them.
-    void look_for_doubts(int child, const std::array<Polygons, 4>& parts, const Plane& plane) {
+    void find_unproved_pairs(int child, const std::array<Polygons, 4>& parts, const Plane& plane) {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             for (const std::uint32_t polygon : parts[i]) {
                 const bool before = is_before(local_, polygon, plane, true);
@@ -288,7 +288,7 @@ private:
                                   : i == 1 ? behind
                                            : before && behind && faces(parts, i, polygon, plane);
                 if (!good) {
-                    sink_.add_doubt(child, polygon);
+                    sink_.add_unproved(child, polygon);
                 }
             }
         }
@@ -313,13 +313,13 @@ private:
     std::vector<char> mark_; ///< One for each polygon; all are 0 between uses.
     std::vector<Task> to_do_;
     std::vector<Level> levels_; ///< Of the choices above the part at hand.
-    ProofSink& sink_;
+    ProofVisitor& sink_;
 };
 
 } // namespace
 
-void walk_proof(const OrderToProve& asked, ProofSink& sink) {
-    Walking(asked, sink).walk();
+void visit_proof(const ProofInput& input, ProofVisitor& visitor) {
+    ProofWalker(input, visitor).walk();
 }
 
 } // namespace octant::visuals::draworder

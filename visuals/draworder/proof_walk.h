@@ -4,7 +4,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/separation/local_model.h"
-#include "visuals/separation/witness.h"
+#include "visuals/separation/separating_plane_proof.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,35 +12,35 @@
 namespace octant::visuals::draworder {
 
 /// Is told why an order is right. A part is a child of a node as DrawOrder numbers them.
-class ProofSink {
+class ProofVisitor {
 public:
-    virtual ~ProofSink() = default;
+    virtual ~ProofVisitor() = default;
 
     /// The pairs of one later polygon with `count` earlier ones of a part, which their own planes
     /// may decide: begin, one call a pair in the order of the part, end.
     virtual void begin_pairs(int part, std::uint32_t later, std::size_t count) = 0;
-    virtual void add_pair(separation::Decider by) = 0;
+    virtual void add_pair(separation::DecidingPolygon by) = 0;
     virtual void end_pairs() = 0;
 
     /// What was found for a pair that is not decided so: a witness, or none.
-    virtual void add_witness(
+    virtual void add_plane_proof(
         int part,
-        const separation::Witness& witness,
+        const separation::SeparatingPlaneProof& plane_proof,
         std::uint32_t earlier,
         std::uint32_t later) = 0;
 
     /// The polygon faces away from every eye that comes to the part.
-    virtual void add_away(int part, std::uint32_t polygon, const separation::Factors& factors) = 0;
+    virtual void add_back_facing(int part, std::uint32_t polygon, const separation::PlaneFactors& factors) = 0;
 
     /// No proof is found for the polygon.
-    virtual void add_doubt(int part, std::uint32_t polygon) = 0;
+    virtual void add_unproved(int part, std::uint32_t polygon) = 0;
 
     /// A node or list, with so many polygons, is done.
     virtual void end_part(std::size_t polygons) = 0;
 };
 
 /// An order, and the model as proofs are sought for it.
-struct OrderToProve {
+struct ProofInput {
     const models::polygons::PolygonModel& model;
     const DrawOrder& order;
     const models::polygons::FileAxes& axes;
@@ -50,7 +50,7 @@ struct OrderToProve {
 /// Walks through an order and seeks for each pair of polygons that it paints one before the other
 /// the plane that proves that nothing is hidden wrongly, and for each polygon that it leaves out
 /// that it faces away. The order is one for every eye of the model, or for those that a choice with
-/// nothing on one side leaves (eyes_beyond.h). An exception of the sink ends the walk.
-void walk_proof(const OrderToProve& asked, ProofSink& sink);
+/// nothing on one side leaves (with_min_distance.h). An exception of the sink ends the walk.
+void visit_proof(const ProofInput& input, ProofVisitor& visitor);
 
 } // namespace octant::visuals::draworder

@@ -10,9 +10,9 @@ namespace octant::visuals::draworder {
 /// Thrown where a search for cells ends without a result: its budget is spent, or the model has no
 /// cells that could be held. ordered() catches it and takes another way.
 struct SearchGivenUp {
-    std::string why; ///< Such as "the search took longer than 20 s".
+    std::string reason; ///< Such as "the search took longer than 20 s".
     /// Whether only because another order is known that costs less.
-    bool is_beaten = false;
+    bool is_worse_than_best = false;
 };
 
 /// What a search may cost. Work is counted, not timed, so that the same model gives the same order

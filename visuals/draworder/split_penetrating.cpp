@@ -173,7 +173,7 @@ public:
 private:
     /// The best cut of a polygon: along the plane of another one, with the number of pairs that it
     /// removes.
-    struct Cut {
+    struct PolygonCut {
         std::uint32_t along = 0;
         long pairs_fewer = 0;
     };
@@ -196,7 +196,7 @@ private:
                 continue;
             }
             if (!cuts_[i]) {
-                cuts_[i] = best_cut(i);
+                cuts_[i] = best_polygon_cut(i);
             }
             if (!best || cuts_[i]->pairs_fewer > cuts_[*best]->pairs_fewer) {
                 best = i;
@@ -205,12 +205,12 @@ private:
         return best;
     }
 
-    Cut best_cut(std::uint32_t face) const {
-        std::optional<Cut> best;
+    PolygonCut best_polygon_cut(std::uint32_t face) const {
+        std::optional<PolygonCut> best;
         for (const std::uint32_t along : partners_[face]) {
-            const long fewer = pairs_fewer(face, faces_[along].plane);
-            if (!best || fewer > best->pairs_fewer) {
-                best = Cut{along, fewer};
+            const long has_fewer_splits = pairs_fewer(face, faces_[along].plane);
+            if (!best || has_fewer_splits > best->pairs_fewer) {
+                best = PolygonCut{along, has_fewer_splits};
             }
         }
         return *best;
@@ -222,12 +222,12 @@ private:
         const Face front = face_of(front_part(whole.corners, plane), whole.plane, whole.pivot);
         const Face back =
             face_of(front_part(whole.corners, turned_over(plane)), whole.plane, whole.pivot);
-        auto fewer = static_cast<long>(partners_[face].size());
+        auto has_fewer_splits = static_cast<long>(partners_[face].size());
         for (const std::uint32_t other : partners_[face]) {
-            fewer -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;
-            fewer -= penetrate(back, faces_[other], tolerance_m_) ? 1 : 0;
+            has_fewer_splits -= penetrate(front, faces_[other], tolerance_m_) ? 1 : 0;
+            has_fewer_splits -= penetrate(back, faces_[other], tolerance_m_) ? 1 : 0;
         }
-        return fewer;
+        return has_fewer_splits;
     }
 
     /// Cuts a polygon and finds the partners of both pieces.
@@ -259,7 +259,7 @@ private:
     /// For each face those that it passes through, ascending.
     std::vector<std::vector<std::uint32_t>> partners_;
     /// For each face its best cut; nothing where that has to be found anew.
-    std::vector<std::optional<Cut>> cuts_;
+    std::vector<std::optional<PolygonCut>> cuts_;
 };
 
 } // namespace

@@ -22,16 +22,16 @@ constexpr std::uint32_t splits_always_allowed = 100;
 
 } // namespace
 
-void WorkingModel::resolve(const Deadlock& deadlock) {
-    RegionGraphs graphs(faces);
-    if (const auto cut = best_cut(graphs, deadlock)) {
-        if (twins.size() > splits_always_allowed + max_splits_a_polygon * first_count) {
-            throw SearchGivenUp{fmt::format("cells need more than {} splits", twins.size() - 1)};
+void WorkingModel::resolve(const PersistentCycle& persistent_cycle) {
+    OcclusionGraphBuilder graphs(faces);
+    if (const auto cut = best_polygon_cut(graphs, persistent_cycle)) {
+        if (sibling_pieces.size() > splits_always_allowed + max_splits_a_polygon * first_count) {
+            throw SearchGivenUp{fmt::format("cells need more than {} splits", sibling_pieces.size() - 1)};
         }
         // Faces keep the planes of whole polygons. That of a sliver, from its corners, may be any.
-        const Plane plane = *faces.faces[cut->along].plane;
+        const Plane plane = *faces.faces[cut->cut_by].plane;
         split_polygon(model, cut->polygon, faces.in_model(plane));
-        twins.push_back(cut->polygon);
+        sibling_pieces.push_back(cut->polygon);
         const Face whole = faces.faces[cut->polygon];
         const double inset = faces.tolerances.inset;
         faces.faces[cut->polygon] =
@@ -39,13 +39,13 @@ void WorkingModel::resolve(const Deadlock& deadlock) {
         const Plane back = turned_over(plane);
         faces.faces.push_back(
             outline_face(front_part(whole.outline, back, inset), *whole.plane, inset));
-        faces.rigid.add_twin(cut->polygon);
-        faces.ignored.add_twin(cut->polygon);
+        faces.rigid.add_sibling(cut->polygon);
+        faces.ignored.add_sibling(cut->polygon);
         end_overlaps(cut->polygon);
         end_overlaps(faces.faces.size() - 1);
         return;
     }
-    const auto weakest = weakest_pair(graphs, deadlock);
+    const auto weakest = pair_to_drop(graphs, persistent_cycle);
     if (!weakest) {
         throw SearchGivenUp{"polygons hide one another in a ring that no cut resolves"};
     }
@@ -68,21 +68,21 @@ void WorkingModel::end_overlaps(std::size_t piece) {
     }
 }
 
-bool WorkingModel::catch_up(EyeNode& node) const {
+bool WorkingModel::add_new_pieces(ViewCell& node) const {
     const std::size_t before = node.graph.count();
     while (node.graph.count() < faces.faces.size()) {
-        node.graph.add_twin(twins[node.graph.count() - first_count]);
+        node.graph.add_sibling(sibling_pieces[node.graph.count() - first_count]);
     }
     if (node.graph.count() > before) {
-        node.cycles = cycles_of(node.graph);
+        node.cycles = cyclic_part_of(node.graph);
     }
     return node.graph.count() > before;
 }
 
-void WorkingModel::catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const {
-    add_pieces(
+void WorkingModel::add_new_pieces(std::vector<std::uint32_t>& list, std::size_t polygons) const {
+    insert_cut_pieces(
         list,
-        std::span(twins).subspan(polygons - first_count),
+        std::span(sibling_pieces).subspan(polygons - first_count),
         static_cast<std::uint32_t>(polygons));
 }
 

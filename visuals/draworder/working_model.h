@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
-#include "visuals/draworder/eye_node.h"
+#include "visuals/draworder/view_cell.h"
 #include "visuals/draworder/model_faces.h"
 #include "visuals/draworder/search_budget.h"
 
@@ -30,7 +30,7 @@ struct WorkingModel {
     /// Splits a polygon of a deadlock, or gives up a pair where only turning polygons are in the
     /// way. Throws SearchGivenUp when there is nothing to split, or when a model has been split
     /// beyond what is sensible.
-    void resolve(const Deadlock& deadlock);
+    void resolve(const PersistentCycle& persistent_cycle);
 
     /// Counts work of the search, if there is a budget; throws SearchGivenUp when it is spent.
     void spend(std::uint64_t units) const {
@@ -41,10 +41,10 @@ struct WorkingModel {
 
     /// Adds to a node the pieces that were split off since it was made. Returns whether there were
     /// any.
-    bool catch_up(EyeNode& node) const;
+    bool add_new_pieces(ViewCell& node) const;
 
     /// Adds such pieces to a list that was made when there were `polygons` polygons.
-    void catch_up(std::vector<std::uint32_t>& list, std::size_t polygons) const;
+    void add_new_pieces(std::vector<std::uint32_t>& list, std::size_t polygons) const;
 
     void end_overlaps(std::size_t piece);
 
@@ -52,7 +52,7 @@ struct WorkingModel {
     ModelFaces faces;
     std::uint32_t first_count = 0;
     /// For polygon first_count + i the polygon whose other piece it is.
-    std::vector<std::uint32_t> twins;
+    std::vector<std::uint32_t> sibling_pieces;
     std::vector<std::string> notes;
     SearchBudget* budget = nullptr;
 };

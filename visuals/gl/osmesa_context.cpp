@@ -1,5 +1,5 @@
 #include "sim/base/error.h"
-#include "sim/base/late_library.h"
+#include "sim/base/lazy_library.h"
 #include "visuals/gl/context.h"
 
 #include <GL/osmesa.h>
@@ -13,9 +13,9 @@ namespace {
 
 /// OSMesa is opened when the first context is made: it brings a compiler with it, which takes as
 /// long to load as everything else that a program does at its start.
-constinit LateLibrary osmesa_library(OCTANT_OSMESA_FILE);
+constinit LazyLibrary osmesa_library(OCTANT_OSMESA_FILE);
 
-#define OCTANT_OSMESA(name) const LateFunction<decltype(::name)> name(osmesa_library, #name)
+#define OCTANT_OSMESA(name) const LazyFunction<decltype(::name)> name(osmesa_library, #name)
 OCTANT_OSMESA(OSMesaCreateContextAttribs);
 OCTANT_OSMESA(OSMesaDestroyContext);
 OCTANT_OSMESA(OSMesaGetProcAddress);

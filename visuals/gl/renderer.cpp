@@ -74,7 +74,7 @@ PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows)
         plan.view_to_clip * plan.world_to_view,
         glm::vec4(plan.haze.colour, visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F),
         glm::vec4(plan.haze.sunward, plan.haze.falloff_per_m),
-        glm::vec4(plan.haze.to_sun_level, 0.0F, 0.0F),
+        glm::vec4(plan.haze.horizontal_to_sun, 0.0F, 0.0F),
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
@@ -102,7 +102,7 @@ Renderer::~Renderer() {
     context_->make_current();
 }
 
-std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int samples) const {
+std::unique_ptr<scene::Renderer> Renderer::sibling(const glm::ivec2& size_px, int samples) const {
     return std::make_unique<Renderer>(context_, size_px, samples);
 }
 

@@ -42,7 +42,7 @@ public:
 
     const scene::RendererInfo& info() const override { return context_->info(); }
 
-    std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
+    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
 
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const scene::ModelBuffers> models) override;

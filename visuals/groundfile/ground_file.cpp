@@ -4,10 +4,10 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/groundfile/tested_tiles.h"
+#include "visuals/groundfile/tile_checksums.h"
 
 #include <atomic>
 #include <cstring>
@@ -26,7 +26,7 @@ std::span<const std::byte> memory_of(const MappedFile& file, const GroundLayout&
     return file.bytes().subspan(GroundHeader::bytes, layout.total_bytes());
 }
 
-std::uint64_t checksum_at(const MappedFile& file, const GroundFilePlan& plan, std::size_t index) {
+std::uint64_t checksum_at(const MappedFile& file, const GroundFileLayout& plan, std::size_t index) {
     std::uint64_t checksum = 0;
     std::memcpy(&checksum, file.bytes().data() + plan.checksums + 8 * index, 8);
     return checksum;
@@ -35,12 +35,12 @@ std::uint64_t checksum_at(const MappedFile& file, const GroundFilePlan& plan, st
 /// Throws Error unless the file is finished, has its full length and is sound before the tiles.
 void check_before_tiles(const path& path, const MappedFile& file, const GroundHeader& header) {
     const GroundLayout layout(shape_of(header));
-    const GroundFilePlan plan(layout);
-    if (header.progress.stage != GroundProgress::Stage::Complete) {
-        error_in(path, "expected a finished ground, got one whose import was stopped");
+    const GroundFileLayout plan(layout);
+    if (header.progress.stage != ImportProgress::Stage::Complete) {
+        throw_error_in(path, "expected a finished ground, got one whose import was stopped");
     }
     if (file.bytes().size() != plan.file_bytes) {
-        error_in(
+        throw_error_in(
             path,
             fmt::format(
                 "expected {} bytes, got {}: copy or import it again",
@@ -50,7 +50,7 @@ void check_before_tiles(const path& path, const MappedFile& file, const GroundHe
     if (checksum_of(file.bytes().subspan(plan.checksums)) != header.checksums ||
         checksum_of(memory_of(file, layout).first(layout.first_tile())) !=
             checksum_at(file, plan, 0)) {
-        error_in(path, "expected sound data before the tiles, got damage: import it again");
+        throw_error_in(path, "expected sound data before the tiles, got damage: import it again");
     }
 }
 
@@ -61,19 +61,19 @@ bool is_ground_file(const path& path) {
     if (!std::filesystem::is_regular_file(path, code)) {
         return false;
     }
-    std::array<char, GroundHeader::right_magic.size()> magic = {};
+    std::array<char, GroundHeader::current_magic.size()> magic = {};
     std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-    return magic == GroundHeader::right_magic;
+    return magic == GroundHeader::current_magic;
 }
 
 GroundTiles open_ground(const path& path) {
-    const auto file = std::make_shared<MappedFile>(path, MappedFile::Access::ReadAndMend);
+    const auto file = std::make_shared<MappedFile>(path, MappedFile::Access::CopyOnWrite);
     const GroundHeader header = read_header(path, std::as_const(*file).bytes());
     check_before_tiles(path, *file, header);
     const GroundShape shape = shape_of(header);
     const GroundLayout layout(shape);
-    const auto tested = std::make_shared<const TestedTiles>(path, file, header);
-    return {shape, facts_of(header), memory_of(*file, layout), file, tested};
+    const auto tested = std::make_shared<const ChecksumValidator>(path, file, header);
+    return {shape, metadata_of(header), memory_of(*file, layout), file, tested};
 }
 
 std::uint64_t hash_of_ground(const path& path) {
@@ -83,7 +83,7 @@ std::uint64_t hash_of_ground(const path& path) {
     const GroundLayout layout(shape_of(header));
     Hash hash;
     hash.add(file.bytes().first(GroundHeader::bytes + layout.first_tile()));
-    hash.add(file.bytes().subspan(GroundFilePlan(layout).checksums));
+    hash.add(file.bytes().subspan(GroundFileLayout(layout).checksums));
     return hash.value();
 }
 
@@ -92,14 +92,14 @@ void verify_ground(const path& path, int threads) {
     const GroundHeader header = read_header(path, file.bytes());
     check_before_tiles(path, file, header);
     const GroundLayout layout(shape_of(header));
-    const GroundFilePlan plan(layout);
+    const GroundFileLayout plan(layout);
     std::size_t before = 1;
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
         const std::size_t count =
             static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
         std::atomic<std::size_t> first_bad = count;
-        share_out(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
+        parallel_for(count, threads, [&](std::size_t tile, std::size_t /*worker*/) {
             const auto bytes = memory_of(file, layout)
                                    .subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
             if (checksum_of(bytes) != checksum_at(file, plan, before + tile)) {
@@ -110,7 +110,7 @@ void verify_ground(const path& path, int threads) {
         });
         if (first_bad < count) {
             const auto across = static_cast<std::size_t>(at.tiles_across);
-            error_in(
+            throw_error_in(
                 path,
                 fmt::format(
                     "expected sound tiles, got damage in level {}, tile column {}, row {}: import "

@@ -20,7 +20,7 @@ namespace octant::visuals::groundfile {
 
 static_assert(std::is_trivially_copyable_v<GroundHeader> && sizeof(GroundHeader) <= 4096);
 static_assert(std::endian::native == std::endian::little);
-static_assert(std::has_unique_object_representations_v<GroundProgress::Stage>);
+static_assert(std::has_unique_object_representations_v<ImportProgress::Stage>);
 
 namespace {
 
@@ -36,8 +36,8 @@ std::uint64_t part_checksum(const Part& part) {
     return checksum_of(std::as_bytes(std::span(&part, 1)));
 }
 
-GroundSystem stored(const models::heights::MapSystem& system) {
-    GroundSystem result;
+StoredMapSystem stored(const models::heights::CoordinateSystem& system) {
+    StoredMapSystem result;
     if (system.wkt.size() <= result.wkt.size()) {
         result.centre_x = system.centre_x;
         result.centre_y = system.centre_y;
@@ -58,35 +58,35 @@ bool lies_within(double x, double largest) {
     return std::abs(x) <= largest;
 }
 
-bool is_sound(const GroundSystem& s) {
+bool is_intact(const StoredMapSystem& s) {
     return std::isfinite(s.centre_x) && std::isfinite(s.centre_y) && s.wkt_length <= s.wkt.size() &&
            (s.wkt_length == 0 || (s.unit_m > 0.0 && std::isfinite(s.unit_m)));
 }
 
-bool is_sound(const GroundDeviation& d) {
+bool is_intact(const StoredDeviation& d) {
     return std::isfinite(d.rms_m) && std::isfinite(d.worst_m) && d.places >= 0;
 }
 
-bool is_sound(const GroundHeader& h) {
+bool is_intact(const GroundHeader& h) {
     const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
     const bool has_numbers = std::isfinite(h.lowest_m) && std::isfinite(h.highest_m) &&
                              std::isfinite(h.mean_m) && std::isfinite(h.progress.lowest_m) &&
                              std::isfinite(h.progress.highest_m);
     const bool lies_on_earth = h.has_place == 0 || (lies_within(h.latitude_deg, 90.0) &&
                                                     lies_within(h.longitude_deg, 360.0));
-    return fits(h.columns) && fits(h.rows) && may_be_stored(shape_of(h)) && has_numbers &&
-           lies_on_earth && is_sound(h.system) && is_sound(h.deviation) &&
-           h.name_length <= h.name.size() && h.progress.stage <= GroundProgress::Stage::Complete;
+    return fits(h.columns) && fits(h.rows) && is_storable(shape_of(h)) && has_numbers &&
+           lies_on_earth && is_intact(h.system) && is_intact(h.deviation) &&
+           h.name_length <= h.name.size() && h.progress.stage <= ImportProgress::Stage::Complete;
 }
 
 /// Whether the quadtree's square has no samples beyond the field.
-bool fills_its_square(const GroundShape& shape) {
+bool is_square_field(const GroundShape& shape) {
     return shape.columns == shape.rows && GroundLayout(shape).level(0).edge == shape.columns - 1;
 }
 
 /// The length of the longest beginning of a text that has at most `longest` bytes and ends with a
 /// whole character.
-std::size_t length_cut(std::string_view text, std::size_t longest) {
+std::size_t truncated_length(std::string_view text, std::size_t longest) {
     std::size_t length = 0;
     while (length < text.size()) {
         const std::size_t next =
@@ -100,7 +100,7 @@ std::size_t length_cut(std::string_view text, std::size_t longest) {
 }
 
 /// The text with everything replaced that is not valid UTF-8 or is a control character.
-std::string cleaned(std::string_view text) {
+std::string sanitized_utf8(std::string_view text) {
     constexpr std::string_view replacement = "\xEF\xBF\xBD";
     std::string out;
     while (!text.empty()) {
@@ -115,7 +115,7 @@ std::string cleaned(std::string_view text) {
 
 } // namespace
 
-GroundFilePlan::GroundFilePlan(const GroundLayout& layout) {
+GroundFileLayout::GroundFileLayout(const GroundLayout& layout) {
     for (int level = 0; level < layout.levels(); ++level) {
         const GroundLayout::Level& at = layout.level(level);
         tiles += static_cast<std::size_t>(at.tiles_across) * static_cast<std::size_t>(at.tiles_up);
@@ -143,7 +143,7 @@ std::uint64_t hash_of(const GroundShape& shape) {
               at.ranges}) {
             hash.add_word(place);
         }
-        if (layout.has_both_rooms()) {
+        if (layout.has_both_margins()) {
             hash.add_word(at.errors[1][0]);
             hash.add_word(at.errors[1][1]);
             hash.add_word(at.north_errors[1]);
@@ -157,32 +157,32 @@ std::uint64_t hash_of(const GroundShape& shape) {
     return hash.value();
 }
 
-GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts) {
+GroundHeader header_of(const GroundShape& shape, const GroundMetadata& metadata) {
     GroundHeader header;
-    header.version = !shape.has_both_rooms  ? GroundHeader::third_version
-                     : !shape.has_own_codes ? GroundHeader::fourth_version
-                                            : GroundHeader::right_version;
+    header.version = !shape.has_both_margins  ? GroundHeader::version_3
+                     : !shape.has_unit_codes ? GroundHeader::version_4
+                                            : GroundHeader::current_version;
     header.columns = shape.columns;
     header.rows = shape.rows;
     header.spacing_m = shape.spacing_m;
     header.height_base_m = shape.height_base_m;
     header.height_unit_m = shape.height_unit_m;
-    header.has_place = facts.place ? 1 : 0;
-    header.latitude_deg = facts.place ? facts.place->latitude_deg : 0.0;
-    header.longitude_deg = facts.place ? facts.place->longitude_deg : 0.0;
-    if (facts.system) {
-        header.system = stored(*facts.system);
+    header.has_place = metadata.place ? 1 : 0;
+    header.latitude_deg = metadata.place ? metadata.place->latitude_deg : 0.0;
+    header.longitude_deg = metadata.place ? metadata.place->longitude_deg : 0.0;
+    if (metadata.system) {
+        header.system = stored(*metadata.system);
     }
-    if (facts.deviation) {
+    if (metadata.deviation) {
         header.deviation = {
-            facts.deviation->rms_m, facts.deviation->worst_m, facts.deviation->places};
+            metadata.deviation->rms_m, metadata.deviation->worst_m, metadata.deviation->places};
     }
-    header.filled_voids = facts.filled_voids;
-    header.lowest_m = facts.lowest_m;
-    header.highest_m = facts.highest_m;
-    header.mean_m = facts.mean_m;
-    header.name_length = static_cast<std::uint32_t>(length_cut(facts.name, header.name.size()));
-    std::copy_n(facts.name.begin(), header.name_length, header.name.begin());
+    header.filled_voids = metadata.filled_voids;
+    header.lowest_m = metadata.lowest_m;
+    header.highest_m = metadata.highest_m;
+    header.mean_m = metadata.mean_m;
+    header.name_length = static_cast<std::uint32_t>(truncated_length(metadata.name, header.name.size()));
+    std::copy_n(metadata.name.begin(), header.name_length, header.name.begin());
     header.layout = hash_of(shape);
     return header;
 }
@@ -194,45 +194,45 @@ GroundShape shape_of(const GroundHeader& h) {
         h.spacing_m,
         h.height_base_m,
         h.height_unit_m,
-        h.version > GroundHeader::third_version,
-        h.version > GroundHeader::fourth_version};
+        h.version > GroundHeader::version_3,
+        h.version > GroundHeader::version_4};
 }
 
-GroundFacts facts_of(const GroundHeader& h) {
-    GroundFacts facts;
-    facts.name = cleaned({h.name.data(), h.name_length});
+GroundMetadata metadata_of(const GroundHeader& h) {
+    GroundMetadata metadata;
+    metadata.name = sanitized_utf8({h.name.data(), h.name_length});
     if (h.has_place != 0) {
-        facts.place = GeoPlace{h.latitude_deg, h.longitude_deg};
+        metadata.place = GeoPosition{h.latitude_deg, h.longitude_deg};
     }
     if (h.system.wkt_length > 0) {
-        facts.system = models::heights::MapSystem{
+        metadata.system = models::heights::CoordinateSystem{
             {h.system.wkt.data(), h.system.wkt_length},
             h.system.centre_x,
             h.system.centre_y,
             h.system.unit_m};
     }
-    if (facts.place && facts.system) {
-        facts.place->ellipsoid = models::heights::ellipsoid_of(facts.system->wkt);
+    if (metadata.place && metadata.system) {
+        metadata.place->ellipsoid = models::heights::ellipsoid_of(metadata.system->wkt);
     }
     if (h.deviation.places > 0) {
-        facts.deviation =
-            models::heights::Deviation{h.deviation.rms_m, h.deviation.worst_m, h.deviation.places};
+        metadata.deviation =
+            models::heights::HeightDeviation{h.deviation.rms_m, h.deviation.worst_m, h.deviation.places};
     }
-    facts.filled_voids = h.filled_voids;
-    facts.lowest_m = h.lowest_m;
-    facts.highest_m = h.highest_m;
-    facts.mean_m = h.mean_m;
-    return facts;
+    metadata.filled_voids = h.filled_voids;
+    metadata.lowest_m = h.lowest_m;
+    metadata.highest_m = h.highest_m;
+    metadata.mean_m = h.mean_m;
+    return metadata;
 }
 
-bool may_be_stored(const GroundShape& shape) {
+bool is_storable(const GroundShape& shape) {
     const double unit_m = shape.height_unit_m;
     return shape.spacing_m >= 1e-3 && shape.spacing_m <= 1e6 &&
            lies_within(shape.height_base_m, 1e5) && unit_m >= 0x1p-12 && unit_m <= 1.0 &&
            is_power_of_two(unit_m);
 }
 
-std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header) {
+std::array<std::byte, GroundHeader::bytes> header_page(GroundHeader header) {
     header.checksum = own_checksum(header);
     header.system_checksum = part_checksum(header.system);
     header.deviation_checksum = part_checksum(header.deviation);
@@ -247,43 +247,43 @@ GroundHeader read_header(const std::filesystem::path& path, std::span<const std:
     if (whole) {
         std::memcpy(&header, file.data(), sizeof header);
     }
-    if (!whole || header.magic != GroundHeader::right_magic) {
-        error_in(path, "expected a ground made by terrain import, got another kind of file");
+    if (!whole || header.magic != GroundHeader::current_magic) {
+        throw_error_in(path, "expected a ground made by terrain import, got another kind of file");
     }
-    if (header.version < GroundHeader::first_version ||
-        header.version > GroundHeader::right_version) {
-        error_in(
+    if (header.version < GroundHeader::version_1 ||
+        header.version > GroundHeader::current_version) {
+        throw_error_in(
             path,
             fmt::format(
                 "expected a ground of version {} to {}, got version {}: import it again",
-                GroundHeader::first_version,
-                GroundHeader::right_version,
+                GroundHeader::version_1,
+                GroundHeader::current_version,
                 header.version));
     }
-    if (header.version == GroundHeader::first_version) {
+    if (header.version == GroundHeader::version_1) {
         header.system = {};
         header.system_checksum = part_checksum(header.system);
     }
-    if (header.version <= GroundHeader::second_version) {
+    if (header.version <= GroundHeader::version_2) {
         header.deviation = {};
         header.deviation_checksum = part_checksum(header.deviation);
     }
     if (header.checksum != own_checksum(header) ||
         header.system_checksum != part_checksum(header.system) ||
-        header.deviation_checksum != part_checksum(header.deviation) || !is_sound(header)) {
-        error_in(path, "expected a sound header, got a damaged one: import it again");
+        header.deviation_checksum != part_checksum(header.deviation) || !is_intact(header)) {
+        throw_error_in(path, "expected a sound header, got a damaged one: import it again");
     }
-    if (header.version <= GroundHeader::fifth_version && !fills_its_square(shape_of(header))) {
-        error_in(
+    if (header.version <= GroundHeader::version_5 && !is_square_field(shape_of(header))) {
+        throw_error_in(
             path,
             fmt::format(
                 "expected a ground of version {}, got version {}, whose heights end otherwise at "
                 "the map's border: import it again",
-                GroundHeader::right_version,
+                GroundHeader::current_version,
                 header.version));
     }
     if (header.layout != hash_of(shape_of(header))) {
-        error_in(path, "expected today's layout, got that of another release: import it again");
+        throw_error_in(path, "expected today's layout, got that of another release: import it again");
     }
     return header;
 }

@@ -11,13 +11,13 @@
 
 namespace octant::visuals::groundfile {
 
-using terrain::GroundFacts;
+using terrain::GroundMetadata;
 using terrain::GroundLayout;
 using terrain::GroundShape;
 using terrain::GroundTiles;
 
 /// How far the making of a ground's file has come, so that it can go on after a stop.
-struct GroundProgress {
+struct ImportProgress {
     enum class Stage : std::uint32_t { Scanning, Reading, Filling, Building, Complete };
 
     Stage stage = Stage::Scanning;
@@ -30,8 +30,8 @@ struct GroundProgress {
     double highest_m = 0.0;
 };
 
-/// A models::heights::MapSystem in a file. If its text is too long, the system is left out.
-struct GroundSystem {
+/// A models::heights::CoordinateSystem in a file. If its text is too long, the system is left out.
+struct StoredMapSystem {
     double centre_x = 0.0;
     double centre_y = 0.0;
     double unit_m = 0.0;
@@ -41,7 +41,7 @@ struct GroundSystem {
 };
 
 /// A models::heights::Deviation in a file; without places it was not measured.
-struct GroundDeviation {
+struct StoredDeviation {
     double rms_m = 0.0;
     double worst_m = 0.0;
     std::int64_t places = 0;
@@ -52,23 +52,23 @@ struct GroundDeviation {
 /// memory order. Little endian.
 struct GroundHeader {
     static constexpr std::size_t bytes = GroundLayout::page_bytes;
-    static constexpr std::array<char, 16> right_magic = {
+    static constexpr std::array<char, 16> current_magic = {
         'o', 'c', 't', 'a', 'n', 't', ' ', 'g', 'r', 'o', 'u', 'n', 'd', '\r', '\n', '\x1a'};
-    static constexpr std::uint32_t right_version = 6;
+    static constexpr std::uint32_t current_version = 6;
     /// The same as version 6, but errors and heights beyond the field's border are those of a field
     /// that repeats its last column and row there. read_header takes a field without such samples.
-    static constexpr std::uint32_t fifth_version = 5;
-    /// The same as version 5, but with the codes of all grounds (GroundShape::has_own_codes).
-    static constexpr std::uint32_t fourth_version = 4;
-    /// The same as version 4, but without errors without room (GroundShape::has_both_rooms).
-    static constexpr std::uint32_t third_version = 3;
+    static constexpr std::uint32_t version_5 = 5;
+    /// The same as version 5, but with the codes of all grounds (GroundShape::has_unit_codes).
+    static constexpr std::uint32_t version_4 = 4;
+    /// The same as version 4, but without errors without room (GroundShape::has_both_margins).
+    static constexpr std::uint32_t version_3 = 3;
     /// The same as version 3, but without a deviation.
-    static constexpr std::uint32_t second_version = 2;
+    static constexpr std::uint32_t version_2 = 2;
     /// The same as version 2, but without a system.
-    static constexpr std::uint32_t first_version = 1;
+    static constexpr std::uint32_t version_1 = 1;
 
-    std::array<char, 16> magic = right_magic;
-    std::uint32_t version = right_version;
+    std::array<char, 16> magic = current_magic;
+    std::uint32_t version = current_version;
     std::int32_t columns = 0;
     std::int32_t rows = 0;
     std::uint32_t has_place = 0;
@@ -85,17 +85,17 @@ struct GroundHeader {
     std::array<char, 256> name = {};
     std::uint64_t layout = 0;    ///< hash_of(GroundShape).
     std::uint64_t checksums = 0; ///< The checksum of the checksums.
-    GroundProgress progress;
+    ImportProgress progress;
     std::uint64_t checksum = 0; ///< The checksum of all members above.
-    GroundSystem system;
+    StoredMapSystem system;
     std::uint64_t system_checksum = 0; ///< The checksum of the system.
-    GroundDeviation deviation;
+    StoredDeviation deviation;
     std::uint64_t deviation_checksum = 0; ///< The checksum of the deviation.
 };
 
 /// The sizes and offsets in a file of a given layout.
-struct GroundFilePlan {
-    explicit GroundFilePlan(const GroundLayout& layout);
+struct GroundFileLayout {
+    explicit GroundFileLayout(const GroundLayout& layout);
 
     std::size_t tiles = 0;
     std::size_t checksums = 0;  ///< The offset of the checksums.
@@ -107,18 +107,18 @@ struct GroundFilePlan {
 std::uint64_t hash_of(const GroundShape& shape);
 
 /// The header of a ground. A name that is too long is cut between two characters.
-GroundHeader header_of(const GroundShape& shape, const GroundFacts& facts);
+GroundHeader header_of(const GroundShape& shape, const GroundMetadata& metadata);
 GroundShape shape_of(const GroundHeader& header);
 
 /// The facts in a header. The name is UTF-8 without control characters, whatever the file holds.
-GroundFacts facts_of(const GroundHeader& header);
+GroundMetadata metadata_of(const GroundHeader& header);
 
 /// Whether a file may have this spacing (1e-3 to 1e6 m), base (within 1e5 m) and unit (a power of
 /// two from 2^-12 to 1 m).
-bool may_be_stored(const GroundShape& shape);
+bool is_storable(const GroundShape& shape);
 
 /// The page to write, with its checksums.
-std::array<std::byte, GroundHeader::bytes> page_of(GroundHeader header);
+std::array<std::byte, GroundHeader::bytes> header_page(GroundHeader header);
 
 /// The header at the beginning of a file's bytes, of this version or an earlier one. Throws Error
 /// when there is none, when it is damaged, or when it does not fit today's layout. Throws Error also

@@ -11,8 +11,8 @@
 #include "visuals/groundfile/import_files.h"
 #include "visuals/groundfile/import_rows.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/groundfile/number_voids.h"
-#include "visuals/terrain/ground_assembly.h"
+#include "visuals/groundfile/integer_voids.h"
+#include "visuals/terrain/ground_assembler.h"
 
 #include <algorithm>
 #include <cstring>
@@ -26,13 +26,13 @@ namespace octant::visuals::groundfile {
 namespace {
 
 using std::filesystem::path;
-using Stage = GroundProgress::Stage;
-using terrain::GroundAssembly;
-using terrain::HeightFigures;
+using Stage = ImportProgress::Stage;
+using terrain::GroundAssembler;
+using terrain::HeightStatistics;
 using terrain::StoredHeights;
 
-constexpr int samples_a_band = 1 << 22;
-constexpr std::size_t tiles_a_batch = 256;
+constexpr int samples_per_band = 1 << 22;
+constexpr std::size_t tiles_per_batch = 256;
 
 /// One import, from the inputs to the finished file.
 class Import {
@@ -41,16 +41,16 @@ public:
         const std::vector<path>& inputs,
         path out,
         const GroundImportOptions& options,
-        const ImportWatch& watch);
+        const ImportCallback& callback);
 
     ImportSummary run();
 
 private:
     /// Takes up an unfinished file if there is one that fits. Returns whether there was.
-    bool goes_on();
+    bool resume_unfinished();
     /// Makes an empty file of the size that is needed while working.
-    void start_anew();
-    void tell(ImportStage stage, double done);
+    void restart();
+    void report_progress(ImportStage stage, double done);
     /// Brings everything done so far to the disk, the header last.
     void save();
     void scan();
@@ -59,19 +59,19 @@ private:
     void build();
     void finish();
     /// Throws Error unless the disk gives back what was written.
-    void read_back();
-    void put_header();
-    void drop_part();
+    void verify_written();
+    void write_header();
+    void remove_part();
 
     /// Lets `read` read the inputs. If they are at fault, the unfinished file is removed, because
     /// there is nothing to go on from.
     template <typename Read>
-    void from_inputs(const Read& read);
+    void read_inputs(const Read& read);
 
     /// Calls `work(first row, rows)` for the rows that are not yet done, from the north, and
     /// reports progress.
     template <typename Work>
-    void by_bands(ImportStage stage, const Work& work);
+    void for_each_band(ImportStage stage, const Work& work);
 
     std::span<std::byte> file_part(std::size_t offset, std::size_t size) {
         return file_->bytes().subspan(offset, size);
@@ -91,15 +91,15 @@ private:
     path out_;
     path part_;
     GroundImportOptions options_;
-    const ImportWatch& watch_;
+    const ImportCallback& callback_;
     models::heights::HeightSource source_;
     GroundLayout layout_;
-    GroundFilePlan plan_;
+    GroundFileLayout plan_;
     std::uint64_t inputs_;
     std::unique_ptr<MappedFile> file_;
-    GroundProgress progress_;
+    ImportProgress progress_;
     GroundShape shape_;
-    GroundFacts facts_;
+    GroundMetadata metadata_;
     std::uint64_t checksums_ = 0;
     std::string note_;
 };
@@ -108,19 +108,19 @@ Import::Import(
     const std::vector<path>& inputs,
     path out,
     const GroundImportOptions& options,
-    const ImportWatch& watch)
+    const ImportCallback& callback)
     : out_(std::move(out))
     , part_(out_)
     , options_(options)
-    , watch_(watch)
-    , source_(inputs, options.picture)
+    , callback_(callback)
+    , source_(inputs, options.source_options)
     , layout_(source_.columns(), source_.rows())
     , plan_(layout_)
-    , inputs_(hash_of_inputs(inputs, options.picture)) {
+    , inputs_(hash_of_inputs(inputs, options.source_options)) {
     part_ += ".part";
-    check_out(inputs, out_, part_);
-    if (!may_be_stored(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
-        error_in(
+    check_output(inputs, out_, part_);
+    if (!is_storable(terrain::shape_of(2, 2, source_.spacing_m(), 0.0, 0.0))) {
+        throw_error_in(
             source_.name(),
             fmt::format(
                 "expected samples from 1 mm to 1000 km apart, got {:g} m", source_.spacing_m()));
@@ -129,8 +129,8 @@ Import::Import(
 
 ImportSummary Import::run() {
     shape_ = {source_.columns(), source_.rows(), source_.spacing_m(), 0.0, 1.0};
-    if (!goes_on()) {
-        start_anew();
+    if (!resume_unfinished()) {
+        restart();
     }
     if (progress_.stage == Stage::Scanning) {
         scan();
@@ -141,16 +141,16 @@ ImportSummary Import::run() {
     }
     build();
     finish();
-    return {shape_, facts_, plan_.file_bytes, note_, source_.notes()};
+    return {shape_, metadata_, plan_.file_bytes, note_, source_.notes()};
 }
 
-bool Import::goes_on() {
+bool Import::resume_unfinished() {
     std::error_code code;
     if (!std::filesystem::exists(part_, code)) {
         return false;
     }
-    file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadAndWrite);
-    check_unfinished(part_);
+    file_ = std::make_unique<MappedFile>(part_, MappedFile::Access::ReadWrite);
+    check_partial_file(part_);
     note_ = part_.string() + ": of other inputs or damaged, started anew";
     try {
         progress_ = read_header(part_, std::as_const(*file_).bytes()).progress;
@@ -171,69 +171,69 @@ bool Import::goes_on() {
     return true;
 }
 
-void Import::start_anew() {
+void Import::restart() {
     file_.reset();
     progress_ = {};
     progress_.inputs = inputs_;
-    progress_.stage = source_.whole_metres() ? Stage::Reading : Stage::Scanning;
+    progress_.stage = source_.has_integer_metres() ? Stage::Reading : Stage::Scanning;
     progress_.lowest_m = std::numeric_limits<double>::max();
     progress_.highest_m = std::numeric_limits<double>::lowest();
     file_ = std::make_unique<MappedFile>(part_, plan_.numbers + 2 * samples());
-    put_header();
+    write_header();
 }
 
-void Import::tell(ImportStage stage, double done) {
-    if (watch_(stage, done)) {
+void Import::report_progress(ImportStage stage, double done) {
+    if (callback_(stage, done)) {
         save();
     }
 }
 
 void Import::save() {
     file_->sync();
-    put_header();
+    write_header();
     file_->sync();
 }
 
-void Import::put_header() {
-    GroundHeader header = header_of(shape_, facts_);
+void Import::write_header() {
+    GroundHeader header = header_of(shape_, metadata_);
     header.progress = progress_;
     header.checksums = checksums_;
-    const auto page = page_of(header);
+    const auto page = header_page(header);
     file_->write(0, page);
 }
 
-void Import::drop_part() {
+void Import::remove_part() {
     std::error_code code;
     std::filesystem::remove(part_, code);
 }
 
 template <typename Read>
-void Import::from_inputs(const Read& read) {
+void Import::read_inputs(const Read& read) {
     try {
         read();
     } catch (const Error&) {
-        drop_part();
+        remove_part();
         throw;
     }
 }
 
 template <typename Work>
-void Import::by_bands(ImportStage stage, const Work& work) {
+void Import::for_each_band(ImportStage stage, const Work& work) {
     const int rows = source_.rows();
-    const int rows_a_band = std::max(1, samples_a_band / source_.columns());
-    tell(stage, static_cast<double>(progress_.rows_done) / rows);
+    const int rows_per_band = std::max(1, samples_per_band / source_.columns());
+    report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
     while (progress_.rows_done < static_cast<std::uint64_t>(rows)) {
         const int end = rows - static_cast<int>(progress_.rows_done);
-        const int first = std::max(0, end - rows_a_band);
+        const int first = std::max(0, end - rows_per_band);
         work(first, end - first);
         progress_.rows_done = static_cast<std::uint64_t>(rows - first);
-        tell(stage, static_cast<double>(progress_.rows_done) / rows);
+        report_progress(stage, static_cast<double>(progress_.rows_done) / rows);
     }
 }
 
 void Import::scan() {
-    by_bands(ImportStage::Scanning, [&](int first_row, int count) {
-        from_inputs([&] { scan_rows(source_, first_row, count, progress_); });
+    for_each_band(ImportStage::Scanning, [&](int first_row, int count) {
+        read_inputs([&] { scan_rows(source_, first_row, count, progress_); });
     });
     progress_.stage = Stage::Reading;
     progress_.rows_done = 0;
@@ -242,16 +242,16 @@ void Import::scan() {
 void Import::read() {
     std::vector<std::int16_t> band;
     const auto columns = static_cast<std::size_t>(source_.columns());
-    by_bands(ImportStage::Reading, [&](int first_row, int count) {
+    for_each_band(ImportStage::Reading, [&](int first_row, int count) {
         band.resize(static_cast<std::size_t>(count) * columns);
-        from_inputs([&] { read_rows(source_, first_row, band, progress_); });
+        read_inputs([&] { read_rows(source_, first_row, band, progress_); });
         const std::size_t offset =
             plan_.numbers + 2 * static_cast<std::size_t>(first_row) * columns;
         file_->write(offset, std::as_bytes(std::span(band)));
     });
     if (static_cast<std::size_t>(progress_.voids) == samples()) {
-        drop_part();
-        error_in(source_.name(), "expected at least one height, got only samples without data");
+        remove_part();
+        throw_error_in(source_.name(), "expected at least one height, got only samples without data");
     }
 }
 
@@ -259,12 +259,12 @@ void Import::read() {
 /// voids would not be found again.
 void Import::fill() {
     if (progress_.voids > 0) {
-        tell(ImportStage::Filling, 0.0);
+        report_progress(ImportStage::Filling, 0.0);
         progress_.stage = Stage::Filling;
         save();
-        fill_number_voids(numbers(), source_.columns(), source_.rows());
+        fill_integer_voids(numbers(), source_.columns(), source_.rows());
         progress_.stage = Stage::Building;
-        tell(ImportStage::Filling, 1.0);
+        report_progress(ImportStage::Filling, 1.0);
     }
     progress_.stage = Stage::Building;
 }
@@ -277,13 +277,13 @@ void Import::build() {
         progress_.lowest_m,
         progress_.highest_m);
     const StoredHeights heights =
-        terrain::stored_heights(numbers(), shape_, source_.whole_metres());
+        terrain::stored_heights(numbers(), shape_, source_.has_integer_metres());
     const std::span<std::byte> memory = file_part(GroundHeader::bytes, layout_.total_bytes());
     const std::span<std::byte> table = file_part(plan_.checksums, 8 * (plan_.tiles + 1));
-    GroundAssembly assembly(shape_, layout_, heights, memory, options_.threads);
-    tell(ImportStage::Building, 0.0);
-    const HeightFigures figures = assembly.put_outline();
-    facts_ = {
+    GroundAssembler assembly(shape_, layout_, heights, memory, options_.threads);
+    report_progress(ImportStage::Building, 0.0);
+    const HeightStatistics figures = assembly.write_overview();
+    metadata_ = {
         source_.name(),
         source_.place(),
         source_.system(),
@@ -297,42 +297,42 @@ void Import::build() {
         file_->write(GroundHeader::bytes + offset, tile);
     };
     while (progress_.tiles_done < plan_.tiles) {
-        progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_a_batch, put);
-        tell(
+        progress_.tiles_done = assembly.build(progress_.tiles_done, tiles_per_batch, put);
+        report_progress(
             ImportStage::Building,
             static_cast<double>(progress_.tiles_done) / static_cast<double>(plan_.tiles));
     }
     const std::uint64_t checksum = checksum_of(memory.first(layout_.first_tile()));
     std::memcpy(table.data(), &checksum, 8);
     checksums_ = checksum_of(table);
-    const GroundTiles made(shape_, facts_, memory, nullptr);
-    from_inputs([&] {
-        facts_.deviation = source_.deviation_of(
+    const GroundTiles made(shape_, metadata_, memory, nullptr);
+    read_inputs([&] {
+        metadata_.deviation = source_.deviation_of(
             [&made](double x_m, double y_m) { return made.height_at(x_m, y_m); });
     });
 }
 
 void Import::finish() {
-    tell(ImportStage::Writing, 0.0);
-    file_->cut(plan_.file_bytes);
+    report_progress(ImportStage::Writing, 0.0);
+    file_->truncate(plan_.file_bytes);
     file_->sync();
     progress_ = {};
     progress_.stage = Stage::Complete;
-    put_header();
+    write_header();
     file_->sync();
-    read_back();
-    put_in_place(part_, out_); // While the part is still locked.
+    verify_written();
+    rename_into_place(part_, out_); // While the part is still locked.
     file_.reset();
-    watch_(ImportStage::Writing, 1.0);
+    callback_(ImportStage::Writing, 1.0);
 }
 
-void Import::read_back() {
-    file_->forget_pages();
+void Import::verify_written() {
+    file_->drop_cached_pages();
     try {
         verify_ground(part_, options_.threads);
     } catch (const Error& fault) {
-        drop_part();
-        error_in(
+        remove_part();
+        throw_error_in(
             out_,
             fmt::format("cannot be read back as it was written, try again: {}", fault.what()));
     }
@@ -344,8 +344,8 @@ ImportSummary import_ground(
     const std::vector<path>& inputs,
     const path& out,
     const GroundImportOptions& options,
-    const ImportWatch& watch) {
-    return Import(inputs, out, options, watch).run();
+    const ImportCallback& callback) {
+    return Import(inputs, out, options, callback).run();
 }
 
 } // namespace octant::visuals::groundfile

@@ -12,7 +12,7 @@
 
 namespace octant::visuals::groundfile {
 
-using terrain::GroundFacts;
+using terrain::GroundMetadata;
 using terrain::GroundShape;
 
 /// What an import is doing, in this order.
@@ -27,17 +27,17 @@ enum class ImportStage {
 /// Called before a stage begins (with 0) and as it goes on (up to 1). Returns whether what was done
 /// so far is to be brought to the disk now, from where a later import can go on. It may throw,
 /// which stops the import.
-using ImportWatch = std::function<bool(ImportStage stage, double done)>;
+using ImportCallback = std::function<bool(ImportStage stage, double done)>;
 
 struct GroundImportOptions {
-    models::heights::ImportOptions picture;
+    models::heights::ImportOptions source_options;
     int threads = 2;
 };
 
 /// What was made.
 struct ImportSummary {
     GroundShape shape;
-    GroundFacts facts;
+    GroundMetadata metadata;
     std::size_t bytes = 0; ///< The size of the file.
     std::string note;      ///< What became of an earlier, unfinished import; empty without one.
     std::vector<models::heights::MapNote> notes; ///< Of the inputs.
@@ -45,7 +45,7 @@ struct ImportSummary {
 
 /// Makes one mapped file (ground_file.h) of heights that GDAL reads: from one file, or from several
 /// that form one ground (models/heights/height_source.h). For one file without voids the bytes are
-/// those of ground_of. Voids are filled, rounded to whole metres where the heights are whole
+/// those of make_ground_tiles. Voids are filled, rounded to whole metres where the heights are whole
 /// metres.
 ///
 /// It works in OUT.part, which stays when the import is stopped. The next import of the same inputs
@@ -64,6 +64,6 @@ ImportSummary import_ground(
     const std::vector<std::filesystem::path>& inputs,
     const std::filesystem::path& out,
     const GroundImportOptions& options,
-    const ImportWatch& watch);
+    const ImportCallback& callback);
 
 } // namespace octant::visuals::groundfile

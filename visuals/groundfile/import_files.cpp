@@ -22,7 +22,7 @@ using std::filesystem::path;
 std::uint64_t
 hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
     Hash hash;
-    hash.add_word(GroundHeader::right_version);
+    hash.add_word(GroundHeader::current_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
     hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale.value_or(0.0)));
     for (const std::optional<std::string>& text : {options.system, options.band}) {
@@ -44,36 +44,36 @@ hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOpt
     return hash.value();
 }
 
-void check_out(const std::vector<path>& inputs, const path& out, const path& part) {
+void check_output(const std::vector<path>& inputs, const path& out, const path& part) {
     std::error_code code;
     for (const path& written : {out, part}) {
         for (const path& input : inputs) {
             if (std::filesystem::equivalent(input, written, code)) {
-                error_in(written, "expected a file to write, got one of the inputs");
+                throw_error_in(written, "expected a file to write, got one of the inputs");
             }
         }
         if (std::filesystem::exists(written, code) &&
             !std::filesystem::is_regular_file(written, code)) {
-            error_in(written, "expected a file to write, got a folder, device or pipe");
+            throw_error_in(written, "expected a file to write, got a folder, device or pipe");
         }
     }
 }
 
-void check_unfinished(const path& part) {
+void check_partial_file(const path& part) {
     std::error_code code;
     if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
-        error_in(
+        throw_error_in(
             part,
             "expected what an earlier import left, got another kind of file: move it away or "
             "choose another --out");
     }
 }
 
-void put_in_place(const path& part, const path& out) {
+void rename_into_place(const path& part, const path& out) {
     std::error_code code;
     std::filesystem::rename(part, out, code);
     if (code) {
-        error_in(out, fmt::format("cannot be written: {}", code.message()));
+        throw_error_in(out, fmt::format("cannot be written: {}", code.message()));
     }
     sync_folder_of(out);
 }

@@ -11,9 +11,9 @@ namespace octant::visuals::groundfile {
 
 /// Updates the lowest and highest height in `progress` by some rows.
 void scan_rows(
-    models::heights::HeightSource& source, int first_row, int count, GroundProgress& progress);
+    models::heights::HeightSource& source, int first_row, int count, ImportProgress& progress);
 
-/// Reads the rows that fill the span as the numbers to keep, void_number for samples without data.
+/// Reads the rows that fill the span as the numbers to keep, void_value for samples without data.
 /// If the source has whole metres, these are kept, and lowest and highest in `progress` are
 /// updated; otherwise the numbers are those of shape_of the scanned heights. Counts voids. Throws
 /// Error as the source does.
@@ -21,6 +21,6 @@ void read_rows(
     models::heights::HeightSource& source,
     int first_row,
     std::span<std::int16_t> numbers,
-    GroundProgress& progress);
+    ImportProgress& progress);
 
 } // namespace octant::visuals::groundfile

@@ -17,26 +17,26 @@ namespace octant::visuals::groundfile {
 
 namespace {
 
-[[noreturn]] void cannot(const std::filesystem::path& path, const char* what) {
-    error_in(path, fmt::format("cannot be {}: {}", what, std::strerror(errno)));
+[[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* what) {
+    throw_error_in(path, fmt::format("cannot be {}: {}", what, std::strerror(errno)));
 }
 
 /// Closes a descriptor unless it is released, so that nothing leaks when a constructor throws.
-class Opened {
+class OpenedGround {
 public:
-    explicit Opened(int descriptor)
+    explicit OpenedGround(int descriptor)
         : descriptor_(descriptor) {}
 
-    ~Opened() {
+    ~OpenedGround() {
         if (descriptor_ >= 0) {
             ::close(descriptor_);
         }
     }
 
-    Opened(const Opened&) = delete;
-    Opened& operator=(const Opened&) = delete;
-    Opened(Opened&&) = delete;
-    Opened& operator=(Opened&&) = delete;
+    OpenedGround(const OpenedGround&) = delete;
+    OpenedGround& operator=(const OpenedGround&) = delete;
+    OpenedGround(OpenedGround&&) = delete;
+    OpenedGround& operator=(OpenedGround&&) = delete;
 
     int get() const { return descriptor_; }
 
@@ -50,7 +50,7 @@ std::size_t size_of_regular(const std::filesystem::path& path, int descriptor) {
     struct stat status {};
 
     if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-        error_in(path, "expected a regular file, got a folder, device or pipe");
+        throw_error_in(path, "expected a regular file, got a folder, device or pipe");
     }
     return static_cast<std::size_t>(status.st_size);
 }
@@ -68,12 +68,12 @@ void lock(const std::filesystem::path& path, int descriptor) {
     const bool is_there = ::fstat(descriptor, &ours) == 0 && ::stat(path.c_str(), &named) == 0 &&
                           ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
     if (is_held || !is_there) {
-        error_in(path, "expected a file to write, but another import is writing it");
+        throw_error_in(path, "expected a file to write, but another import is writing it");
     }
 }
 
 /// Allocates the space of an empty file. Returns 0 or the error number.
-int take_room(int descriptor, off_t length) {
+int allocate_space(int descriptor, off_t length) {
     while (::fallocate(descriptor, 0, 0, length) != 0) {
         if (errno == EOPNOTSUPP) {
             return ::ftruncate(descriptor, length) == 0 ? 0 : errno;
@@ -89,35 +89,35 @@ int take_room(int descriptor, off_t length) {
 
 MappedFile::MappedFile(std::filesystem::path path, Access access)
     : path_(std::move(path)) {
-    const bool writes = access == Access::ReadAndWrite;
-    Opened file(::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
+    const bool writes = access == Access::ReadWrite;
+    OpenedGround file(::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) {
-        cannot(path_, writes ? "opened for writing" : "opened for reading");
+        throw_system_error(path_, writes ? "opened for writing" : "opened for reading");
     }
     size_ = size_of_regular(path_, file.get());
     if (writes) {
         lock(path_, file.get());
     }
     descriptor_ = file.get();
-    map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::ReadAndMend);
+    map(writes ? PROT_READ | PROT_WRITE : PROT_READ, access != Access::CopyOnWrite);
     file.release();
 }
 
 MappedFile::MappedFile(std::filesystem::path path, std::size_t size)
     : path_(std::move(path))
     , size_(size) {
-    Opened file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644));
+    OpenedGround file(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644));
     if (file.get() < 0) {
-        cannot(path_, "written");
+        throw_system_error(path_, "written");
     }
     size_of_regular(path_, file.get());
     lock(path_, file.get());
     if (::ftruncate(file.get(), 0) != 0) {
-        cannot(path_, "written");
+        throw_system_error(path_, "written");
     }
-    if (const int fault = take_room(file.get(), static_cast<off_t>(size)); fault != 0) {
+    if (const int fault = allocate_space(file.get(), static_cast<off_t>(size)); fault != 0) {
         ::unlink(path_.c_str());
-        error_in(
+        throw_error_in(
             path_,
             fmt::format(
                 "expected room for {} MB on the disk: {}",
@@ -136,7 +136,7 @@ void MappedFile::map(int protection, bool shared) {
     void* const start =
         ::mmap(nullptr, size_, protection, shared ? MAP_SHARED : MAP_PRIVATE, descriptor_, 0);
     if (start == MAP_FAILED) {
-        cannot(path_, "mapped");
+        throw_system_error(path_, "mapped");
     }
     start_ = static_cast<std::byte*>(start);
 }
@@ -156,44 +156,44 @@ void MappedFile::write(std::size_t offset, std::span<const std::byte> bytes) {
             if (errno == EINTR) {
                 continue;
             }
-            cannot(path_, "written");
+            throw_system_error(path_, "written");
         }
         bytes = bytes.subspan(static_cast<std::size_t>(written));
         offset += static_cast<std::size_t>(written);
     }
 }
 
-std::span<std::byte> MappedFile::mendable(std::size_t offset, std::size_t size) {
+std::span<std::byte> MappedFile::writable_copy(std::size_t offset, std::size_t size) {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     const std::size_t begin = offset / page * page;
     if (::mprotect(start_ + begin, offset + size - begin, PROT_READ | PROT_WRITE) != 0) {
-        cannot(path_, "mended in memory");
+        throw_system_error(path_, "mended in memory");
     }
     return {start_ + offset, size};
 }
 
-void MappedFile::forget_pages() {
+void MappedFile::drop_cached_pages() {
     ::madvise(start_, size_, MADV_DONTNEED);
     ::posix_fadvise(descriptor_, 0, 0, POSIX_FADV_DONTNEED);
 }
 
 void MappedFile::sync() {
     if (::fsync(descriptor_) != 0) {
-        cannot(path_, "written");
+        throw_system_error(path_, "written");
     }
 }
 
-void MappedFile::cut(std::size_t size) {
+void MappedFile::truncate(std::size_t size) {
     if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
-        cannot(path_, "written");
+        throw_system_error(path_, "written");
     }
 }
 
 void sync_folder_of(const std::filesystem::path& path) {
     const std::filesystem::path parent = path.parent_path();
-    const Opened folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC));
+    const OpenedGround folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC));
     if (folder.get() >= 0 && ::fsync(folder.get()) != 0 && errno != EINVAL) {
-        cannot(path, "written");
+        throw_system_error(path, "written");
     }
 }
 

@@ -12,8 +12,8 @@ class MappedFile {
 public:
     enum class Access {
         Read,
-        ReadAndMend, ///< What mendable() gives may be changed in memory; the file stays as it is.
-        ReadAndWrite
+        CopyOnWrite, ///< What writable_copy() gives may be changed in memory; the file stays as it is.
+        ReadWrite
     };
 
     /// Maps a whole regular file. For writing it locks the file against other writers (not
@@ -40,18 +40,18 @@ public:
     /// write. Throws Error (disk full).
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
-    /// Some bytes of a file that was mapped with ReadAndMend, to be changed in memory alone.
+    /// Some bytes of a file that was mapped with CopyOnWrite, to be changed in memory alone.
     /// Throws Error (no memory).
-    std::span<std::byte> mendable(std::size_t offset, std::size_t size);
+    std::span<std::byte> writable_copy(std::size_t offset, std::size_t size);
 
     /// Brings everything that was written to the disk. Throws Error.
     void sync();
 
     /// After sync(): has what is read next come from the disk, where the file system can.
-    void forget_pages();
+    void drop_cached_pages();
 
     /// Truncates the file; the bytes beyond must not be read any more. Throws Error.
-    void cut(std::size_t size);
+    void truncate(std::size_t size);
 
 private:
     void map(int protection, bool shared);

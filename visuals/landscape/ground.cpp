@@ -29,18 +29,18 @@ double highest_m(const Ground& ground) {
     return std::isfinite(highest) ? highest : 0.0;
 }
 
-MeshSettings mesh_settings(const scene::Settings& settings, bool textured) {
+MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture) {
     return {
         settings.ground,
         settings.view.size_px.y,
         settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
-        textured};
+        has_texture};
 }
 
-const nature::Backdrop& Ground::surroundings() const {
-    std::call_once(surroundings_once_, [this] {
+const nature::Backdrop& Ground::backdrop() const {
+    std::call_once(backdrop_once_, [this] {
         if (spacing_m() > 0.0) {
-            surroundings_ = nature::backdrop_of(
+            backdrop_ = nature::make_backdrop(
                 {half_extent_m(),
                  mean_height_m(),
                  mean_colour(),
@@ -51,25 +51,25 @@ const nature::Backdrop& Ground::surroundings() const {
                      return colour_at(at_m.x, at_m.y, footprint_m);
                  },
                  [this](const glm::dvec2& at_m, double footprint_m) {
-                     return covers_at(at_m.x, at_m.y, footprint_m);
+                     return cover_code_at(at_m.x, at_m.y, footprint_m);
                  }});
         }
     });
-    return surroundings_;
+    return backdrop_;
 }
 
 std::unique_ptr<GroundMesher> Ground::mesher(const MeshSettings& settings) const {
-    assert(is_meshed_as(settings.ground));
+    assert(has_mesh_settings(settings.ground));
     return make_mesher(settings);
 }
 
-std::unique_ptr<GroundMesher> mesher_after(
+std::unique_ptr<GroundMesher> reuse_or_make_mesher(
     std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings) {
-    assert(ground.is_meshed_as(settings.ground));
-    if (!before || (&before->ground() != &ground && !before->move_to(ground.shared_from_this()))) {
+    assert(ground.has_mesh_settings(settings.ground));
+    if (!before || (&before->ground() != &ground && !before->switch_ground(ground.shared_from_this()))) {
         return ground.mesher(settings);
     }
-    before->follow(settings);
+    before->apply_settings(settings);
     return before;
 }
 

@@ -6,7 +6,7 @@
 #include "models/polygons/polygon_model.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/nature/backdrop.h"
-#include "visuals/nature/relief_light.h"
+#include "visuals/nature/relief_shadows.h"
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/settings.h"
@@ -24,11 +24,11 @@
 namespace octant::visuals::landscape {
 
 /// What a texture of a ground is made of. It refers to the ground, which must outlive it.
-struct GroundSource {
+struct GroundTextureSource {
     terrain::GroundSamples samples;
     models::heights::GroundArea area;
     /// Nothing for made ground.
-    std::optional<GeoPlace> place;
+    std::optional<GeoPosition> place;
 };
 
 /// What stands below the aircraft: a height field under a quadtree, ground under a mesh by
@@ -67,12 +67,12 @@ public:
     }
 
     /// The number of the covers of that colour, 0..255; 0 where it says nothing.
-    virtual float covers_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
+    virtual float cover_code_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {
         return 0.0F;
     }
 
     /// What the relief leaves of the light at a place.
-    virtual nature::LightLeft light_left(double /*x_m*/, double /*y_m*/) const { return {}; }
+    virtual nature::LightVisibility light_visibility(double /*x_m*/, double /*y_m*/) const { return {}; }
 
     /// The roads on it; null for ground that has none. Made when they are first asked for, which is
     /// loading work.
@@ -80,31 +80,31 @@ public:
 
     /// The land around the map; nothing for ground without samples. Made when it is first asked
     /// for, which is loading work.
-    const nature::Backdrop& surroundings() const;
+    const nature::Backdrop& backdrop() const;
 
     /// The samples as they are drawn; nothing for ground that has none.
-    virtual std::optional<GroundSource> source() const { return std::nullopt; }
+    virtual std::optional<GroundTextureSource> source() const { return std::nullopt; }
 
     /// Whether meshes of this ground are refined by what these settings say.
-    virtual bool is_meshed_as(const scene::GroundSettings& /*settings*/) const { return true; }
+    virtual bool has_mesh_settings(const scene::GroundSettings& /*settings*/) const { return true; }
 
     /// Whether it has the colours that these settings give it. Their palette is that of the ground:
     /// where none is named, temperate.
-    virtual bool is_coloured_as(const scene::AirSettings& /*settings*/) const { return true; }
+    virtual bool has_colour_settings(const scene::AirSettings& /*settings*/) const { return true; }
 
     /// Whether loading the same heights by these settings would give this ground.
-    bool suits(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
-        return is_meshed_as(ground) && is_coloured_as(air);
+    bool matches_settings(const scene::GroundSettings& ground, const scene::AirSettings& air) const {
+        return has_mesh_settings(ground) && has_colour_settings(air);
     }
 
     /// Ground of the same heights as these settings want it, made of what is in memory; null where
     /// it must be loaded. Loading work.
     virtual std::shared_ptr<const Ground>
-    remade(const scene::GroundSettings& /*ground*/, const scene::AirSettings& /*air*/) const {
+    with_settings(const scene::GroundSettings& /*ground*/, const scene::AirSettings& /*air*/) const {
         return nullptr;
     }
 
-    /// The meshes of one more view. The ground is_meshed_as() the settings say (asserted).
+    /// The meshes of one more view. The ground has_mesh_settings() the settings say (asserted).
     std::unique_ptr<GroundMesher> mesher(const MeshSettings& settings) const;
 
     /// The runway for which it is levelled, where nothing else stands; null = none.
@@ -118,8 +118,8 @@ private:
     virtual std::unique_ptr<GroundMesher> make_mesher(const MeshSettings& settings) const = 0;
 
     std::shared_ptr<const models::heights::RunwayStrip> runway_;
-    mutable std::once_flag surroundings_once_;
-    mutable nature::Backdrop surroundings_;
+    mutable std::once_flag backdrop_once_;
+    mutable nature::Backdrop backdrop_;
 };
 
 /// The highest of the ground's samples, at most every 1/512 of its extent; 0 where there is none.
@@ -128,19 +128,19 @@ double highest_m(const Ground& ground);
 
 /// The mesher by which a view goes on under other settings: `before` where it meshes this very
 /// ground or the same one in other colours, else a new one. As Ground::mesher.
-std::unique_ptr<GroundMesher> mesher_after(
+std::unique_ptr<GroundMesher> reuse_or_make_mesher(
     std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
 
 /// A height field under a quadtree whose triangle count is held. Takes the field over.
 /// `runway`: for which it has been levelled.
-std::shared_ptr<const Ground> ground_from_field(
+std::shared_ptr<const Ground> make_quadtree_ground(
     models::heights::HeightField field,
     const scene::GroundSettings& ground,
     const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
 /// Ground under a mesh by screen-space error. `runway`: for which it has been levelled.
-std::shared_ptr<const Ground> ground_from_tiles(
+std::shared_ptr<const Ground> make_bisection_ground(
     terrain::GroundTiles ground,
     const scene::AirSettings& air,
     std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
@@ -148,6 +148,6 @@ std::shared_ptr<const Ground> ground_from_tiles(
 /// Polygons painted in file order over a level datum. Body axes of the model: x north, y east, z
 /// down. Without polygons: nothing to see and a map of 2,000 km, for aircraft alone.
 std::shared_ptr<const Ground>
-ground_from_polygons(models::polygons::PolygonModel polygons, const scene::AirSettings& air);
+make_polygon_ground(models::polygons::PolygonModel polygons, const scene::AirSettings& air);
 
 } // namespace octant::visuals::landscape

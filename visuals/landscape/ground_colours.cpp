@@ -11,7 +11,7 @@
 
 namespace octant::visuals::landscape {
 
-GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int row, int step) {
+TerrainPoint ground_point(const terrain::GroundSamples& ground, int column, int row, int step) {
     const int west = std::max(column - step, 0);
     const int east = std::min(column + step, ground.columns() - 1);
     const int south = std::max(row - step, 0);
@@ -33,21 +33,21 @@ GroundPoint ground_point(const terrain::GroundSamples& ground, int column, int r
 std::vector<std::uint32_t>
 ground_colours(const models::heights::HeightField& field, const scene::AirSettings& settings) {
     const terrain::GroundSamples ground(field);
-    const GroundPalette palette(settings, climate_at(field.place), relief_light(ground, settings));
+    const GroundPalette palette(settings, climate_at(field.place), make_relief_shadows(ground, settings));
     const auto spacing_m = static_cast<float>(field.spacing_m());
     std::vector<std::uint32_t> colours;
     colours.reserve(
         static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()));
     for (int row = 0; row < field.rows(); ++row) {
         for (int column = 0; column < field.columns(); ++column) {
-            const GroundPoint point = ground_point(ground, column, row, 1);
-            colours.push_back(models::packed_colour(palette.lit(point, spacing_m)));
+            const TerrainPoint point = ground_point(ground, column, row, 1);
+            colours.push_back(models::packed_colour(palette.lit_colour(point, spacing_m)));
         }
     }
     return colours;
 }
 
-GroundPoint
+TerrainPoint
 nearest_point(const terrain::GroundSamples& ground, const glm::dvec2& at_m, double footprint_m) {
     const glm::dvec2 place = ground.grid_from_world(at_m.x, at_m.y);
     const int column = std::clamp(static_cast<int>(std::lround(place.x)), 0, ground.columns() - 1);
@@ -61,7 +61,7 @@ glm::vec3 nearest_colour(
     const GroundPalette& palette,
     const glm::dvec2& at_m,
     double footprint_m) {
-    return palette.lit(nearest_point(ground, at_m, footprint_m), static_cast<float>(footprint_m));
+    return palette.lit_colour(nearest_point(ground, at_m, footprint_m), static_cast<float>(footprint_m));
 }
 
 glm::vec3 mean_colour(const std::vector<std::uint32_t>& colours) {

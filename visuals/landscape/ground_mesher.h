@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/landscape/worker.h"
+#include "visuals/landscape/background_task.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -21,15 +21,15 @@ struct MeshSettings {
     scene::GroundSettings ground;
     int picture_height_px = 720;
     /// Nearest triangles first, for pictures with a depth buffer; else farthest first.
-    bool nearest_first = false;
+    bool is_front_to_back = false;
     /// A texture colours the ground: it then has no things on it, which would get its colours.
-    bool textured = false;
+    bool has_texture = false;
 };
 
-MeshSettings mesh_settings(const scene::Settings& settings, bool textured);
+MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture);
 
 /// From where the ground is meshed for one frame, and how finely.
-struct GroundRequest {
+struct MeshRequest {
     scene::Camera camera;
     /// Width of the picture by its height.
     double aspect = 1.0;
@@ -47,7 +47,7 @@ struct GroundCounts {
     double error_px = 0.0;
     /// Of the triangles, those that detail below the samples has added, and those of what stands on
     /// the ground.
-    int fine_triangles = 0;
+    int detail_triangles = 0;
     int scenery_triangles = 0;
 };
 
@@ -64,21 +64,21 @@ public:
     virtual const Ground& ground() const = 0;
 
     /// Sets the detail so that the first frame meets its target. Loading work.
-    virtual void settle(const GroundRequest& /*request*/) {}
+    virtual void reset_detail(const MeshRequest& /*request*/) {}
 
     /// Meshes by other settings from the next frame on; the detail control goes on from where it
-    /// is. The ground is_meshed_as() they say (asserted by mesher_after).
-    virtual void follow(const MeshSettings& /*settings*/) {}
+    /// is. The ground has_mesh_settings() they say (asserted by reuse_or_make_mesher).
+    virtual void apply_settings(const MeshSettings& /*settings*/) {}
 
     /// Goes on over another ground from the next frame on, where that has the same heights in the
     /// same memory and only other colours. Otherwise returns false and has changed nothing.
-    virtual bool move_to(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
+    virtual bool switch_ground(const std::shared_ptr<const Ground>& /*ground*/) { return false; }
 
     /// Begins the work of the next triangles() beside the caller, which should then ask for the
     /// same, on a thread that is spared for it or on another one; a second call before that one
     /// does nothing. Until that call nothing else may be asked about triangles; those of the last
     /// one stay valid. May be left out: changes no mesh.
-    virtual void prepare(const GroundRequest& /*request*/, const Beside& /*beside*/) {}
+    virtual void begin_next_mesh(const MeshRequest& /*request*/, const IdleThreadRunner& /*beside*/) {}
 
     /// Returns when nothing is being prepared. Throws what that work threw; the mesh is then made
     /// when it is asked for.
@@ -86,7 +86,7 @@ public:
 
     /// The triangles of one frame in painting order, farthest first, valid until the next call, and
     /// what they cost. Advances the detail control by one frame.
-    virtual scene::TriangleDraw triangles(const GroundRequest& request, GroundCounts& counts) = 0;
+    virtual scene::TriangleDraw triangles(const MeshRequest& request, GroundCounts& counts) = 0;
 
     /// Radius of the earth by which what is drawn sinks with the square of its distance, metres; 0
     /// = flat. Heights asked of the ground are those above datum all the same.

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 #include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
-#include "visuals/nature/relief_light.h"
+#include "visuals/nature/relief_shadows.h"
 #include "visuals/nature/scenery.h"
 #include "visuals/scene/cover_contrast.h"
 #include "visuals/scene/settings.h"
@@ -25,14 +25,14 @@ glm::vec3 direction_to_sun(const scene::AirSettings& settings);
 nature::Daylight daylight_of(const scene::AirSettings& settings);
 
 /// Light on a surface: 1 would leave its colour as it is. Unit vector, world axes.
-glm::vec3 light_on(const glm::vec3& normal, const nature::Daylight& day);
+glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day);
 
 /// The shadows of the ground on itself under the settings' sun; null where they want none.
-std::shared_ptr<const nature::ReliefLight>
-relief_light(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
+std::shared_ptr<const nature::ReliefShadows>
+make_relief_shadows(const terrain::GroundSamples& ground, const scene::AirSettings& settings);
 
 /// What grows at a place; of made ground where there is none. Nothing grows off the earth.
-nature::Climate climate_at(const std::optional<GeoPlace>& place);
+nature::Climate climate_at(const std::optional<GeoPosition>& place);
 
 /// Whether ground has the same colours under both: its sun, water and palette.
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
@@ -40,44 +40,44 @@ bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
 /// Which colour ground has by place, height and slope: the same everywhere and for every field.
 class GroundPalette {
 public:
-    /// Without `relief`, all light reaches every place.
+    /// Without `terrain_shadows`, all light reaches every place.
     explicit GroundPalette(
         const scene::AirSettings& settings,
         const nature::Climate& climate = {},
-        std::shared_ptr<const nature::ReliefLight> relief = nullptr);
+        std::shared_ptr<const nature::ReliefShadows> terrain_shadows = nullptr);
 
     /// Own colour, display values 0..1. Features smaller than `footprint_m` are seen as their mean:
     /// the size of what one colour stands for, metres.
-    glm::vec3 own(const GroundPoint& point, float footprint_m) const;
+    glm::vec3 albedo(const TerrainPoint& point, float footprint_m) const;
 
-    /// The colour as own() gives it under the light that reaches the place, display values.
-    glm::vec3 lit(const GroundPoint& point, float footprint_m) const;
+    /// The colour as albedo() gives it under the light that reaches the place, display values.
+    glm::vec3 lit_colour(const TerrainPoint& point, float footprint_m) const;
 
-    /// The colour as lit() gives it, packed; alpha is the number of the covers that it is mixed of
+    /// The colour as lit_colour() gives it, packed; alpha is the number of the covers that it is mixed of
     /// (scene::CoverContrast): 0 on water and nowhere else.
-    std::uint32_t packed(const GroundPoint& point, float footprint_m) const;
+    std::uint32_t packed(const TerrainPoint& point, float footprint_m) const;
 
     /// The number of the covers at a place (scene::CoverContrast), 0..255; 0 on water.
-    float covers(const GroundPoint& point, float footprint_m) const;
+    float cover_code(const TerrainPoint& point, float footprint_m) const;
 
     /// How pixels differ from the mean of the covers around them.
     scene::CoverContrast contrast() const;
 
     /// Whether a place lies under water.
-    bool is_water(const GroundPoint& point) const;
+    bool is_water(const TerrainPoint& point) const;
 
     /// What stands at a place.
-    nature::Growth growth(const GroundPoint& point, float footprint_m) const;
+    nature::SceneryDensity scenery_density(const TerrainPoint& point, float footprint_m) const;
 
     /// Share of the whole light on a place that the relief leaves, for each part of the colour.
-    glm::vec3 light_left(const GroundPoint& point, float footprint_m) const;
+    glm::vec3 light_visibility(const TerrainPoint& point, float footprint_m) const;
 
 private:
-    nature::LightLeft left_at(const GroundPoint& point, float footprint_m) const;
+    nature::LightVisibility visibility_at(const TerrainPoint& point, float footprint_m) const;
 
     nature::Daylight daylight_;
     nature::Climate climate_;
-    std::shared_ptr<const nature::ReliefLight> relief_;
+    std::shared_ptr<const nature::ReliefShadows> terrain_shadows_;
     float water_m_;
 };
 

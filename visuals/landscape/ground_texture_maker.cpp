@@ -1,6 +1,6 @@
 #include "visuals/landscape/ground_texture_maker.h"
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "visuals/landscape/ground_colours.h"
 
 #include <glm/common.hpp>
@@ -28,7 +28,7 @@ std::uint8_t byte_of_slope(float part) {
 /// Samples from one texel to the next: a power of two.
 int stride_of(const terrain::GroundSamples& ground) {
     int stride = 1;
-    while ((std::max(ground.columns(), ground.rows()) - 1) / stride >= largest_from_samples) {
+    while ((std::max(ground.columns(), ground.rows()) - 1) / stride >= max_sampled_size_texels) {
         stride *= 2;
     }
     return stride;
@@ -109,7 +109,7 @@ sum_of_lit_row(const scene::GroundTexture& texture, const nature::Daylight& day,
             static_cast<float>(normal.texels[2 * at] - 128) / 127.0F,
             static_cast<float>(normal.texels[2 * at + 1] - 128) / 127.0F);
         const float up = std::sqrt(std::max(1.0F - glm::dot(slope, slope), 0.0F));
-        const glm::vec3 light = light_on(glm::vec3(slope, up), day);
+        const glm::vec3 light = illumination(glm::vec3(slope, up), day);
         const std::size_t under =
             index_of(albedo, column * albedo.width / normal.width, albedo_row);
         for (int part = 0; part < 3; ++part) {
@@ -147,18 +147,18 @@ scene::GroundTexture ground_texture(
     const scene::AirSettings& settings,
     const models::heights::Image* drape,
     const nature::Climate& climate) {
-    assert(drape == nullptr || std::max(drape->width, drape->height) <= largest_texture);
+    assert(drape == nullptr || std::max(drape->width, drape->height) <= max_texture_size_px);
     const int stride = stride_of(ground);
     scene::GroundTexture texture;
     texture.normal = sampled(ground, stride, 2);
     texture.albedo = sampled(ground, stride, 3);
-    const GroundPalette palette(settings, climate, relief_light(ground, settings));
+    const GroundPalette palette(settings, climate, make_relief_shadows(ground, settings));
     const auto footprint_m = static_cast<float>(stride * ground.spacing_m());
     by_rows(texture.normal.height, [&](int row) {
         for (int column = 0; column < texture.normal.width; ++column) {
-            const GroundPoint point = ground_point(ground, column * stride, row * stride, stride);
+            const TerrainPoint point = ground_point(ground, column * stride, row * stride, stride);
             const glm::vec3 own =
-                palette.own(point, footprint_m) * palette.light_left(point, footprint_m);
+                palette.albedo(point, footprint_m) * palette.light_visibility(point, footprint_m);
             const std::size_t at = index_of(texture.normal, column, row);
             texture.normal.texels[2 * at] = byte_of_slope(point.normal.x);
             texture.normal.texels[2 * at + 1] = byte_of_slope(point.normal.y);

@@ -57,42 +57,42 @@ std::size_t hashed(std::uint32_t column, std::uint32_t row) {
 VertexColours::VertexColours(
     const terrain::GroundTiles& ground,
     const scene::AirSettings& settings,
-    std::shared_ptr<const nature::ReliefLight> relief)
+    std::shared_ptr<const nature::ReliefShadows> terrain_shadows)
     : ground_(ground)
-    , palette_(settings, climate_at(ground.facts().place), std::move(relief))
+    , palette_(settings, climate_at(ground.metadata().place), std::move(terrain_shadows))
     , water_(daylight_of(settings))
     , footprints_per_m_(
           static_cast<float>(1U << finer_octaves) / static_cast<float>(ground.spacing_m()))
     , last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {
-    fresh_.resize(min_places);
-    stale_.resize(min_places);
+    recent_.resize(min_places);
+    older_.resize(min_places);
 }
 
-void VertexColours::follow(
-    const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefLight> relief) {
-    palette_ = GroundPalette(settings, climate_at(ground_.facts().place), std::move(relief));
-    water_ = nature::WaterLight(daylight_of(settings));
-    std::ranges::fill(fresh_, Entry{});
-    std::ranges::fill(stale_, Entry{});
-    fresh_count_ = 0;
+void VertexColours::apply_settings(
+    const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefShadows> terrain_shadows) {
+    palette_ = GroundPalette(settings, climate_at(ground_.metadata().place), std::move(terrain_shadows));
+    water_ = nature::WaterReflection(daylight_of(settings));
+    std::ranges::fill(recent_, CachedColours{});
+    std::ranges::fill(older_, CachedColours{});
+    recent_count_ = 0;
 }
 
 void VertexColours::fill(
-    std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins) {
-    assert(vertices.size() == origins.size());
-    make_room(vertices.size());
-    const std::size_t mask = fresh_.size() - 1;
+    std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) {
+    assert(vertices.size() == morphs.size());
+    reserve(vertices.size());
+    const std::size_t mask = recent_.size() - 1;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const terrain::VertexOrigin& origin = origins[i];
-        if (i + looked_ahead < origins.size()) {
-            const terrain::VertexOrigin& later = origins[i + looked_ahead];
-            __builtin_prefetch(&fresh_[hashed(later.column * parts, later.row * parts) & mask]);
+        const terrain::VertexMorph& origin = morphs[i];
+        if (i + looked_ahead < morphs.size()) {
+            const terrain::VertexMorph& later = morphs[i + looked_ahead];
+            __builtin_prefetch(&recent_[hashed(later.column * subdivisions, later.row * subdivisions) & mask]);
         }
-        std::uint32_t colour = seen_from(
-            {origin.column * parts, origin.row * parts}, glm::length(vertices[i].position_m));
+        std::uint32_t colour = colour_at_distance(
+            {origin.column * subdivisions, origin.row * subdivisions}, glm::length(vertices[i].position_m));
         if (origin.weight < 1.0F) {
             const std::uint32_t middle =
-                mixed(vertices[origin.end_a].colour, vertices[origin.end_b].colour, 128U);
+                mixed(vertices[origin.parent_a].colour, vertices[origin.parent_b].colour, 128U);
             colour = mixed(middle, colour, static_cast<std::uint32_t>(origin.weight * 256.0F));
         }
         vertices[i].colour = colour;
@@ -106,28 +106,28 @@ void VertexColours::fill(
 
 std::uint32_t VertexColours::at(const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
     const glm::dvec2 grid =
-        (place_m + ground_.half_extent_m()) * (static_cast<double>(parts) / ground_.spacing_m());
+        (place_m + ground_.half_extent_m()) * (static_cast<double>(subdivisions) / ground_.spacing_m());
     const auto place_of = [](double at, int samples) {
-        const auto last = static_cast<double>(samples - 1) * parts;
+        const auto last = static_cast<double>(samples - 1) * subdivisions;
         return static_cast<std::uint32_t>(std::lround(std::clamp(at, 0.0, last)));
     };
-    if (4 * fresh_count_ > 3 * fresh_.size()) {
-        make_room(0);
+    if (4 * recent_count_ > 3 * recent_.size()) {
+        reserve(0);
     }
-    const std::uint32_t colour = seen_from(
+    const std::uint32_t colour = colour_at_distance(
         {place_of(grid.x, ground_.columns()), place_of(grid.y, ground_.rows())},
         glm::length(from_eye_m));
     return colour >> 24U == 0 ? seen_water(colour, from_eye_m) : colour;
 }
 
 /// Without what water mirrors.
-std::uint32_t VertexColours::seen_from(const GridPlace& place, float distance_m) {
+std::uint32_t VertexColours::colour_at_distance(const SubgridPoint& place, float distance_m) {
     const float near = std::min(
         distance_m * near_footprint_share * footprints_per_m_,
         static_cast<float>(1U << finer_octaves));
     const Octave octave =
         octave_of(std::max(near, distance_m * footprint_share * footprints_per_m_));
-    const Entry& entry = entry_of(place, std::min(octave.whole, last_octave_));
+    const CachedColours& entry = cached_entry(place, std::min(octave.whole, last_octave_));
     return mixed(entry.fine, entry.coarse, octave.whole < last_octave_ ? octave.part : 256U);
 }
 
@@ -135,34 +135,34 @@ std::uint32_t VertexColours::seen_water(std::uint32_t own, const glm::vec3& from
     const auto part = [&](unsigned shift) {
         return static_cast<float>(own >> shift & 0xffU) * (1.0F / 255.0F);
     };
-    const glm::vec3 seen = water_.seen({part(0), part(8), part(16)}, from_eye_m);
-    return models::packed_colour(seen) & 0x00ffffffU;
+    const glm::vec3 shaded_colour = water_.shaded_colour({part(0), part(8), part(16)}, from_eye_m);
+    return models::packed_colour(shaded_colour) & 0x00ffffffU;
 }
 
 /// Places for all vertices of a mesh; what was not asked for since the last but one time that the
 /// table filled is forgotten.
-void VertexColours::make_room(std::size_t vertices) {
+void VertexColours::reserve(std::size_t vertices) {
     const std::size_t places = std::max(min_places, std::bit_ceil(4 * vertices));
-    if (places > fresh_.size()) {
-        std::vector<Entry> old(places);
-        std::swap(old, fresh_);
-        stale_.assign(places, {});
-        fresh_count_ = 0;
-        for (const Entry& entry : old) {
+    if (places > recent_.size()) {
+        std::vector<CachedColours> old(places);
+        std::swap(old, recent_);
+        older_.assign(places, {});
+        recent_count_ = 0;
+        for (const CachedColours& entry : old) {
             if (entry.octave != unused) {
-                entry_in(fresh_, entry.place) = entry;
-                ++fresh_count_;
+                slot_in(recent_, entry.place) = entry;
+                ++recent_count_;
             }
         }
-    } else if (2 * fresh_count_ > fresh_.size()) {
-        std::swap(fresh_, stale_);
-        std::fill(fresh_.begin(), fresh_.end(), Entry{});
-        fresh_count_ = 0;
+    } else if (2 * recent_count_ > recent_.size()) {
+        std::swap(recent_, older_);
+        std::fill(recent_.begin(), recent_.end(), CachedColours{});
+        recent_count_ = 0;
     }
 }
 
-VertexColours::Entry&
-VertexColours::entry_in(std::vector<Entry>& table, const GridPlace& place) const {
+VertexColours::CachedColours&
+VertexColours::slot_in(std::vector<CachedColours>& table, const SubgridPoint& place) const {
     const std::size_t mask = table.size() - 1;
     std::size_t at = hashed(place.column, place.row) & mask;
     while (table[at].octave != unused && table[at].place != place) {
@@ -171,27 +171,27 @@ VertexColours::entry_in(std::vector<Entry>& table, const GridPlace& place) const
     return table[at];
 }
 
-const VertexColours::Entry& VertexColours::entry_of(const GridPlace& place, unsigned octave) {
-    Entry& entry = entry_in(fresh_, place);
+const VertexColours::CachedColours& VertexColours::cached_entry(const SubgridPoint& place, unsigned octave) {
+    CachedColours& entry = slot_in(recent_, place);
     if (entry.octave == octave) {
         return entry;
     }
     if (entry.octave == unused) {
-        ++fresh_count_;
-        const Entry& before = entry_in(stale_, place);
+        ++recent_count_;
+        const CachedColours& before = slot_in(older_, place);
         if (before.octave != unused) {
             entry = before;
         }
         entry.place = place;
     }
     if (entry.octave != octave) {
-        work_out(entry, octave);
+        compute(entry, octave);
     }
     return entry;
 }
 
-void VertexColours::work_out(Entry& entry, unsigned octave) const {
-    const Entry before = entry;
+void VertexColours::compute(CachedColours& entry, unsigned octave) const {
+    const CachedColours before = entry;
     const unsigned coarser = std::min(octave + 1, last_octave_);
     entry.octave = octave;
     entry.fine = before.octave != unused && before.octave + 1 == octave
@@ -202,11 +202,11 @@ void VertexColours::work_out(Entry& entry, unsigned octave) const {
                                                : colour_of(entry.place, coarser);
 }
 
-std::uint32_t VertexColours::colour_of(const GridPlace& place, unsigned octave) const {
+std::uint32_t VertexColours::colour_of(const SubgridPoint& place, unsigned octave) const {
     const int step = octave > finer_octaves ? 1 << (octave - finer_octaves) : 1;
-    const bool is_sample = place.column % parts == 0 && place.row % parts == 0;
-    GroundPoint point = is_sample ? sample_point(place, step) : point_between(place);
-    point.shore = palette_.is_water(point) ? shore_at(point) : 0.0F;
+    const bool is_sample = place.column % subdivisions == 0 && place.row % subdivisions == 0;
+    TerrainPoint point = is_sample ? sample_point(place, step) : point_between(place);
+    point.land_share = palette_.is_water(point) ? land_share_at(point) : 0.0F;
     return palette_.packed(
         point,
         static_cast<float>(ground_.spacing_m()) *
@@ -215,9 +215,9 @@ std::uint32_t VertexColours::colour_of(const GridPlace& place, unsigned octave) 
 
 /// A sample with the mean slope of so wide a surrounding; of a place between samples, the one
 /// south-west of it.
-GroundPoint VertexColours::sample_point(const GridPlace& place, int step) const {
-    const auto column = static_cast<int>(place.column / parts);
-    const auto row = static_cast<int>(place.row / parts);
+TerrainPoint VertexColours::sample_point(const SubgridPoint& place, int step) const {
+    const auto column = static_cast<int>(place.column / subdivisions);
+    const auto row = static_cast<int>(place.row / subdivisions);
     const int west = std::max(column - step, 0);
     const int east = std::min(column + step, ground_.columns() - 1);
     const int south = std::max(row - step, 0);
@@ -235,17 +235,17 @@ GroundPoint VertexColours::sample_point(const GridPlace& place, int step) const 
 }
 
 /// Heights and slopes even between four samples.
-GroundPoint VertexColours::point_between(const GridPlace& place) const {
-    const auto last_column = static_cast<std::uint32_t>(ground_.columns() - 2) * parts;
-    const auto last_row = static_cast<std::uint32_t>(ground_.rows() - 2) * parts;
-    const GridPlace cell{std::min(place.column, last_column), std::min(place.row, last_row)};
-    const GroundPoint a = sample_point(cell, 1);
-    const GroundPoint b = sample_point({cell.column + parts, cell.row}, 1);
-    const GroundPoint c = sample_point({cell.column, cell.row + parts}, 1);
-    const GroundPoint d = sample_point({cell.column + parts, cell.row + parts}, 1);
+TerrainPoint VertexColours::point_between(const SubgridPoint& place) const {
+    const auto last_column = static_cast<std::uint32_t>(ground_.columns() - 2) * subdivisions;
+    const auto last_row = static_cast<std::uint32_t>(ground_.rows() - 2) * subdivisions;
+    const SubgridPoint cell{std::min(place.column, last_column), std::min(place.row, last_row)};
+    const TerrainPoint a = sample_point(cell, 1);
+    const TerrainPoint b = sample_point({cell.column + subdivisions, cell.row}, 1);
+    const TerrainPoint c = sample_point({cell.column, cell.row + subdivisions}, 1);
+    const TerrainPoint d = sample_point({cell.column + subdivisions, cell.row + subdivisions}, 1);
     const auto spacing_m = static_cast<float>(ground_.spacing_m());
-    const float east_m = static_cast<float>(place.column) * (spacing_m / parts);
-    const float north_m = static_cast<float>(place.row) * (spacing_m / parts);
+    const float east_m = static_cast<float>(place.column) * (spacing_m / subdivisions);
+    const float north_m = static_cast<float>(place.row) * (spacing_m / subdivisions);
     const float right = (east_m - a.east_m) / spacing_m;
     const float up = (north_m - a.north_m) / spacing_m;
     const auto between = [&](auto low, auto low_right, auto high, auto high_right) {
@@ -259,27 +259,27 @@ GroundPoint VertexColours::point_between(const GridPlace& place) const {
 }
 
 /// By samples around, the nearer ones counting like the farther ones.
-float VertexColours::shore_at(const GroundPoint& point) const {
+float VertexColours::land_share_at(const TerrainPoint& point) const {
     constexpr std::array<glm::ivec2, 8> ways = {
         glm::ivec2(1, 0), {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     const auto per_m = 1.0F / static_cast<float>(ground_.spacing_m());
     const glm::ivec2 here(glm::round(glm::vec2(point.east_m, point.north_m) * per_m));
     const glm::ivec2 last(ground_.columns() - 1, ground_.rows() - 1);
     int land = 0;
-    int seen = 0;
+    int shaded_colour = 0;
     for (const int far_off : {1, 2, 4}) {
         for (const glm::ivec2& way : ways) {
             const glm::ivec2 at = glm::clamp(here + way * far_off, glm::ivec2(0), last);
             land += ground_.height_m(at.x, at.y) > point.height_m + 0.01F ? 1 : 0;
-            ++seen;
+            ++shaded_colour;
         }
     }
-    return static_cast<float>(land) / static_cast<float>(seen);
+    return static_cast<float>(land) / static_cast<float>(shaded_colour);
 }
 
-nature::Growth VertexColours::growth_of(int column, int row) const {
-    const GroundPoint point = ground_point(terrain::GroundSamples(ground_), column, row, 1);
-    return palette_.growth(point, static_cast<float>(ground_.spacing_m()));
+nature::SceneryDensity VertexColours::scenery_density_of(int column, int row) const {
+    const TerrainPoint point = ground_point(terrain::GroundSamples(ground_), column, row, 1);
+    return palette_.scenery_density(point, static_cast<float>(ground_.spacing_m()));
 }
 
 glm::vec3 VertexColours::mean() const {
@@ -290,7 +290,7 @@ glm::vec3 VertexColours::mean() const {
                 static_cast<std::uint32_t>((2 * i + 1) * ground_.columns() / (2 * mean_samples));
             const auto row =
                 static_cast<std::uint32_t>((2 * j + 1) * ground_.rows() / (2 * mean_samples));
-            const std::uint32_t colour = colour_of({column * parts, row * parts}, finer_octaves);
+            const std::uint32_t colour = colour_of({column * subdivisions, row * subdivisions}, finer_octaves);
             sum += glm::vec3(colour & 0xffU, colour >> 8U & 0xffU, colour >> 16U & 0xffU);
         }
     }

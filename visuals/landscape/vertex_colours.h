@@ -2,7 +2,7 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/landscape/ground_palette.h"
-#include "visuals/nature/water_light.h"
+#include "visuals/nature/water_reflection.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -32,66 +32,66 @@ public:
     VertexColours(
         const terrain::GroundTiles& ground,
         const scene::AirSettings& settings,
-        std::shared_ptr<const nature::ReliefLight> relief);
+        std::shared_ptr<const nature::ReliefShadows> terrain_shadows);
 
     /// Gives other colours from now on.
     void
-    follow(const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefLight> relief);
+    apply_settings(const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefShadows> terrain_shadows);
 
-    /// Fills in ColourVertex::colour; `origins` as GroundMesh::origins.
+    /// Fills in ColourVertex::colour; `morphs` as GroundMesh::origins.
     void
-    fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexOrigin> origins);
+    fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs);
 
     /// Colour of a place of the world, packed, with the number of its covers for alpha.
     std::uint32_t at(const glm::dvec2& place_m, const glm::vec3& from_eye_m);
 
     /// What stands at a sample.
-    nature::Growth growth_of(int column, int row) const;
+    nature::SceneryDensity scenery_density_of(int column, int row) const;
 
     /// Mean over the ground, of widely spaced samples, display values 0..1.
     glm::vec3 mean() const;
 
 private:
-    /// A place of the grid, of which there are `parts` from each sample to the next.
-    struct GridPlace {
+    /// A place of the grid, of which there are `subdivisions` from each sample to the next.
+    struct SubgridPoint {
         std::uint32_t column = 0;
         std::uint32_t row = 0;
 
-        bool operator==(const GridPlace&) const = default;
+        bool operator==(const SubgridPoint&) const = default;
     };
 
     /// A place's colours at two neighbouring octaves.
-    struct Entry {
-        GridPlace place;
+    struct CachedColours {
+        SubgridPoint place;
         std::uint32_t octave = unused;
         std::uint32_t fine = 0;
         std::uint32_t coarse = 0;
     };
 
     static constexpr std::uint32_t unused = ~std::uint32_t{0};
-    static constexpr std::uint32_t parts = 64;
+    static constexpr std::uint32_t subdivisions = 64;
     /// Footprints are counted from the distance of samples over 2^finer_octaves.
     static constexpr unsigned finer_octaves = 5;
 
-    void make_room(std::size_t vertices);
-    std::uint32_t seen_from(const GridPlace& place, float distance_m);
-    const Entry& entry_of(const GridPlace& place, unsigned octave);
-    Entry& entry_in(std::vector<Entry>& table, const GridPlace& place) const;
-    void work_out(Entry& entry, unsigned octave) const;
-    std::uint32_t colour_of(const GridPlace& place, unsigned octave) const;
-    GroundPoint sample_point(const GridPlace& place, int step) const;
-    GroundPoint point_between(const GridPlace& place) const;
-    float shore_at(const GroundPoint& point) const;
+    void reserve(std::size_t vertices);
+    std::uint32_t colour_at_distance(const SubgridPoint& place, float distance_m);
+    const CachedColours& cached_entry(const SubgridPoint& place, unsigned octave);
+    CachedColours& slot_in(std::vector<CachedColours>& table, const SubgridPoint& place) const;
+    void compute(CachedColours& entry, unsigned octave) const;
+    std::uint32_t colour_of(const SubgridPoint& place, unsigned octave) const;
+    TerrainPoint sample_point(const SubgridPoint& place, int step) const;
+    TerrainPoint point_between(const SubgridPoint& place) const;
+    float land_share_at(const TerrainPoint& point) const;
     std::uint32_t seen_water(std::uint32_t own, const glm::vec3& from_eye_m) const;
 
     const terrain::GroundTiles& ground_;
     GroundPalette palette_;
-    nature::WaterLight water_;
+    nature::WaterReflection water_;
     float footprints_per_m_; ///< of the distance, in footprints of octave 0
     unsigned last_octave_;
-    std::vector<Entry> fresh_; ///< asked for lately; a power of two of places
-    std::vector<Entry> stale_; ///< those asked for before
-    std::size_t fresh_count_ = 0;
+    std::vector<CachedColours> recent_; ///< asked for lately; a power of two of places
+    std::vector<CachedColours> older_; ///< those asked for before
+    std::size_t recent_count_ = 0;
 };
 
 } // namespace octant::visuals::landscape

@@ -10,7 +10,7 @@
 namespace octant::visuals::nature {
 
 /// A map, as far as its surroundings need it. World axes, metres.
-struct MapFacts {
+struct BackdropSource {
     glm::dvec2 half_extent_m{0.0};
     double mean_height_m = 0.0;
     glm::vec3 mean_colour{0.5F}; ///< display values
@@ -18,23 +18,23 @@ struct MapFacts {
     std::function<double(const glm::dvec2& at_m)> height_m;
     std::function<glm::vec3(const glm::dvec2& at_m, double footprint_m)> colour;
     /// The number of the covers there, 0..255; none is 0 everywhere.
-    std::function<float(const glm::dvec2& at_m, double footprint_m)> covers = nullptr;
+    std::function<float(const glm::dvec2& at_m, double footprint_m)> cover_code = nullptr;
 };
 
 /// Land around a map that goes on as the map's own mirror image and flattens towards the mean
 /// height and colour, so that no edge shows from above.
 struct Backdrop {
-    struct Corner {
+    struct BackdropVertex {
         glm::dvec3 at_m{0.0}; ///< world axes
         glm::vec3 colour{0.0F};
-        float covers = 0.0F; ///< their number, 0..255
+        float cover_code = 0.0F; ///< their number, 0..255
     };
 
-    std::vector<Corner> corners;
+    std::vector<BackdropVertex> vertices;
     /// Triangles counter-clockwise seen from above; for an eye above the map in painting order.
     std::vector<std::uint32_t> indices;
 };
 
-Backdrop backdrop_of(const MapFacts& map);
+Backdrop make_backdrop(const BackdropSource& map);
 
 } // namespace octant::visuals::nature

@@ -87,7 +87,7 @@ Climate climate_of(double latitude_deg, double longitude_deg) {
         static_cast<float>(std::clamp(latitude_deg / 20.0, -1.0, 1.0))};
 }
 
-Climate climate_elsewhere(const Ellipsoid& ellipsoid) {
+Climate extraterrestrial_climate(const Ellipsoid& ellipsoid) {
     constexpr glm::vec3 rust(0.62F, 0.43F, 0.31F);
     constexpr glm::vec3 grey(0.46F, 0.45F, 0.44F);
     constexpr float never_m = 1e6F;

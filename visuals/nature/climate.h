@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/geo_place.h"
+#include "sim/base/geo_position.h"
 
 #include <glm/vec3.hpp>
 
@@ -13,7 +13,7 @@ struct Climate {
     float tree_line_m = 1500.0F;
     float snow_line_m = 2350.0F;
     bool arid = false;
-    float poleward = 0.0F; ///< 1 where north is the shaded side, -1 where south is; 0 = no side
+    float shaded_side = 0.0F; ///< 1 where north is the shaded side, -1 where south is; 0 = no side
     /// Display colour of the dust on another planet or moon, where there is nothing else: no water,
     /// plants, snow or people. Nothing on the earth.
     std::optional<glm::vec3> dust = {};
@@ -23,6 +23,6 @@ struct Climate {
 Climate climate_of(double latitude_deg, double longitude_deg);
 
 /// Of a planet or moon that is not the earth: rust on Mars, grey elsewhere.
-Climate climate_elsewhere(const Ellipsoid& ellipsoid);
+Climate extraterrestrial_climate(const Ellipsoid& ellipsoid);
 
 } // namespace octant::visuals::nature

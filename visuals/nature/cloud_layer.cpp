@@ -31,7 +31,7 @@ std::size_t wrapped(std::int64_t index, int size) {
 }
 
 /// A number 0..1 for a lattice point (SplitMix64's finalizer; Steele, Lea and Flood 2014).
-float dice(std::uint64_t column, std::uint64_t row, std::uint64_t octave) {
+float random_bits(std::uint64_t column, std::uint64_t row, std::uint64_t octave) {
     std::uint64_t z = (column * 0x9e3779b97f4a7c15ULL + row) * 0xd1b54a32d192ed03ULL + octave + 1;
     z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
     z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
@@ -48,7 +48,7 @@ void add_octave(int step, float weight, std::vector<float>& field) {
     std::vector<float> lattice(static_cast<std::size_t>(points) * static_cast<std::size_t>(points));
     for (int row = 0; row < points; ++row) {
         for (int column = 0; column < points; ++column) {
-            lattice[static_cast<std::size_t>(row * points + column)] = dice(
+            lattice[static_cast<std::size_t>(row * points + column)] = random_bits(
                 static_cast<std::uint64_t>(column),
                 static_cast<std::uint64_t>(row),
                 static_cast<std::uint64_t>(step));
@@ -74,7 +74,7 @@ void add_octave(int step, float weight, std::vector<float>& field) {
 }
 
 /// From noise to density: in the share `cover` of all places it is half of the most or more.
-void cut_at_cover(double cover, std::vector<float>& field) {
+void threshold_density(double cover, std::vector<float>& field) {
     std::vector<float> sorted = field;
     const auto place = static_cast<std::size_t>(
         std::clamp(1.0 - cover, 0.0, 1.0) * static_cast<double>(sorted.size() - 1));
@@ -120,7 +120,7 @@ CloudLayer::CloudLayer(double cover) {
     for (int step = widest; step >= 1; step /= 2, weight *= 0.58F) {
         add_octave(step, weight, field);
     }
-    cut_at_cover(cover, field);
+    threshold_density(cover, field);
     density_[0] = std::move(field);
     for (int level = 1; level <= levels; ++level) {
         const auto finer = static_cast<std::size_t>(level - 1);
@@ -128,8 +128,8 @@ CloudLayer::CloudLayer(double cover) {
     }
 }
 
-void CloudLayer::light_by(const Daylight& day) {
-    to_sun_level_ = glm::vec2(day.to_sun_level());
+void CloudLayer::set_daylight(const Daylight& day) {
+    horizontal_to_sun_ = glm::vec2(day.horizontal_to_sun());
     bright_ = glm::min(0.75F * day.ambient() + 0.85F * day.sunlight(), glm::vec3(1.0F));
     dark_ = glm::min(0.65F * day.ambient() + 0.3F * day.sunlight(), glm::vec3(1.0F));
 }
@@ -143,12 +143,12 @@ CloudLayer::Node CloudLayer::node(int level, std::int64_t column, std::int64_t r
     };
     const glm::vec2 rise(
         at(column + 1, row) - at(column - 1, row), at(column, row + 1) - at(column, row - 1));
-    return {at(column, row), std::clamp(-glm::dot(rise, to_sun_level_), -1.0F, 1.0F)};
+    return {at(column, row), std::clamp(-glm::dot(rise, horizontal_to_sun_), -1.0F, 1.0F)};
 }
 
 /// The same, by this share that of the next level between its own corners.
 CloudLayer::Node
-CloudLayer::seen_node(int level, std::int64_t column, std::int64_t row, float coarser) const {
+CloudLayer::blended_node(int level, std::int64_t column, std::int64_t row, float coarser) const {
     const Node own = node(level, column, row);
     if (coarser <= 0.0F || level + 1 >= levels) {
         return own;
@@ -165,13 +165,13 @@ CloudLayer::seen_node(int level, std::int64_t column, std::int64_t row, float co
 
 /// From below thick clouds are dark, from above the sun's side is bright.
 models::ColourVertex
-CloudLayer::vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinned) const {
+CloudLayer::vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinning) const {
     const float thick = node.density / max_density;
     const float lit =
         from_above ? 0.92F + 0.5F * node.light : 1.0F - 0.65F * thick * thick + 0.25F * node.light;
     const glm::vec3 colour = glm::mix(dark_, bright_, std::clamp(lit, 0.0F, 1.0F));
     const auto alpha = static_cast<std::uint32_t>(
-        std::lround(255.0F * std::clamp(node.density * thinned, 0.0F, 1.0F)));
+        std::lround(255.0F * std::clamp(node.density * thinning, 0.0F, 1.0F)));
     return {glm::vec3(at_m), (models::packed_colour(colour) & 0x00ffffffU) | (alpha << 24U)};
 }
 
@@ -188,8 +188,8 @@ void CloudLayer::add_level(
     const std::int64_t hole_y = first_of(eye_m.y, 0.5 * size_m) / 2 - first_y;
     const double through = glm::smoothstep(through_m, whole_m, std::abs(eye_m.z - height_m));
     const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    for (int row = 0; row < nodes; ++row) {
-        for (int column = 0; column < nodes; ++column) {
+    for (int row = 0; row < nodes_per_side; ++row) {
+        for (int column = 0; column < nodes_per_side; ++column) {
             const std::int64_t x = first_x + column;
             const std::int64_t y = first_y + row;
             glm::dvec3 at_m(
@@ -199,15 +199,15 @@ void CloudLayer::add_level(
             const double away_m = glm::length(glm::dvec2(at_m));
             const double off = std::max(std::abs(at_m.x), std::abs(at_m.y)) / (size_m * side / 2);
             const auto coarser = static_cast<float>(glm::smoothstep(0.55, 0.86, off));
-            const double thinned = through * (1.0 - glm::smoothstep(0.6, 0.95, away_m / reach_m));
+            const double thinning = through * (1.0 - glm::smoothstep(0.6, 0.95, away_m / reach_m));
             if (earth_radius_m > 0.0) {
                 at_m.z -= away_m * away_m / (2.0 * earth_radius_m);
             }
             vertices_.push_back(vertex(
-                seen_node(level, x, y, coarser),
+                blended_node(level, x, y, coarser),
                 at_m,
                 eye_m.z > height_m,
-                static_cast<float>(thinned)));
+                static_cast<float>(thinning)));
         }
     }
     const auto alpha_at = [&](std::uint32_t corner) { return vertices_[corner].colour >> 24U; };
@@ -215,9 +215,9 @@ void CloudLayer::add_level(
         for (int column = 0; column < side; ++column) {
             const bool inside = level > 0 && column >= hole_x && column < hole_x + side / 2 &&
                                 row >= hole_y && row < hole_y + side / 2;
-            const auto a = first_vertex + static_cast<std::uint32_t>(row * nodes + column);
+            const auto a = first_vertex + static_cast<std::uint32_t>(row * nodes_per_side + column);
             const std::uint32_t b = a + 1;
-            const std::uint32_t d = a + nodes;
+            const std::uint32_t d = a + nodes_per_side;
             const std::uint32_t c = d + 1;
             if (!inside && (alpha_at(a) | alpha_at(b) | alpha_at(c) | alpha_at(d)) != 0) {
                 indices_.insert(indices_.end(), {a, b, c, a, c, d});

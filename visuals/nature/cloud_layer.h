@@ -23,7 +23,7 @@ public:
     explicit CloudLayer(double cover);
 
     /// Colours of the clouds by a daylight.
-    void light_by(const Daylight& day);
+    void set_daylight(const Daylight& day);
 
     /// Clear triangles in world axes with the eye subtracted, their alpha the density. None lies
     /// before another.
@@ -43,7 +43,7 @@ public:
 private:
     static constexpr int levels = 6; ///< each with cells of twice the size
     static constexpr int side = 32;  ///< cells of each level along one side of its square
-    static constexpr int nodes = side + 1;
+    static constexpr int nodes_per_side = side + 1;
 
     struct Node {
         float density = 0.0F;
@@ -51,13 +51,13 @@ private:
     };
 
     Node node(int level, std::int64_t column, std::int64_t row) const;
-    Node seen_node(int level, std::int64_t column, std::int64_t row, float coarser) const;
+    Node blended_node(int level, std::int64_t column, std::int64_t row, float coarser) const;
     models::ColourVertex
-    vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinned) const;
+    vertex(const Node& node, const glm::dvec3& at_m, bool from_above, float thinning) const;
     void add_level(int level, const glm::dvec3& eye_m, double height_m, double earth_radius_m);
 
     std::array<std::vector<float>, levels + 1> density_; ///< periodic; 0 = none, 1 = full
-    glm::vec2 to_sun_level_{0.0F};
+    glm::vec2 horizontal_to_sun_{0.0F};
     glm::vec3 bright_{1.0F};
     glm::vec3 dark_{0.6F};
     std::vector<models::ColourVertex> vertices_;

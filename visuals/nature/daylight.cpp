@@ -1,6 +1,6 @@
 #include "visuals/nature/daylight.h"
 
-#include "models/display_colour.h"
+#include "models/srgb.h"
 #include "sim/base/units.h"
 
 #include <glm/common.hpp>
@@ -43,7 +43,7 @@ glm::dvec3 horizon_light(const PerezSky& sky) {
 glm::dvec3 exposure_of(const PerezSky& sky, double elevation_rad, const glm::dvec3& horizon) {
     const glm::dvec3 usual_light = horizon_light(PerezSky(usual_elevation_rad, turbidity));
     const glm::dvec3 aim =
-        -glm::log(1.0 - glm::min(models::linear_from_display(horizon), glm::dvec3(0.98)));
+        -glm::log(1.0 - glm::min(models::linear_from_srgb(horizon), glm::dvec3(0.98)));
     const glm::dvec3 usual = aim / usual_light;
     const double grey = glm::dot(aim, weights) / glm::dot(usual_light, weights);
     const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
@@ -59,7 +59,7 @@ glm::dvec3 power_of(const glm::dvec3& light) {
 /// The sun's colour over its colour at the usual height, as the adapted eye sees it.
 glm::dvec3 sunlight_share(double elevation_rad) {
     const glm::dvec3 share =
-        sunlight_left(elevation_rad, turbidity) / sunlight_left(usual_elevation_rad, turbidity);
+        sunlight_transmittance(elevation_rad, turbidity) / sunlight_transmittance(usual_elevation_rad, turbidity);
     return power_of(share * std::pow(glm::dot(share, weights), -eye_power));
 }
 
@@ -85,10 +85,10 @@ Daylight::Daylight(const DaylightOptions& options)
         std::cos(elevation_rad) * level.x,
         std::cos(elevation_rad) * level.y,
         std::sin(elevation_rad)};
-    to_sun_level_ = level;
+    horizontal_to_sun_ = level;
     exposure_ = exposure_of(sky_, elevation_rad, glm::dvec3(options.horizon));
     haze_away_ = glm::vec3(
-        models::display_from_linear(glm::dvec3(1.0) - glm::exp(-exposure_ * horizon_light(sky_))));
+        models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-exposure_ * horizon_light(sky_))));
     haze_sunward_ = perez(horizon_rad, 0.0);
     const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
     const PerezSky usual(usual_elevation_rad, turbidity);
@@ -104,7 +104,7 @@ Daylight::Daylight(const DaylightOptions& options)
 
 glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
     const glm::dvec3 light = exposure_ * sky_.light(elevation_rad, azimuth_rad);
-    return glm::vec3(models::display_from_linear(glm::dvec3(1.0) - glm::exp(-light)));
+    return glm::vec3(models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-light)));
 }
 
 glm::vec3 Daylight::horizon(double cos_to_sun) const {
@@ -115,7 +115,7 @@ glm::vec3 Daylight::horizon(double cos_to_sun) const {
 glm::vec3 Daylight::sky(const glm::dvec3& direction) const {
     const double elevation_rad = std::asin(std::clamp(direction.z, 0.0, 1.0));
     const double level = std::max(glm::length(glm::dvec2(direction)), 1e-9);
-    const double cos_to_sun = glm::dot(glm::dvec2(direction), to_sun_level_) / level;
+    const double cos_to_sun = glm::dot(glm::dvec2(direction), horizontal_to_sun_) / level;
     const glm::vec3 high = perez(elevation_rad, std::acos(std::clamp(cos_to_sun, -1.0, 1.0)));
     const auto share =
         static_cast<float>(glm::smoothstep(0.0, 1.0, elevation_rad / horizon_blend_rad));

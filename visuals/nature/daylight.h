@@ -24,7 +24,7 @@ public:
     const glm::dvec3& to_sun() const { return to_sun_; }
 
     /// Unit vector along the ground towards the sun; 0 where it stands overhead.
-    const glm::dvec2& to_sun_level() const { return to_sun_level_; }
+    const glm::dvec2& horizontal_to_sun() const { return horizontal_to_sun_; }
 
     /// What a surface's own colour is multiplied by: light from everywhere, and from the sun times
     /// the cosine to it.
@@ -58,7 +58,7 @@ private:
     PerezSky sky_;
     double sun_azimuth_rad_;
     glm::dvec3 to_sun_;
-    glm::dvec2 to_sun_level_{0.0};
+    glm::dvec2 horizontal_to_sun_{0.0};
     glm::dvec3 exposure_{1.0}; ///< of red, green and blue
     glm::vec3 ambient_{0.0F};
     glm::vec3 sunlight_{0.0F};

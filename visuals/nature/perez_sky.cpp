@@ -98,7 +98,7 @@ glm::dvec3 PerezSky::light(double elevation_rad, double azimuth_rad) const {
         glm::dvec3(0.0));
 }
 
-glm::dvec3 sunlight_left(double sun_elevation_rad, double turbidity) {
+glm::dvec3 sunlight_transmittance(double sun_elevation_rad, double turbidity) {
     const double elevation_deg = deg_from_rad(sun_elevation_rad);
     const double air_mass =
         1.0 / (std::sin(sun_elevation_rad) + 0.15 * std::pow(elevation_deg + 3.885, -1.253));

@@ -31,6 +31,6 @@ private:
 };
 
 /// Share of the sun's light beyond the air that reaches the ground, red, green and blue.
-glm::dvec3 sunlight_left(double sun_elevation_rad, double turbidity);
+glm::dvec3 sunlight_transmittance(double sun_elevation_rad, double turbidity);
 
 } // namespace octant::visuals::nature

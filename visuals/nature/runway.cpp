@@ -48,7 +48,7 @@ constexpr std::array touchdown_zone = {Bars{150.0F, 3}, Bars{450.0F, 2}, Bars{60
 /// Patches of one end, which is the beginning or, turned by half a circle, the other one.
 class End {
 public:
-    End(std::vector<RunwayPatch>& patches, float length_m, bool is_other)
+    End(std::vector<RunwayRectangle>& patches, float length_m, bool is_other)
         : patches_(patches)
         , length_m_(length_m)
         , is_other_(is_other) {}
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    std::vector<RunwayPatch>& patches_;
+    std::vector<RunwayRectangle>& patches_;
     float length_m_;
     bool is_other_;
 };
@@ -136,7 +136,7 @@ void paint_end(End& end, const std::string& number) {
 }
 
 /// Even stripes from one number to the other.
-void paint_centre_line(float length_m, std::vector<RunwayPatch>& patches) {
+void paint_centre_line(float length_m, std::vector<RunwayRectangle>& patches) {
     const float free_m = length_m - 2.0F * lines_begin_m;
     const float dashes = std::floor((free_m + min_gap_m) / (dash_m + min_gap_m));
     const float step_m = dash_m + (free_m - dashes * dash_m) / (dashes - 1.0F);
@@ -147,9 +147,9 @@ void paint_centre_line(float length_m, std::vector<RunwayPatch>& patches) {
 }
 
 /// A long patch in equal parts.
-void add_in_parts(const RunwayPatch& whole, std::vector<RunwayPatch>& patches) {
+void add_in_parts(const RunwayRectangle& whole, std::vector<RunwayRectangle>& patches) {
     const float all_m = whole.max_m.x - whole.min_m.x;
-    const auto parts = static_cast<int>(std::ceil(all_m / longest_patch_m));
+    const auto parts = static_cast<int>(std::ceil(all_m / max_rectangle_length_m));
     for (int part = 0; part < parts; ++part) {
         const auto at_m = [&](int i) {
             return whole.min_m.x + all_m * static_cast<float>(i) / static_cast<float>(parts);
@@ -171,11 +171,11 @@ std::array<std::string, 2> runway_numbers(double heading_rad) {
     return {number(own), number(own + 18)};
 }
 
-std::vector<RunwayPatch> runway_patches(double length_m, double width_m, double heading_rad) {
+std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, double heading_rad) {
     assert(length_m >= 1500.0 && width_m >= 45.0);
     const auto long_m = static_cast<float>(length_m);
     const auto half_m = static_cast<float>(0.5 * width_m);
-    std::vector<RunwayPatch> patches;
+    std::vector<RunwayRectangle> patches;
     add_in_parts({{0.0F, -half_m}, {long_m, half_m}, false}, patches);
     for (const float inside_m : {half_m - line_m, -half_m}) {
         add_in_parts({{0.0F, inside_m}, {long_m, inside_m + line_m}, true}, patches);

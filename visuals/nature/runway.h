@@ -27,7 +27,7 @@ namespace octant::visuals::nature {
 
 /// A rectangle along the runway's axes: metres along from its beginning, and left of its middle.
 /// Those that are painted do not overlap; they lie within the surface.
-struct RunwayPatch {
+struct RunwayRectangle {
     glm::vec2 min_m{0.0F};
     glm::vec2 max_m{0.0F};
     bool is_painted = false; ///< white; else the surface itself
@@ -37,14 +37,14 @@ struct RunwayPatch {
 std::array<std::string, 2> runway_numbers(double heading_rad);
 
 /// No patch is longer.
-inline constexpr float longest_patch_m = 150.0F;
+inline constexpr float max_rectangle_length_m = 150.0F;
 
 /// The surface, then what is painted on it. There is room for all of
 /// it (asserted): the runway is 45 m wide, or more, and 1,500 m long.
-std::vector<RunwayPatch> runway_patches(double length_m, double width_m, double heading_rad);
+std::vector<RunwayRectangle> runway_rectangles(double length_m, double width_m, double heading_rad);
 
 /// Display values under a light of 1.
-inline constexpr glm::vec3 runway_surface(0.31F, 0.31F, 0.32F);
-inline constexpr glm::vec3 runway_paint(0.88F, 0.88F, 0.86F);
+inline constexpr glm::vec3 runway_surface_colour(0.31F, 0.31F, 0.32F);
+inline constexpr glm::vec3 runway_paint_colour(0.88F, 0.88F, 0.86F);
 
 } // namespace octant::visuals::nature

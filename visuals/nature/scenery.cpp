@@ -1,8 +1,8 @@
 #include "visuals/nature/scenery.h"
 
-#include "sim/base/flat_area.h"
+#include "sim/base/geometry2d.h"
 #include "sim/base/hash.h"
-#include "visuals/nature/few_polygons.h"
+#include "visuals/nature/low_poly_models.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,7 +15,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr std::size_t known_places = std::size_t{1} << 15U;
+constexpr std::size_t cache_size = std::size_t{1} << 15U;
 constexpr double max_reach_m = 900.0;
 constexpr double max_reach_cells = 30.0;
 constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
@@ -25,35 +25,35 @@ constexpr float house_m = 7.5F;        ///< its height
 constexpr float house_length = 1.25F;  ///< half of it, over the half size
 constexpr float house_width = 0.85F;
 constexpr float house_corner = 1.52F; ///< its farthest corner from its middle, likewise
-constexpr float near_m = 60.0F;
-constexpr float far_off_m = 130.0F;
-constexpr float first_begin = 0.35F; ///< of the reach: all things have grown by then
-constexpr std::size_t upwards = 8;   ///< place of the light from above, after the eight sides
-constexpr double fits = 0.19;        ///< radius that fits into a quarter of a cell, over its side
+constexpr float near_lod_distance_m = 60.0F;
+constexpr float far_lod_distance_m = 130.0F;
+constexpr float first_growth_ratio = 0.35F; ///< of the reach: all things have grown by then
+constexpr std::size_t upward_light_index = 8;   ///< place of the light from above, after the eight sides
+constexpr double placement_radius_ratio = 0.19;        ///< radius that fits into a quarter of a cell, over its side
 
 /// Middles of the four quarters into which its diagonals cut a cell.
-constexpr std::array<glm::dvec2, 4> spots = {
+constexpr std::array<glm::dvec2, 4> quarter_centres = {
     glm::dvec2(0.5, 0.2071), {0.7929, 0.5}, {0.5, 0.7929}, {0.2071, 0.5}};
 
 /// A share in [0, 1) of some of the bits.
-float share_of(std::uint32_t dice, unsigned shift) {
-    return static_cast<float>(dice >> shift & 0xffU) * (1.0F / 256.0F);
+float share_of(std::uint32_t random_bits, unsigned shift) {
+    return static_cast<float>(random_bits >> shift & 0xffU) * (1.0F / 256.0F);
 }
 
 /// How large a tree is, in sizes of its species: 0.7 to 1.3.
-float size_of(std::uint32_t dice) {
-    return 0.7F + 0.6F * share_of(dice, 16);
+float size_of(std::uint32_t random_bits) {
+    return 0.7F + 0.6F * share_of(random_bits, 16);
 }
 
-TreeDetail detail_at(float distance_m) {
-    return distance_m < near_m      ? TreeDetail::Near
-           : distance_m < far_off_m ? TreeDetail::Usual
-                                    : TreeDetail::Far;
+TreeLod detail_at(float distance_m) {
+    return distance_m < near_lod_distance_m      ? TreeLod::Near
+           : distance_m < far_lod_distance_m ? TreeLod::Medium
+                                    : TreeLod::Far;
 }
 
 /// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where
 /// renderers cannot tell, they would be painted over those before them.
-void keep_facing(
+void remove_back_faces(
     const std::vector<models::ColourVertex>& vertices,
     std::size_t first,
     std::vector<std::uint32_t>& indices) {
@@ -81,78 +81,78 @@ struct Species {
 const Species& species_of(std::size_t kind) {
     static const std::array<Species, 3> all = {
         Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
-        Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Pointed},
+        Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Conical},
         Species{glm::vec3(0.42F, 0.40F, 0.24F), 1.8F, 1.7F, TreeShape::Round}};
     return all[kind - 1];
 }
 
 } // namespace
 
-Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, GrowthAt growth_at)
+Scenery::Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, SceneryDensityAt scenery_density_at)
     : first_m_(first_m)
     , samples_(samples)
     , spacing_m_(spacing_m)
     , stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1))
-    , max_radius_m_(static_cast<float>(fits * spacing_m))
+    , max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m))
     , reach_m_(
           max_radius_m_ < min_radius_m
               ? 0.0
               : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m))
-    , growth_at_(std::move(growth_at))
-    , known_(known_places) {}
+    , density_at_(std::move(scenery_density_at))
+    , item_cache_(cache_size) {}
 
-void Scenery::light_by(const Daylight& day) {
+void Scenery::set_daylight(const Daylight& day) {
     shade_ = day.ambient();
     const glm::vec3 to_sun(day.to_sun());
-    for (std::size_t i = 0; i < compass.size(); ++i) {
-        const glm::vec3 outwards = glm::normalize(glm::vec3(compass[i].x, compass[i].y, 0.45F));
-        light_from_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
+    for (std::size_t i = 0; i < compass_directions.size(); ++i) {
+        const glm::vec3 outwards = glm::normalize(glm::vec3(compass_directions[i].x, compass_directions[i].y, 0.45F));
+        side_light_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
     }
-    light_from_[upwards] = day.sunlight() * std::max(to_sun.z, 0.0F);
+    side_light_[upward_light_index] = day.sunlight() * std::max(to_sun.z, 0.0F);
 }
 
-void Scenery::forget() {
-    std::ranges::fill(known_, Known{});
+void Scenery::clear_cache() {
+    std::ranges::fill(item_cache_, CachedItem{});
 }
 
-void Scenery::begin(const FineView& view) {
+void Scenery::begin(const NearDetailView& view) {
     view_ = view;
     added_ = 0;
 }
 
-Scenery::Thing Scenery::thing_at(int column, int row, int spot) {
+Scenery::SceneryItem Scenery::item_at(int column, int row, int quarter_index) {
     const std::uint64_t place =
         (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
-        static_cast<std::uint64_t>(spot);
-    const std::uint32_t dice = scrambled(
-        static_cast<std::uint32_t>(column * 4 + spot) * 0x9e3779b1U ^
+        static_cast<std::uint64_t>(quarter_index);
+    const std::uint32_t random_bits = scrambled(
+        static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
         scrambled(static_cast<std::uint32_t>(row)));
-    Known& known = known_[dice & (known_places - 1)];
+    CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
     if (known.place != place) {
-        const Growth growth = growth_at_(column, row);
-        const float pick = share_of(dice, 24) + share_of(dice, 16) * (1.0F / 256.0F);
-        float sum = growth.houses;
-        Kind kind = pick < sum ? Kind::House : Kind::Nothing;
+        const SceneryDensity scenery_density = density_at_(column, row);
+        const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
+        float sum = scenery_density.houses;
+        SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
         for (const auto& [share, own] :
-             {std::pair(growth.conifers, Kind::Conifer),
-              std::pair(growth.broadleaves, Kind::Broadleaf),
-              std::pair(growth.shrubs, Kind::Shrub)}) {
+             {std::pair(scenery_density.conifers, SceneryKind::Conifer),
+              std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
+              std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
             sum += share;
-            kind = kind == Kind::Nothing && pick < sum ? own : kind;
+            kind = kind == SceneryKind::None && pick < sum ? own : kind;
         }
-        if (kind == Kind::House && max_radius_m_ < house_radius_m) {
-            kind = Kind::Nothing;
+        if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) {
+            kind = SceneryKind::None;
         }
         known = {
             place,
             {kind,
-             static_cast<std::uint8_t>(std::clamp(growth.sun, 0.0F, 1.0F) * 255.0F),
-             scrambled(dice)}};
+             static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
+             scrambled(random_bits)}};
     }
-    return known.thing;
+    return known.item;
 }
 
-bool Scenery::bears_by(const glm::dvec2& place_m) {
+bool Scenery::has_scenery_at(const glm::dvec2& place_m) {
     constexpr double near = 0.01; // of a cell
     if (reach_m_ <= 0.0) {
         return false;
@@ -167,13 +167,13 @@ bool Scenery::bears_by(const glm::dvec2& place_m) {
                 continue;
             }
             const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
-            for (int spot = 0; spot < 4; ++spot) {
-                const glm::dvec2 way = spots[static_cast<std::size_t>(spot)] - 0.5;
+            for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
+                const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter_index)] - 0.5;
                 const bool upright = std::abs(way.y) > std::abs(way.x);
                 const double out = upright ? std::copysign(1.0, way.y) * from_middle.y
                                            : std::copysign(1.0, way.x) * from_middle.x;
                 const double aside = std::abs(upright ? from_middle.x : from_middle.y);
-                if (out > aside - near && thing_at(column, row, spot).kind != Kind::Nothing) {
+                if (out > aside - near && item_at(column, row, quarter_index).kind != SceneryKind::None) {
                     return true;
                 }
             }
@@ -189,9 +189,9 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const glm::dvec2 least =
         (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
     const glm::dvec2 most = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
-    const float area = twice_area(a, b, c);
+    const float area = signed_area2(a, b, c);
     const glm::vec3 across = glm::cross(b - a, c - a);
-    const glm::vec2 rise = glm::vec2(across) / -across.z;
+    const glm::vec2 ground_slope = glm::vec2(across) / -across.z;
     const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
     const auto first_of = [&](double from) {
         const int cell = std::max(static_cast<int>(std::floor(from)), 0);
@@ -201,13 +201,13 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
     const int last_row = std::min(static_cast<int>(std::floor(most.y)), samples_.y - 2);
     for (int row = first_of(least.y); row <= last_row; row += stride_) {
         for (int column = first_of(least.x); column <= last_column; column += stride_) {
-            for (int spot = 0; spot < 4; ++spot) {
+            for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
                 const glm::dvec2 place =
-                    (glm::dvec2(column, row) + spots[static_cast<std::size_t>(spot)]) * spacing_m_ -
+                    (glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(quarter_index)]) * spacing_m_ -
                     to_grid;
                 glm::vec3 at_m(glm::dvec3(place, 0.0));
-                const float u = twice_area(b, c, at_m) / area;
-                const float v = twice_area(c, a, at_m) / area;
+                const float u = signed_area2(b, c, at_m) / area;
+                const float v = signed_area2(c, a, at_m) / area;
                 if (u < 0.0F || v < 0.0F || u + v > 1.0F) {
                     continue;
                 }
@@ -215,11 +215,11 @@ void Scenery::collect(const std::array<glm::vec3, 3>& triangle_m) {
                 if (glm::dot(at_m, at_m) > reach2_m2) {
                     continue;
                 }
-                const Thing thing = thing_at(column, row, spot);
-                if (thing.kind != Kind::Nothing) {
-                    const float radius = radius_m(thing);
+                const SceneryItem item = item_at(column, row, quarter_index);
+                if (item.kind != SceneryKind::None) {
+                    const float radius = radius_m(item);
                     const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
-                    standing_.push_back({at_m, rise, thing, power_m2});
+                    placed_items_.push_back({at_m, ground_slope, item, power_m2});
                 }
             }
         }
@@ -230,27 +230,27 @@ void Scenery::add(
     const std::array<glm::vec3, 3>& triangle_m,
     std::vector<models::ColourVertex>& vertices,
     std::vector<std::uint32_t>& indices) {
-    standing_.clear();
+    placed_items_.clear();
     collect(triangle_m);
-    std::ranges::sort(standing_, [&](const Standing& one, const Standing& other) {
+    std::ranges::sort(placed_items_, [&](const PlacedItem& one, const PlacedItem& other) {
         return one.power_m2 < other.power_m2;
     });
-    for (const Standing& one : standing_) {
+    for (const PlacedItem& one : placed_items_) {
         const float distance_m = glm::length(one.at_m);
         // Each grows out of the ground at a distance of its own.
         const float begins_m = static_cast<float>(reach_m()) *
-                               (first_begin + (1.0F - first_begin) * share_of(one.thing.dice, 0));
-        const float grown = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
-        if (grown <= 0.0F || added_ >= view_.max_things) {
+                               (first_growth_ratio + (1.0F - first_growth_ratio) * share_of(one.item.random_bits, 0));
+        const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
+        if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) {
             continue;
         }
         const std::size_t before = indices.size();
-        if (one.thing.kind == Kind::House) {
-            build_house(one, grown, vertices, indices);
+        if (one.item.kind == SceneryKind::House) {
+            build_house(one, height_share, vertices, indices);
         } else {
-            build_tree(one, grown, detail_at(distance_m), vertices, indices);
+            build_tree(one, height_share, detail_at(distance_m), vertices, indices);
         }
-        keep_facing(vertices, before, indices);
+        remove_back_faces(vertices, before, indices);
         added_ += (indices.size() - before) / 3;
     }
 }
@@ -260,64 +260,64 @@ float Scenery::house_half_m() const {
 }
 
 /// Of a circle that holds it in plan, its middle where it stands.
-float Scenery::radius_m(const Thing& thing) const {
-    if (thing.kind == Kind::House) {
+float Scenery::radius_m(const SceneryItem& item) const {
+    if (item.kind == SceneryKind::House) {
         return house_corner * house_half_m();
     }
-    const Species& species = species_of(static_cast<std::size_t>(thing.kind));
-    return std::min(size_of(thing.dice) * species.radius_m, max_radius_m_);
+    const Species& species = species_of(static_cast<std::size_t>(item.kind));
+    return std::min(size_of(item.random_bits) * species.radius_m, max_radius_m_);
 }
 
 /// A colour under the light on one of the eight sides, or from above.
-glm::vec3 Scenery::lit(const Standing& one, const glm::vec3& own, std::size_t side) const {
-    const float sun = static_cast<float>(one.thing.sun) * (1.0F / 255.0F);
-    return own * (shade_ + sun * light_from_[side]);
+glm::vec3 Scenery::lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const {
+    const float sun = static_cast<float>(one.item.sun) * (1.0F / 255.0F);
+    return own * (shade_ + sun * side_light_[side]);
 }
 
 void Scenery::build_house(
-    const Standing& one,
-    float grown,
+    const PlacedItem& one,
+    float height_share,
     std::vector<models::ColourVertex>& vertices,
     std::vector<std::uint32_t>& indices) const {
-    const std::uint32_t dice = one.thing.dice;
+    const std::uint32_t random_bits = one.item.random_bits;
     const glm::vec3 plaster = glm::mix(
-        glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(dice, 12));
+        glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
     const glm::vec3 tiles =
-        glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(dice, 4));
-    const std::size_t turn = dice >> 20U & 7U;
+        glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(random_bits, 4));
+    const std::size_t turn = random_bits >> 20U & 7U;
     const auto wall = [&](std::size_t eighths) { return lit(one, plaster, (turn + eighths) % 8); };
     const auto roof = [&](std::size_t eighths) {
-        return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upwards));
+        return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upward_light_index));
     };
     const float half_m = house_half_m();
-    Builder to{vertices, indices};
+    LowPolyBuilder to{vertices, indices};
     add_house(
         to,
-        {one.at_m, one.rise},
-        compass[turn],
+        {one.at_m, one.ground_slope},
+        compass_directions[turn],
         glm::vec3(house_length * half_m, house_width * half_m, house_m),
-        grown,
+        height_share,
         {wall(0), wall(2), wall(4), wall(6)},
         {roof(2), roof(6)});
 }
 
 void Scenery::build_tree(
-    const Standing& one,
-    float grown,
-    TreeDetail detail,
+    const PlacedItem& one,
+    float height_share,
+    TreeLod detail,
     std::vector<models::ColourVertex>& vertices,
     std::vector<std::uint32_t>& indices) const {
-    const Species& species = species_of(static_cast<std::size_t>(one.thing.kind));
-    const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.thing.dice, 8));
-    TreeLight light{{}, lit(one, leaf, upwards)};
+    const Species& species = species_of(static_cast<std::size_t>(one.item.kind));
+    const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.item.random_bits, 8));
+    TreeColours light{{}, lit(one, leaf, upward_light_index)};
     for (std::size_t side = 0; side < light.sides.size(); ++side) {
         light.sides[side] = lit(one, leaf, side);
     }
-    Builder to{vertices, indices};
+    LowPolyBuilder to{vertices, indices};
     add_tree(
         to,
-        {one.at_m, one.rise},
-        {radius_m(one.thing), size_of(one.thing.dice) * species.height_m * grown},
+        {one.at_m, one.ground_slope},
+        {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share},
         species.shape,
         detail,
         light);

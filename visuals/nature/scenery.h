@@ -2,8 +2,8 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/nature/daylight.h"
-#include "visuals/nature/few_polygons.h"
-#include "visuals/nature/fine_view.h"
+#include "visuals/nature/low_poly_models.h"
+#include "visuals/nature/near_detail_view.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -18,7 +18,7 @@
 namespace octant::visuals::nature {
 
 /// What may stand at a place: shares of places, 0..1, and the sunlight there.
-struct Growth {
+struct SceneryDensity {
     float broadleaves = 0.0F;
     float conifers = 0.0F;
     float shrubs = 0.0F;
@@ -32,21 +32,21 @@ struct Growth {
 class Scenery {
 public:
     /// At a sample of the ground.
-    using GrowthAt = std::function<Growth(int column, int row)>;
+    using SceneryDensityAt = std::function<SceneryDensity(int column, int row)>;
 
     /// Samples lie `spacing_m` apart, the first at `first_m` in world axes.
-    Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, GrowthAt growth_at);
+    Scenery(glm::dvec2 first_m, glm::ivec2 samples, double spacing_m, SceneryDensityAt scenery_density_at);
 
-    void light_by(const Daylight& day);
+    void set_daylight(const Daylight& day);
 
     /// Forgets what grows where.
-    void forget();
+    void clear_cache();
 
     /// Begins a frame seen from there: what add() appends is chosen for it.
-    void begin(const FineView& view);
+    void begin(const NearDetailView& view);
 
     /// Whether anything stands in a quarter of a cell that holds a place or ends there.
-    bool bears_by(const glm::dvec2& place_m);
+    bool has_scenery_at(const glm::dvec2& place_m);
 
     /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it
     /// below the triangle's plane, from near to far: to `vertices`, and as triangles,
@@ -57,50 +57,50 @@ public:
         std::vector<std::uint32_t>& indices);
 
     /// Triangles appended since begin().
-    std::size_t added() const { return added_; }
+    std::size_t triangles_added() const { return added_; }
 
     static constexpr double highest_m = 16.0; ///< of all that stands here, above its ground
 
     /// Farther off nothing stands.
-    double reach_m() const { return reach_m_ * static_cast<double>(view_.reach_share); }
+    double reach_m() const { return reach_m_ * static_cast<double>(view_.range_ratio); }
 
 private:
-    enum class Kind : std::uint8_t { Nothing, Broadleaf, Conifer, Shrub, House };
+    enum class SceneryKind : std::uint8_t { None, Broadleaf, Conifer, Shrub, House };
 
-    struct Thing {
-        Kind kind = Kind::Nothing;
+    struct SceneryItem {
+        SceneryKind kind = SceneryKind::None;
         std::uint8_t sun = 255;
-        std::uint32_t dice = 0;
+        std::uint32_t random_bits = 0;
     };
 
-    struct Known {
+    struct CachedItem {
         std::uint64_t place = ~std::uint64_t{0};
-        Thing thing;
+        SceneryItem item;
     };
 
-    struct Standing {
+    struct PlacedItem {
         glm::vec3 at_m;
-        glm::vec2 rise; ///< of its ground, metres up a metre east and north
-        Thing thing;
+        glm::vec2 ground_slope; ///< of its ground, metres up a metre east and north
+        SceneryItem item;
         /// The power of the eye in plan with respect to the circle around it: of two that stand
         /// apart, the one with the greater power hides no part of the other.
         float power_m2 = 0.0F;
     };
 
-    Thing thing_at(int column, int row, int spot);
+    SceneryItem item_at(int column, int row, int quarter_index);
     void collect(const std::array<glm::vec3, 3>& triangle_m);
-    float radius_m(const Thing& thing) const;
+    float radius_m(const SceneryItem& item) const;
     float house_half_m() const;
-    glm::vec3 lit(const Standing& one, const glm::vec3& own, std::size_t side) const;
+    glm::vec3 lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const;
     void build_house(
-        const Standing& one,
-        float grown,
+        const PlacedItem& one,
+        float height_share,
         std::vector<models::ColourVertex>& vertices,
         std::vector<std::uint32_t>& indices) const;
     void build_tree(
-        const Standing& one,
-        float grown,
-        TreeDetail detail,
+        const PlacedItem& one,
+        float height_share,
+        TreeLod detail,
         std::vector<models::ColourVertex>& vertices,
         std::vector<std::uint32_t>& indices) const;
 
@@ -110,14 +110,14 @@ private:
     int stride_;          ///< cells from one that bears something to the next
     float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
     double reach_m_;
-    GrowthAt growth_at_;
+    SceneryDensityAt density_at_;
     std::array<glm::vec3, 9>
-        light_from_{}; ///< on the eight sides, then on what faces up; the shade
+        side_light_{}; ///< on the eight sides, then on what faces up; the shade
     glm::vec3 shade_{0.4F};
-    FineView view_;
+    NearDetailView view_;
     std::size_t added_ = 0;
-    std::vector<Known> known_;
-    std::vector<Standing> standing_; ///< on one triangle
+    std::vector<CachedItem> item_cache_;
+    std::vector<PlacedItem> placed_items_; ///< on one triangle
 };
 
 } // namespace octant::visuals::nature

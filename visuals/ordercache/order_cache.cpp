@@ -7,8 +7,8 @@
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "visuals/ordercache/bytes.h"
-#include "visuals/ordercache/order_bytes.h"
+#include "visuals/ordercache/binary_file.h"
+#include "visuals/ordercache/order_file_format.h"
 
 #include <cerrno>
 #include <cstddef>
@@ -40,11 +40,11 @@ fs::path file_of_key(const fs::path& folder, std::string_view key) {
 }
 
 std::string file_bytes(std::string_view key, const OrderedModel& ordered) {
-    ByteWriter out;
+    BinaryWriter out;
     out.number(signature);
     out.number(order_version);
     out.text(key);
-    out.raw(order_bytes(ordered));
+    out.raw(encode_order(ordered));
     out.number(checksum_of(out.bytes()));
     return out.bytes();
 }
@@ -52,7 +52,7 @@ std::string file_bytes(std::string_view key, const OrderedModel& ordered) {
 /// Throws Error "expected ..., got ...".
 OrderedModel
 from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel& given) {
-    ByteReader head(bytes);
+    BinaryReader head(bytes);
     if (head.number<std::uint64_t>() != signature) {
         throw Error("expected a kept painting order, got another kind of file");
     }
@@ -63,16 +63,16 @@ from_file_bytes(std::string_view bytes, std::string_view key, const PolygonModel
         throw Error("expected a checksum, got the end of the file");
     }
     const std::string_view summed = bytes.substr(0, bytes.size() - checksum_bytes);
-    const auto checksum = ByteReader(bytes.substr(summed.size())).number<std::uint64_t>();
+    const auto checksum = BinaryReader(bytes.substr(summed.size())).number<std::uint64_t>();
     if (checksum_of(summed) != checksum) {
         throw Error(fmt::format(
             "expected bytes of checksum {:016x}, got {:016x}", checksum, checksum_of(summed)));
     }
-    ByteReader rest(summed.substr(bytes.size() - head.bytes_left()));
+    BinaryReader rest(summed.substr(bytes.size() - head.bytes_left()));
     if (rest.text() != key) {
         throw Error("expected the order of this model, got that of another one");
     }
-    return order_from_bytes(summed.substr(summed.size() - rest.bytes_left()), given);
+    return decode_order(summed.substr(summed.size() - rest.bytes_left()), given);
 }
 
 /// Throws Error "file: expected ..., got ...".
@@ -81,7 +81,7 @@ OrderedModel read_order(const fs::path& file, std::string_view key, const Polygo
     try {
         return from_file_bytes(bytes, key, given);
     } catch (const Error& fault) {
-        error_in(file, fault.what());
+        throw_error_in(file, fault.what());
     }
 }
 
@@ -112,7 +112,7 @@ void keep(
     const std::string bytes = file_bytes(key, ordered);
     try {
         if (bytes.size() > max_bytes) {
-            error_in(
+            throw_error_in(
                 file, fmt::format("expected at most {} bytes, got {}", max_bytes, bytes.size()));
         }
         write_file(file, bytes);
@@ -138,7 +138,7 @@ void make_cache_folder(const fs::path& folder) {
 }
 
 CachedOrder cached_order(const fs::path& folder, PolygonModel model, const OrderOptions& options) {
-    const std::string key = key_bytes(model, options);
+    const std::string key = encode_key(model, options);
     const fs::path file = file_of_key(folder, key);
     std::vector<std::string> notes;
     if (auto kept = kept_order(file, key, model, notes)) {

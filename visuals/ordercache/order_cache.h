@@ -17,7 +17,7 @@ inline constexpr std::uint32_t order_version = 9;
 /// An ordered model, and how it was come by.
 struct CachedOrder {
     draworder::OrderedModel ordered;
-    bool was_kept = false;          ///< Read, not computed.
+    bool was_cached = false;          ///< Read, not computed.
     std::filesystem::path file;     ///< Where it is kept, named by what decides the order.
     std::vector<std::string> notes; ///< A file that could not be used, or not be written.
 };

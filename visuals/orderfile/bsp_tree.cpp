@@ -36,9 +36,9 @@ enum class Among {
 };
 
 /// Builds one tree.
-class BspBuilding {
+class BspTreeBuilder {
 public:
-    BspBuilding(models::polygons::PolygonModel model, Among among)
+    BspTreeBuilder(models::polygons::PolygonModel model, Among among)
         : tolerance_m_(draworder::split_tolerance_m(model))
         , among_(among) {
         tree_.model = std::move(model);
@@ -203,8 +203,8 @@ private:
 } // namespace
 
 BspTree bsp_tree(const models::polygons::PolygonModel& model) {
-    BspTree even = BspBuilding(model, Among::Even).build();
-    BspTree settled = BspBuilding(model, Among::Settled).build();
+    BspTree even = BspTreeBuilder(model, Among::Even).build();
+    BspTree settled = BspTreeBuilder(model, Among::Settled).build();
     return settled.splits < even.splits ? settled : even;
 }
 
@@ -212,22 +212,22 @@ void append_painted(
     const BspTree& tree,
     const glm::dvec3& eye_m,
     std::vector<std::uint32_t>& painted,
-    std::vector<int>& to_do) {
+    std::vector<int>& pending) {
     // An entry `node` means that the walk comes down to it; ~node means that its far side has been
     // painted.
-    to_do.clear();
+    pending.clear();
     if (!tree.nodes.empty()) {
-        to_do.push_back(0);
+        pending.push_back(0);
     }
-    while (!to_do.empty()) {
-        const int entry = to_do.back();
-        to_do.pop_back();
+    while (!pending.empty()) {
+        const int entry = pending.back();
+        pending.pop_back();
         const bool far_side_done = entry < 0;
         const int number = far_side_done ? ~entry : entry;
         const BspTree::Node& node = tree.nodes[static_cast<std::size_t>(number)];
         const bool in_front = distance_m(node.plane, eye_m) >= 0.0;
         if (!far_side_done) {
-            to_do.push_back(~number);
+            pending.push_back(~number);
         }
         if (far_side_done) {
             for (std::size_t i = node.first; i < node.first + node.count; ++i) {
@@ -238,7 +238,7 @@ void append_painted(
         }
         const int child = far_side_done == in_front ? node.front : node.back;
         if (child != BspTree::nothing) {
-            to_do.push_back(child);
+            pending.push_back(child);
         }
     }
 }

@@ -45,12 +45,12 @@ struct BspTree {
 /// The time grows at least with the square of the number of polygons.
 BspTree bsp_tree(const models::polygons::PolygonModel& model);
 
-/// Appends the polygons that face an eye to `painted`, first painted first. `to_do` is scratch
+/// Appends the polygons that face an eye to `painted`, first painted first. `pending` is scratch
 /// memory; nothing is allocated once both vectors have grown.
 void append_painted(
     const BspTree& tree,
     const glm::dvec3& eye_m,
     std::vector<std::uint32_t>& painted,
-    std::vector<int>& to_do);
+    std::vector<int>& pending);
 
 } // namespace octant::visuals::orderfile

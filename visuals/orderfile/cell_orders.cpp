@@ -4,7 +4,7 @@
 
 #include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/octant_path.h"
-#include "visuals/orderfile/cells_of_parts.h"
+#include "visuals/orderfile/bsp_cells.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ Plane plane_through(const glm::dvec3& normal, const glm::dvec3& point_m) {
 
 /// The cell of an octant path about a centre, without its list.
 ListedCell cell_of_path(const std::string& path, const glm::dvec3& centre_m) {
-    const auto corners = draworder::corners_of_path(path);
+    const auto corners = draworder::octant_triangle(path);
     ListedCell cell;
     cell.path = path;
     cell.directions.assign(corners.begin(), corners.end());
@@ -100,8 +100,8 @@ CellOrders cell_orders(const draworder::OrderedModel& ordered) {
     orders.parents = ordered.model.parents;
     orders.centre_m = ordered.centre_m;
     if (ordered.cells.empty()) {
-        if (auto cells = cells_of_parts(ordered.model, ordered.order)) {
-            for (CellOfParts& from : *cells) {
+        if (auto cells = bsp_cells(ordered.model, ordered.order)) {
+            for (BspCell& from : *cells) {
                 ListedCell& cell = orders.cells.emplace_back();
                 cell.planes = std::move(from.planes);
                 cell.list = std::move(from.list);

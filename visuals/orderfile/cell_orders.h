@@ -51,7 +51,7 @@ struct CellOrders {
 };
 
 /// Converts a model's orders to this form. An order by parts is turned into cells where these are
-/// few (cells_of_parts.h). Octant cells are made from their paths rather than from
+/// few (bsp_cells.h). Octant cells are made from their paths rather than from
 /// the planes that the model gives them, except where several cells share a path (an octant divided
 /// by planes). They begin at the distance from which the model's orders hold: at its
 /// min_distance_m, or for Method::Paper, which has none, at sqrt(3) times the model's radius, so

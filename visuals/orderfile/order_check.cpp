@@ -22,9 +22,9 @@ constexpr double along_axis = 1e-9;
 using Planes = std::vector<Plane>;
 
 /// One run of check_order.
-class OrderChecking {
+class OrderChecker {
 public:
-    OrderChecking(const models::polygons::PolygonModel& model, const CellOrders& orders)
+    OrderChecker(const models::polygons::PolygonModel& model, const CellOrders& orders)
         : model_(model)
         , orders_(orders)
         , frame_(separation::check_frame(model))
@@ -70,7 +70,7 @@ private:
         const bool unseen = std::ranges::all_of(
             fronts, [&](const Plane& front) { return separation::is_behind(region_, front); });
         if (!unseen) {
-            ++check_.unlisted_open;
+            ++check_.unlisted_unproved;
             doubt({cell, polygon, polygon});
         }
     }
@@ -79,33 +79,33 @@ private:
     void check_pair(std::size_t cell, std::uint32_t first, std::uint32_t later) {
         ++check_.pairs;
         switch (certificate(shapes_[first], shapes_[later])) {
-        case separation::Certificate::Plane:
+        case separation::SeparationMethod::Plane:
             ++check_.by_plane;
             break;
-        case separation::Certificate::LinearProgramme:
-            ++check_.by_programme;
+        case separation::SeparationMethod::LinearProgram:
+            ++check_.by_linear_program;
             break;
-        case separation::Certificate::None:
-            ++check_.pairs_open;
+        case separation::SeparationMethod::None:
+            ++check_.pairs_unproved;
             doubt({cell, first, later});
         }
     }
 
     /// The weakest certificate over the sides from which each of the two polygons is seen.
-    separation::Certificate certificate(
-        const separation::CheckShape& near_one, const separation::CheckShape& far_one) const {
-        const bool rigid = near_one.pivot == far_one.pivot;
-        const Planes region = rigid && near_one.pivot ? unturned(*near_one.pivot) : region_;
-        separation::Certificate weakest = separation::Certificate::Plane;
-        for (const Planes& near_side : sides_of(near_one, rigid)) {
+    separation::SeparationMethod certificate(
+        const separation::CheckShape& occluder, const separation::CheckShape& far_one) const {
+        const bool rigid = occluder.pivot == far_one.pivot;
+        const Planes region = rigid && occluder.pivot ? unturned(*occluder.pivot) : region_;
+        separation::SeparationMethod weakest = separation::SeparationMethod::Plane;
+        for (const Planes& near_side : sides_of(occluder, rigid)) {
             for (const Planes& far_side : sides_of(far_one, rigid)) {
                 Planes planes = region;
                 planes.insert(planes.end(), near_side.begin(), near_side.end());
                 planes.insert(planes.end(), far_side.begin(), far_side.end());
                 weakest = std::max(
                     weakest,
-                    separation::separated(
-                        rigid ? near_one.corners : near_one.swept,
+                    separation::find_separation(
+                        rigid ? occluder.corners : occluder.swept,
                         rigid ? far_one.corners : far_one.swept,
                         planes));
             }
@@ -135,9 +135,9 @@ private:
         return planes;
     }
 
-    void doubt(const Doubt& doubt) {
-        if (check_.doubts.size() < OrderCheck::max_doubts) {
-            check_.doubts.push_back(doubt);
+    void doubt(const UnprovedPair& doubt) {
+        if (check_.first_unproved.size() < OrderCheck::max_doubts) {
+            check_.first_unproved.push_back(doubt);
         }
     }
 
@@ -156,7 +156,7 @@ OrderCheck check_order(
     const CellOrders& orders,
     const std::function<void(std::size_t, std::size_t)>& progress) {
     assert(orders.faces == model.polygons.size());
-    return OrderChecking(model, orders).check(progress);
+    return OrderChecker(model, orders).check(progress);
 }
 
 } // namespace octant::visuals::orderfile

@@ -11,28 +11,28 @@
 namespace octant::visuals::orderfile {
 
 /// Something that could not be proved.
-struct Doubt {
+struct UnprovedPair {
     std::size_t cell = 0;
     /// The polygon that is painted before `later` although it may hide part of it.
     std::uint32_t first = 0;
     /// The polygon painted later; the same as `first` for a polygon that is not listed although it
     /// may face an eye of the cell.
     std::uint32_t later = 0;
-    bool operator==(const Doubt&) const = default;
+    bool operator==(const UnprovedPair&) const = default;
 };
 
 /// What a certificate says about an order.
 struct OrderCheck {
     long pairs = 0;        ///< The pairs of polygons listed in one cell, over all cells.
     long by_plane = 0;     ///< Of these, pairs separated by a plane of the cell or of the polygons.
-    long by_programme = 0; ///< Of these, pairs separated by a plane that a linear programme found.
-    long pairs_open = 0;   ///< Of these, pairs without a proof.
+    long by_linear_program = 0; ///< Of these, pairs separated by a plane that a linear programme found.
+    long pairs_unproved = 0;   ///< Of these, pairs without a proof.
     long unlisted = 0;     ///< The polygons that a cell does not list, over all cells.
-    long unlisted_open = 0;    ///< Of these, polygons that may face an eye of the cell.
-    std::vector<Doubt> doubts; ///< The first open ones, cell by cell, at most max_doubts.
+    long unlisted_unproved = 0;    ///< Of these, polygons that may face an eye of the cell.
+    std::vector<UnprovedPair> first_unproved; ///< The first open ones, cell by cell, at most max_doubts.
     static constexpr std::size_t max_doubts = 20;
 
-    bool good() const { return pairs_open == 0 && unlisted_open == 0; }
+    bool good() const { return pairs_unproved == 0 && unlisted_unproved == 0; }
 };
 
 /// Proves, without any of the code that finds orders, that an order is right for every eye of its

@@ -85,7 +85,7 @@ std::string distances_in_words(const ListedCell& cell, Metric metric) {
 
 } // namespace
 
-std::string list_in_words(std::span<const std::uint32_t> list) {
+std::string list_description(std::span<const std::uint32_t> list) {
     std::string text;
     for (const std::uint32_t polygon : list) {
         text += fmt::format("{}P{}", text.empty() ? "" : ", ", polygon + 1);
@@ -93,7 +93,7 @@ std::string list_in_words(std::span<const std::uint32_t> list) {
     return text;
 }
 
-std::string region_in_words(
+std::string region_description(
     std::span<const Plane> planes,
     const models::polygons::PolygonModel& model,
     const models::polygons::FileAxes& axes) {
@@ -111,7 +111,7 @@ std::vector<OrderRow> order_table(
     std::vector<OrderRow> rows;
     for (int part = 0; orders.parts && part < orders.parts->cell_count(); ++part) {
         rows.push_back(
-            {fmt::format("list {}", part), "", list_in_words(orders.parts->polygons_of(part))});
+            {fmt::format("list {}", part), "", list_description(orders.parts->polygons_of(part))});
     }
     bool only_octants = orders.cells.size() > 0;
     for (std::size_t i = 0; i < orders.cells.size(); ++i) {
@@ -121,11 +121,11 @@ std::vector<OrderRow> order_table(
             only_octants = false;
             row.cell = fmt::format("{}", i + 1);
             row.region =
-                region_in_words(cell.planes, model, axes) + distances_in_words(cell, orders.metric);
+                region_description(cell.planes, model, axes) + distances_in_words(cell, orders.metric);
         } else {
             row.cell = draworder::path_in_file(cell.path, axes);
         }
-        row.list = list_in_words(cell.list);
+        row.list = list_description(cell.list);
         rows.push_back(std::move(row));
     }
     if (only_octants) { // The character '+' sorts before '-', which is the paper's order.

@@ -20,12 +20,12 @@ struct OrderRow {
 };
 
 /// The list 0, 6, 1 as "P1, P7, P2".
-std::string list_in_words(std::span<const std::uint32_t> list);
+std::string list_description(std::span<const std::uint32_t> list);
 
 /// The planes of a cell in words, in the axes of the model's file: a polygon's plane by the
 /// polygon, one perpendicular to an axis as x > 2, others as 0.6 x - 0.8 y > 1. Without planes it
 /// is "everywhere".
-std::string region_in_words(
+std::string region_description(
     std::span<const Plane> planes,
     const models::polygons::PolygonModel& model,
     const models::polygons::FileAxes& axes);

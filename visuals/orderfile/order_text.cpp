@@ -68,13 +68,13 @@ std::string parts_text(const DrawOrder& order, const models::polygons::FileAxes&
             "{} {:.17g}",
             numbers(axes.file_from_body(node.plane.normal)),
             node.plane.offset_m + 0.0);
-        const bool parts = node.kind == DrawOrder::Kind::Parting;
+        const bool parts = node.kind == DrawOrder::Kind::PolygonSplit;
         text += fmt::format(
             "node {} {}{}{}\n",
             parts ? "parting" : "choice",
             plane,
             children,
-            parts ? child_text(node.along) + child_text(node.against) : "");
+            parts ? child_text(node.coplanar_front) + child_text(node.coplanar_back) : "");
     }
     return text;
 }

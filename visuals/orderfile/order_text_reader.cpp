@@ -4,7 +4,7 @@
 #include "sim/base/text_file.h"
 #include "visuals/draworder/octant_path.h"
 #include "visuals/orderfile/order_text.h"
-#include "visuals/orderfile/order_words.h"
+#include "visuals/orderfile/order_tokens.h"
 
 #include <fmt/format.h>
 #include <set>
@@ -22,9 +22,9 @@ constexpr long max_directions = 64;
 constexpr std::size_t max_cells = 1'000'000;
 
 /// The reading of one file, line by line and word by word.
-class OrderReading {
+class OrderReader {
 public:
-    OrderReading(
+    OrderReader(
         const std::filesystem::path& path,
         std::size_t faces,
         const models::polygons::FileAxes& axes)
@@ -44,10 +44,10 @@ public:
             }
         }
         if (seen_.empty()) {
-            error_in(path_, "expected 'draworder 1' first, got an empty file");
+            throw_error_in(path_, "expected 'draworder 1' first, got an empty file");
         }
         if (orders_.cells.empty() && lists_.empty()) {
-            error_in(path_, "expected at least one cell or list, got none");
+            throw_error_in(path_, "expected at least one cell or list, got none");
         }
         if (!lists_.empty()) {
             finish_parts();
@@ -80,7 +80,7 @@ private:
     }
 
     void take() {
-        const std::string keyword(words_.here());
+        const std::string keyword(words_.peek());
         if (seen_.empty()) {
             if (words_.line() != "draworder 1") {
                 words_.refuse("'draworder 1' first");
@@ -101,7 +101,7 @@ private:
             (!seen_.insert(keyword).second || !orders_.cells.empty())) {
             words_.refuse("each keyword once and before the cells");
         }
-        words_.step();
+        words_.advance();
         take(keyword);
         if (words_.has_more()) {
             words_.refuse("the end of the line");
@@ -136,7 +136,7 @@ private:
 
     void need_faces() {
         if (!seen_.contains("faces")) {
-            words_.to_start();
+            words_.rewind();
             words_.refuse("faces before the first cell or list");
         }
     }
@@ -146,23 +146,23 @@ private:
             words_.refuse(fmt::format("at most {} nodes", max_cells));
         }
         DrawOrder::Node node;
-        node.kind = words_.skip("choice")     ? DrawOrder::Kind::Choice
-                    : words_.skip("parting")  ? DrawOrder::Kind::Parting
+        node.kind = words_.skip("choice")     ? DrawOrder::Kind::ViewSplit
+                    : words_.skip("parting")  ? DrawOrder::Kind::PolygonSplit
                     : words_.skip("sequence") ? DrawOrder::Kind::Sequence
-                                              : throw_kind();
+                                              : throw_wrong_kind();
         if (node.kind != DrawOrder::Kind::Sequence) {
             node.plane = words_.plane();
         }
         node.front = child();
         node.back = child();
-        if (node.kind == DrawOrder::Kind::Parting) {
-            node.along = child();
-            node.against = child();
+        if (node.kind == DrawOrder::Kind::PolygonSplit) {
+            node.coplanar_front = child();
+            node.coplanar_back = child();
         }
         nodes_.push_back(node);
     }
 
-    [[noreturn]] DrawOrder::Kind throw_kind() const {
+    [[noreturn]] DrawOrder::Kind throw_wrong_kind() const {
         words_.refuse("choice, parting or sequence");
     }
 
@@ -195,7 +195,7 @@ private:
                                (child < 0 ? static_cast<std::size_t>(~child) < lists_.size()
                                           : static_cast<std::size_t>(child) < nodes_.size());
             if (!there) {
-                error_in(
+                throw_error_in(
                     path_,
                     fmt::format(
                         "expected children among {} nodes and {} lists, got {} {}",
@@ -208,11 +208,11 @@ private:
         for (const DrawOrder::Node& node : nodes_) {
             check(node.front);
             check(node.back);
-            check(node.along);
-            check(node.against);
+            check(node.coplanar_front);
+            check(node.coplanar_back);
         }
         if (nodes_.empty() && lists_.size() > 1) {
-            error_in(path_, "expected nodes between several lists, got none");
+            throw_error_in(path_, "expected nodes between several lists, got none");
         }
         orders_.parts = DrawOrder(std::move(nodes_), lists_);
     }
@@ -222,7 +222,7 @@ private:
             words_.refuse("l1 or l2");
         }
         orders_.metric = words_.next_is("l1") ? Metric::L1 : Metric::L2;
-        words_.step();
+        words_.advance();
     }
 
     void take_parents() {
@@ -261,16 +261,16 @@ private:
         if (words_.skip("cone")) {
             const long directions = words_.count("how many directions", 3, max_directions);
             for (long i = 0; i < directions; ++i) {
-                cell.directions.push_back(words_.long_vector("a direction"));
+                cell.directions.push_back(words_.nonzero_vector("a direction"));
             }
         } else if (words_.skip("half")) {
             take_planes(cell);
             return;
-        } else if (words_.has_more() && draworder::is_octant_path(words_.here())) {
-            cell.path = draworder::path_in_body(std::string(words_.here()), axes_);
-            const auto corners = draworder::corners_of_path(cell.path);
+        } else if (words_.has_more() && draworder::is_octant_path(words_.peek())) {
+            cell.path = draworder::path_in_body(std::string(words_.peek()), axes_);
+            const auto corners = draworder::octant_triangle(cell.path);
             cell.directions.assign(corners.begin(), corners.end());
-            words_.step();
+            words_.advance();
         } else {
             words_.refuse(fmt::format(
                 "a region: an octant path such as +-+/0/3 (at most {} levels), cone or half",
@@ -293,7 +293,7 @@ private:
 
     std::filesystem::path path_;
     models::polygons::FileAxes axes_;
-    OrderWords words_;
+    OrderTokens words_;
     CellOrders orders_;
     std::vector<DrawOrder::Node> nodes_;
     std::vector<std::vector<std::uint32_t>> lists_;
@@ -306,7 +306,7 @@ private:
 
 CellOrders read_order_file(
     const std::filesystem::path& path, std::size_t faces, const models::polygons::FileAxes& axes) {
-    return OrderReading(path, faces, axes).read();
+    return OrderReader(path, faces, axes).read();
 }
 
 } // namespace octant::visuals::orderfile

@@ -19,8 +19,8 @@ double scale_hand_rad(double value, const DialScale& scale) {
     return first_rad + std::clamp(share, 0.0, 1.0) * (last_rad - first_rad);
 }
 
-double altitude_hand_rad(double height_m, double feet_a_turn) {
-    const double turns = ft_from_m(height_m) / feet_a_turn;
+double altitude_hand_rad(double height_m, double feet_per_turn) {
+    const double turns = ft_from_m(height_m) / feet_per_turn;
     return 2.0 * pi * (turns - std::floor(turns));
 }
 
@@ -36,7 +36,7 @@ DialScale load_scale_g(double min_load_factor, double max_load_factor) {
         std::max(std::ceil(max_load_factor), 1.0) + 1.0};
 }
 
-double number_step(const DialScale& scale) {
+double label_step(const DialScale& scale) {
     const double max_numbers = scale.most >= 100.0 && scale.most < 400.0 ? 5.0 : 9.0;
     const double min_step = (scale.most - scale.least) / (max_numbers - 1.0);
     for (const double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 100.0, 200.0, 500.0}) {

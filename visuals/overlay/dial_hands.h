@@ -16,8 +16,8 @@ struct DialScale {
 /// right; beyond the ends the hand stays there.
 double scale_hand_rad(double value, const DialScale& scale);
 
-/// Hand that turns once in `feet_a_turn`, straight up at sea level.
-double altitude_hand_rad(double height_m, double feet_a_turn);
+/// Hand that turns once in `feet_per_turn`, straight up at sea level.
+double altitude_hand_rad(double height_m, double feet_per_turn);
 
 /// A scale in knots from 0 to a round number that holds a speed.
 DialScale speed_scale_kt(double max_speed_mps);
@@ -27,6 +27,6 @@ DialScale load_scale_g(double min_load_factor, double max_load_factor);
 
 /// Distance of the numbers of a scale, in its unit: a round one, of which no more than nine fit,
 /// or five where they have three digits.
-double number_step(const DialScale& scale);
+double label_step(const DialScale& scale);
 
 } // namespace octant::visuals::overlay

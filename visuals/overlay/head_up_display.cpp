@@ -8,10 +8,10 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "visuals/overlay/caption.h"
+#include "visuals/overlay/short_text.h"
 #include "visuals/overlay/head_up_glass.h"
 #include "visuals/overlay/pitch_ladder.h"
-#include "visuals/overlay/stroke_letters.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -40,26 +40,26 @@ constexpr float marker_radius = 0.0115F;
 constexpr float marker_wing = 0.032F;
 constexpr float marker_tail = 0.024F;
 constexpr float line_width = 0.0025F;
-constexpr OverlayBox field{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what lies on the world
-constexpr OverlayBox whole{{-0.46F, -0.42F}, {0.46F, 0.36F}};
+constexpr OverlayBox world_symbol_box{{-0.235F, -0.275F}, {0.235F, 0.33F}}; ///< of what lies on the world
+constexpr OverlayBox display_box{{-0.46F, -0.42F}, {0.46F, 0.36F}};
 
 /// Room for letters that cannot be smaller in small pictures.
 constexpr glm::vec2 min_whole_px{110.0F, 68.0F};
 constexpr float min_letter_px = 7.0F; ///< a pixel for each step of the letters' grid, and one
 constexpr float min_line_px = 1.15F;
 constexpr glm::vec3 green{0.22F, 1.0F, 0.36F};
-constexpr std::uint32_t shade = 0xb0041c00U; ///< dark green, as ColourVertex::colour
+constexpr std::uint32_t halo_colour = 0xb0041c00U; ///< dark green, as ColourVertex::colour
 
-constexpr double slowest_marked_mps = 5.0; ///< below, no flight path is shown
-constexpr double surely_flying_mps = 20.0;
+constexpr double min_marked_speed_mps = 5.0; ///< below, no flight path is shown
+constexpr double full_marker_speed_mps = 20.0;
 constexpr double min_mach = 0.3;
 
 OverlayBox scaled(const OverlayBox& box, float unit_px) {
     return {box.least * unit_px, box.most * unit_px};
 }
 
-OverlayBox whole_of(const HeadUpGlass& glass) {
-    const OverlayBox box = scaled(whole, glass.unit_px);
+OverlayBox display_box_of(const HudGlass& glass) {
+    const OverlayBox box = scaled(display_box, glass.unit_px);
     return {glm::min(box.least, -min_whole_px), glm::max(box.most, min_whole_px)};
 }
 
@@ -79,9 +79,9 @@ double speed_of_sound_mps(double height_m) {
 }
 
 /// Draws one picture's signs.
-class Signs {
+class HudPainter {
 public:
-    Signs(const HeadUpInputs& inputs, const HeadUpGlass& glass, OverlayCanvas& canvas)
+    HudPainter(const InstrumentReadings& inputs, const HudGlass& glass, OverlayCanvas& canvas)
         : inputs_(inputs)
         , glass_(glass)
         , canvas_(canvas)
@@ -89,11 +89,11 @@ public:
         , flight_path_(inputs.state.velocity_mps) {}
 
     void draw() {
-        canvas_.clip_to(scaled(field, unit_px_));
-        draw_pitch_ladder(glass_, ladder_anchor(), letter_px(ladder_letter), canvas_);
+        canvas_.clip_to(scaled(world_symbol_box, unit_px_));
+        draw_pitch_ladder(glass_, ladder_direction(), letter_px(ladder_letter), canvas_);
         draw_flight_path_marker();
         draw_axis_mark();
-        canvas_.clip_to(whole_of(glass_));
+        canvas_.clip_to(display_box_of(glass_));
         draw_left();
         draw_right();
         draw_heading();
@@ -106,25 +106,25 @@ private:
 
     /// Where the flight goes, held at the field's edge: the ladder stands around it, and before the
     /// nose where the aircraft hardly moves or goes elsewhere.
-    glm::dvec3 ladder_anchor() const {
+    glm::dvec3 ladder_direction() const {
         const double speed_mps = glm::length(flight_path_);
-        const double share = glm::smoothstep(slowest_marked_mps, surely_flying_mps, speed_mps);
-        const auto place = share > 0.0 ? glass_.place_of(flight_path_) : std::nullopt;
+        const double share = glm::smoothstep(min_marked_speed_mps, full_marker_speed_mps, speed_mps);
+        const auto place = share > 0.0 ? glass_.project(flight_path_) : std::nullopt;
         if (!place) {
             return body_axis();
         }
-        const OverlayBox box = scaled(field, unit_px_);
+        const OverlayBox box = scaled(world_symbol_box, unit_px_);
         const glm::dvec3 seen = glass_.direction_to(glm::clamp(*place, box.least, box.most));
         return glm::mix(body_axis(), glm::normalize(seen), share);
     }
 
     /// Crossed out where the flight goes beyond the field.
     void draw_flight_path_marker() {
-        const auto place = glass_.place_of(flight_path_);
-        if (!place || glm::length(flight_path_) < slowest_marked_mps) {
+        const auto place = glass_.project(flight_path_);
+        if (!place || glm::length(flight_path_) < min_marked_speed_mps) {
             return;
         }
-        const OverlayBox box = scaled(field, unit_px_);
+        const OverlayBox box = scaled(world_symbol_box, unit_px_);
         const float reach_px = marker_wing * unit_px_;
         const glm::vec2 at = glm::clamp(*place, box.least + reach_px, box.most - reach_px);
         const float radius = marker_radius * unit_px_;
@@ -164,7 +164,7 @@ private:
     /// A box with room for `letters` whose edge towards the middle is `side`, and what is in it.
     void draw_boxed(float side, std::size_t letters, std::string_view number) {
         const float height = letter_px(box_letter);
-        const float step = height / letter_height;
+        const float step = height / glyph_height;
         const float pad = 0.45F * height;
         const float outward = side < 0.0F ? -1.0F : 1.0F;
         const float inner = side * unit_px_;
@@ -185,17 +185,17 @@ private:
     }
 
     void draw_row(int row, float side, std::string_view text) {
-        const float share_before = side < 0.0F ? 1.0F : 0.0F;
-        canvas_.text({{side * unit_px_, row_y(row)}, letter_px(small_letter), share_before}, text);
+        const float alignment = side < 0.0F ? 1.0F : 0.0F;
+        canvas_.text({{side * unit_px_, row_y(row)}, letter_px(small_letter), alignment}, text);
     }
 
     void draw_left() {
         const double speed_mps = glm::length(inputs_.state.velocity_mps);
-        draw_boxed(-box_side, 4, Caption("{}", rounded(kt_from_mps(speed_mps))).text());
-        draw_row(1, -box_side, Caption("G {:4.1f}", inputs_.state.load_factor).text());
+        draw_boxed(-box_side, 4, ShortText("{}", rounded(kt_from_mps(speed_mps))).text());
+        draw_row(1, -box_side, ShortText("G {:4.1f}", inputs_.state.load_factor).text());
         const double mach = speed_mps / speed_of_sound_mps(inputs_.height_m);
         if (mach >= min_mach) {
-            draw_row(2, -box_side, Caption("M {:4.2f}", mach).text());
+            draw_row(2, -box_side, ShortText("M {:4.2f}", mach).text());
         }
     }
 
@@ -203,12 +203,12 @@ private:
         constexpr double step_ft = 10.0;
         const double climb_mps = inputs_.state.velocity_mps.z;
         draw_boxed(
-            box_side, 5, Caption("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
+            box_side, 5, ShortText("{}", rounded(ft_from_m(inputs_.height_m), step_ft)).text());
         const long climb_fpm = rounded(60.0 * ft_from_m(climb_mps), step_ft);
-        draw_row(-1, box_side, Caption("VS {:+}", climb_fpm).text());
+        draw_row(-1, box_side, ShortText("VS {:+}", climb_fpm).text());
         if (inputs_.height_above_ground_m) {
             const double height_ft = ft_from_m(*inputs_.height_above_ground_m);
-            draw_row(1, box_side, Caption("R {}", rounded(height_ft)).text());
+            draw_row(1, box_side, ShortText("R {}", rounded(height_ft)).text());
         }
     }
 
@@ -227,7 +227,7 @@ private:
         const long shown = rounded(heading_deg) % 360;
         canvas_.text(
             {{0.0F, tip + 2.2F * caret + 0.5F * height}, height, 0.5F},
-            Caption("{:03}", shown).text());
+            ShortText("{:03}", shown).text());
     }
 
     /// A tick each 5 degrees, longer each 10, and numbers as close as they fit.
@@ -235,7 +235,7 @@ private:
         const float per_deg = tape_per_deg * unit_px_;
         const float bottom = tape_bottom * unit_px_;
         const float height = letter_px(tape_letter);
-        const float number_px = height / letter_height * static_cast<float>(text_width(3));
+        const float number_px = height / glyph_height * static_cast<float>(text_width(3));
         const int number_deg = 10.0F * per_deg > 1.3F * number_px ? 10 : 30;
         const double half_deg = static_cast<double>(tape_half / tape_per_deg);
         const auto first = static_cast<int>(std::ceil((heading_deg - half_deg) / 5.0));
@@ -249,13 +249,13 @@ private:
                 const int shown = (deg + 720) % 360;
                 canvas_.text(
                     {{x, bottom - long_tick * unit_px_ - 0.95F * height}, height, 0.5F},
-                    Caption("{:03}", shown).text());
+                    ShortText("{:03}", shown).text());
             }
         }
     }
 
-    const HeadUpInputs& inputs_;
-    const HeadUpGlass& glass_;
+    const InstrumentReadings& inputs_;
+    const HudGlass& glass_;
     OverlayCanvas& canvas_;
     float unit_px_;
     glm::dvec3 flight_path_;
@@ -264,14 +264,14 @@ private:
 } // namespace
 
 scene::OverlayDraw HeadUpDisplay::draw(
-    const HeadUpInputs& inputs, const scene::Camera& camera, const glm::ivec2& size_px) {
-    const HeadUpGlass glass = head_up_glass(inputs.state, camera, size_px);
-    if (!glass.shows(whole_of(glass), size_px)) {
+    const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px) {
+    const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
+    if (!glass.may_show(display_box_of(glass), size_px)) {
         return {};
     }
     const float width_px = std::max(line_width * glass.unit_px, min_line_px);
-    canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), shade});
-    Signs(inputs, glass, canvas_).draw();
+    canvas_.begin(glass.to_picture, {width_px, 1.4F, models::packed_colour(green), halo_colour});
+    HudPainter(inputs, glass, canvas_).draw();
     return canvas_.finish();
 }
 

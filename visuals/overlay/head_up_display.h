@@ -12,7 +12,7 @@
 namespace octant::visuals::overlay {
 
 /// What a head-up display shows beside the state's own values.
-struct HeadUpInputs {
+struct InstrumentReadings {
     sim::AircraftState state;
     double height_m = 0.0;                       ///< above datum
     std::optional<double> height_above_ground_m; ///< nothing outside the map
@@ -27,7 +27,7 @@ class HeadUpDisplay {
 public:
     /// Valid until the next call. No allocation once warmed up.
     scene::OverlayDraw
-    draw(const HeadUpInputs& inputs, const scene::Camera& camera, const glm::ivec2& size_px);
+    draw(const InstrumentReadings& inputs, const scene::Camera& camera, const glm::ivec2& size_px);
 
 private:
     OverlayCanvas canvas_;

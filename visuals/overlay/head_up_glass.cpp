@@ -19,10 +19,10 @@ constexpr double narrowest_aspect = 1.0;
 
 } // namespace
 
-HeadUpGlass head_up_glass(
+HudGlass make_hud_glass(
     const sim::AircraftState& state, const scene::Camera& camera, const glm::ivec2& size_px) {
     const glm::dvec2 size(size_px);
-    HeadUpGlass glass;
+    HudGlass glass;
     glass.focal_px = 0.5 * size.y / std::tan(0.5 * camera.vertical_fov_rad);
     glass.unit_px = static_cast<float>(std::min(size.y, size.x / narrowest_aspect));
     glass.world_to_body = glm::conjugate(state.body_to_world);
@@ -42,7 +42,7 @@ HeadUpGlass head_up_glass(
     return glass;
 }
 
-std::optional<glm::vec2> HeadUpGlass::place_of(const glm::dvec3& world_direction) const {
+std::optional<glm::vec2> HudGlass::project(const glm::dvec3& world_direction) const {
     const glm::dvec3 in_body = world_to_body * world_direction;
     if (in_body.x <= min_ahead * glm::length(in_body)) {
         return std::nullopt;
@@ -50,12 +50,12 @@ std::optional<glm::vec2> HeadUpGlass::place_of(const glm::dvec3& world_direction
     return glm::vec2(glm::dvec2(in_body.y, in_body.z) * (focal_px / in_body.x));
 }
 
-glm::dvec3 HeadUpGlass::direction_to(const glm::vec2& place) const {
+glm::dvec3 HudGlass::direction_to(const glm::vec2& place) const {
     return glm::conjugate(world_to_body) *
            glm::dvec3(focal_px, static_cast<double>(place.x), static_cast<double>(place.y));
 }
 
-bool HeadUpGlass::shows(const OverlayBox& box, const glm::ivec2& size_px) const {
+bool HudGlass::may_show(const OverlayBox& box, const glm::ivec2& size_px) const {
     glm::vec2 least(std::numeric_limits<float>::max());
     glm::vec2 most(std::numeric_limits<float>::lowest());
     for (const glm::vec2& corner :

@@ -2,7 +2,7 @@
 
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "visuals/overlay/caption.h"
+#include "visuals/overlay/short_text.h"
 #include "visuals/overlay/head_up_glass.h"
 
 #include <glm/geometric.hpp>
@@ -19,8 +19,8 @@ namespace {
 
 // Shares of a dial's radius.
 constexpr float rim = 0.97F;
-constexpr float tick_from = 0.82F;
-constexpr float number_at = 0.62F;
+constexpr float tick_start_radius = 0.82F;
+constexpr float number_radius = 0.62F;
 constexpr float number_letter = 0.23F;
 constexpr float card_letter = 0.18F; ///< of the heading, which has most of them
 constexpr float card_number_at = 0.66F;
@@ -75,14 +75,14 @@ public:
     }
 
     void show_scale(const DialScale& scale, double value, std::string_view caption) {
-        const double step = number_step(scale);
+        const double step = label_step(scale);
         const double unit = step >= 100.0 ? 100.0 : 1.0; // hundreds, as on the real ones
         const double half = 0.5 * step;
         for (double at = std::ceil(scale.least / half) * half; at <= scale.most; at += half) {
             const bool numbered = std::abs(std::remainder(at, step)) < 1e-6;
             add_tick(scale_hand_rad(at, scale), numbered);
             if (numbered) {
-                add_number(scale_hand_rad(at, scale), Caption("{:.0f}", at / unit + 0.0).text());
+                add_number(scale_hand_rad(at, scale), ShortText("{:.0f}", at / unit + 0.0).text());
             }
         }
         add_caption(caption, 0.34F);
@@ -94,11 +94,11 @@ public:
         for (int tenth = 0; tenth < 10; ++tenth) {
             const double angle_rad = 2.0 * pi * tenth / 10.0;
             add_tick(angle_rad, true);
-            add_number(angle_rad, Caption("{}", tenth).text());
+            add_number(angle_rad, ShortText("{}", tenth).text());
         }
         constexpr double max_ft = 99999.0;
         const long shown = std::lround(std::clamp(ft_from_m(height_m), -9999.0, max_ft) / 10.0);
-        add_caption(Caption("{}", 10 * shown).text(), 0.31F);
+        add_caption(ShortText("{}", 10 * shown).text(), 0.31F);
         add_hand(altitude_hand_rad(height_m, 10000.0), short_hand, 0.09F);
         add_hand(altitude_hand_rad(height_m, 1000.0), long_hand, 0.05F);
         add_hub();
@@ -189,7 +189,7 @@ private:
 
     void add_tick(double angle_rad, bool is_long) {
         const glm::vec2 out = towards(angle_rad);
-        const float from = is_long ? tick_from : 0.5F * (tick_from + rim);
+        const float from = is_long ? tick_start_radius : 0.5F * (tick_start_radius + rim);
         faces_.line(centre_ + out * (from * radius_), centre_ + out * (rim * 0.96F * radius_));
     }
 
@@ -197,7 +197,7 @@ private:
         double angle_rad,
         std::string_view text,
         float letter = number_letter,
-        float from_middle = number_at) {
+        float from_middle = number_radius) {
         if (is_numbered()) {
             const glm::vec2 at = centre_ + towards(angle_rad) * (from_middle * radius_);
             faces_.text({at, letter * radius_, 0.5F}, text);
@@ -241,23 +241,23 @@ void show(
     DialPainter& painter,
     const Dial& dial,
     const InstrumentLayout& layout,
-    const HeadUpInputs& inputs) {
+    const InstrumentReadings& inputs) {
     const EulerAngles attitude = euler_from_body_to_world(inputs.state.body_to_world);
-    switch (dial.shows) {
-    case Dial::Shows::Speed:
+    switch (dial.quantity) {
+    case Dial::Quantity::Speed:
         painter.show_scale(
             layout.speed_kt, kt_from_mps(glm::length(inputs.state.velocity_mps)), "KT");
         break;
-    case Dial::Shows::Altitude:
+    case Dial::Quantity::Altitude:
         painter.show_altitude(inputs.height_m);
         break;
-    case Dial::Shows::Attitude:
+    case Dial::Quantity::Attitude:
         painter.show_attitude(attitude);
         break;
-    case Dial::Shows::Heading:
+    case Dial::Quantity::Heading:
         painter.show_heading(attitude.heading_rad);
         break;
-    case Dial::Shows::LoadFactor:
+    case Dial::Quantity::LoadFactor:
         painter.show_scale(layout.load_g, inputs.state.load_factor, "G");
         break;
     }
@@ -267,16 +267,16 @@ void show(
 
 scene::OverlayDraw InstrumentPanel::draw(
     const InstrumentLayout& layout,
-    const HeadUpInputs& inputs,
+    const InstrumentReadings& inputs,
     const scene::Camera& camera,
     const glm::ivec2& size_px) {
-    const HeadUpGlass glass = head_up_glass(inputs.state, camera, size_px);
+    const HudGlass glass = make_hud_glass(inputs.state, camera, size_px);
     layers_.clear();
     for (const Dial& dial : layout.dials) {
         const double px_per_m = glass.focal_px / dial.centre_m.x;
         const glm::vec2 centre(glm::dvec2(dial.centre_m.y, dial.centre_m.z) * px_per_m);
         const auto radius = static_cast<float>(dial.radius_m * px_per_m);
-        if (!glass.shows({centre - radius, centre + radius}, size_px)) {
+        if (!glass.may_show({centre - radius, centre + radius}, size_px)) {
             continue;
         }
         const float width_px = std::max(line_share * radius, min_line_px);

@@ -16,8 +16,8 @@ namespace octant::visuals::overlay {
 
 /// A round dial that faces the pilot: it lies square to the body's x axis.
 struct Dial {
-    enum class Shows { Speed, Altitude, Attitude, Heading, LoadFactor };
-    Shows shows = Shows::Speed;
+    enum class Quantity { Speed, Altitude, Attitude, Heading, LoadFactor };
+    Quantity quantity = Quantity::Speed;
     glm::dvec3 centre_m{1.0, 0.0, 0.0}; ///< from the pilot's eye, body axes; x above 0
     double radius_m = 0.05;
 };
@@ -37,7 +37,7 @@ public:
     /// Valid until the next call. No allocation once warmed up.
     scene::OverlayDraw draw(
         const InstrumentLayout& layout,
-        const HeadUpInputs& inputs,
+        const InstrumentReadings& inputs,
         const scene::Camera& camera,
         const glm::ivec2& size_px);
 

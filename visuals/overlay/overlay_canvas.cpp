@@ -3,7 +3,7 @@
 
 #include "visuals/overlay/overlay_canvas.h"
 
-#include "visuals/overlay/stroke_letters.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,9 +19,9 @@ namespace octant::visuals::overlay {
 namespace {
 
 constexpr float min_length_px = 0.05F;
-constexpr float sharpest_join = -0.6F;  ///< cosine of the turn from which a line begins anew
+constexpr float min_mitre_cosine = -0.6F;  ///< cosine of the turn from which a line begins anew
 constexpr float edge_px = 1.0F;         ///< over which the edge of a core fades
-constexpr float widest_ridge_px = 2.2F; ///< letters' lines up to here fade from their middle on
+constexpr float max_ridge_width_px = 2.2F; ///< letters' lines up to here fade from their middle on
 constexpr std::size_t circle_corners = 20;
 
 glm::vec2 across(const glm::vec2& along) {
@@ -35,7 +35,7 @@ std::uint32_t with_alpha(std::uint32_t colour, float share) {
 
 /// Narrows the part `from_share` to `to_share` of a line to that on the inner side of one edge;
 /// false when nothing is left. `depth` = how far inside the line begins, `change` = over the line.
-bool narrow(float depth, float change, float& from_share, float& to_share) {
+bool narrow_interval(float depth, float change, float& from_share, float& to_share) {
     if (change == 0.0F) {
         return depth >= 0.0F;
     }
@@ -56,13 +56,13 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     clip_ = {glm::vec2(-far), glm::vec2(far)};
     vertices_.clear();
     areas_.clear();
-    shade_.indices.clear();
+    halo_.indices.clear();
     lines_.indices.clear();
     letters_.indices.clear();
-    const float shade_px = 0.5F * pen.width_px + pen.shade_px;
-    shade_.points = {{{-shade_px, pen.shade}, {shade_px, pen.shade}, {}, {}}};
-    shade_.count = pen.shade >> 24U != 0 ? 2 : 0;
-    shade_.beyond_ends_px = shade_px;
+    const float halo_px = 0.5F * pen.width_px + pen.halo_px;
+    halo_.points = {{{-halo_px, pen.halo_colour}, {halo_px, pen.halo_colour}, {}, {}}};
+    halo_.count = pen.halo_colour >> 24U != 0 ? 2 : 0;
+    halo_.extension_px = halo_px;
     // Lines narrower than their edges would be are that wide and fainter.
     const std::uint32_t full = with_alpha(pen.colour, std::min(pen.width_px / edge_px, 1.0F));
     const std::uint32_t clear = with_alpha(pen.colour, 0.0F);
@@ -70,19 +70,19 @@ void OverlayCanvas::begin(const glm::mat3& to_picture, const OverlayPen& pen) {
     const float outer_px = inner_px + edge_px;
     lines_.points = {{{-outer_px, clear}, {-inner_px, full}, {inner_px, full}, {outer_px, clear}}};
     lines_.count = 4;
-    lines_.beyond_ends_px = 0.5F * pen.width_px;
+    lines_.extension_px = 0.5F * pen.width_px;
     // Most of the triangles are letters': while thin, two thirds of them do, nearly as sharp.
     letters_.points = lines_.points;
     letters_.count = lines_.count;
-    letters_.beyond_ends_px = lines_.beyond_ends_px;
-    if (pen.width_px <= widest_ridge_px) {
+    letters_.extension_px = lines_.extension_px;
+    if (pen.width_px <= max_ridge_width_px) {
         letters_.points = {{{-outer_px, clear}, {0.0F, full}, {outer_px, clear}, {}}};
         letters_.count = 3;
     }
-    writing_ = false;
+    draws_text_ = false;
 }
 
-glm::vec2 OverlayCanvas::seen_at(const glm::vec2& at) const {
+glm::vec2 OverlayCanvas::to_picture_at(const glm::vec2& at) const {
     const glm::vec3 seen = to_picture_ * glm::vec3(at, 1.0F);
     return glm::vec2(seen) / seen.z;
 }
@@ -90,7 +90,7 @@ glm::vec2 OverlayCanvas::seen_at(const glm::vec2& at) const {
 void OverlayCanvas::fill(std::span<const glm::vec2> corners, std::uint32_t colour) {
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     for (const glm::vec2& corner : corners) {
-        vertices_.push_back({seen_at(corner), colour});
+        vertices_.push_back({to_picture_at(corner), colour});
     }
     for (std::uint32_t i = 2; i < corners.size(); ++i) {
         areas_.insert(areas_.end(), {first, first + i - 1, first + i});
@@ -99,20 +99,20 @@ void OverlayCanvas::fill(std::span<const glm::vec2> corners, std::uint32_t colou
 
 void OverlayCanvas::polyline(std::span<const glm::vec2> points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
-        cut_line(points[i - 1], points[i]);
+        clip_line(points[i - 1], points[i]);
     }
     end_run();
 }
 
 /// The part of a line within the clip box (Liang and Barsky's parametric clipping).
-void OverlayCanvas::cut_line(const glm::vec2& from, const glm::vec2& to) {
+void OverlayCanvas::clip_line(const glm::vec2& from, const glm::vec2& to) {
     const glm::vec2 change = to - from;
     float from_share = 0.0F;
     float to_share = 1.0F;
-    const bool seen = narrow(from.x - clip_.least.x, change.x, from_share, to_share) &&
-                      narrow(clip_.most.x - from.x, -change.x, from_share, to_share) &&
-                      narrow(from.y - clip_.least.y, change.y, from_share, to_share) &&
-                      narrow(clip_.most.y - from.y, -change.y, from_share, to_share);
+    const bool seen = narrow_interval(from.x - clip_.least.x, change.x, from_share, to_share) &&
+                      narrow_interval(clip_.most.x - from.x, -change.x, from_share, to_share) &&
+                      narrow_interval(from.y - clip_.least.y, change.y, from_share, to_share) &&
+                      narrow_interval(clip_.most.y - from.y, -change.y, from_share, to_share);
     if (!seen) {
         end_run();
         return;
@@ -128,7 +128,7 @@ void OverlayCanvas::cut_line(const glm::vec2& from, const glm::vec2& to) {
 }
 
 void OverlayCanvas::add_to_run(const glm::vec2& at) {
-    const glm::vec2 at_px = seen_at(at);
+    const glm::vec2 at_px = to_picture_at(at);
     if (run_.empty() || glm::distance(run_.back(), at_px) > min_length_px) {
         run_.push_back(at_px);
     }
@@ -136,10 +136,10 @@ void OverlayCanvas::add_to_run(const glm::vec2& at) {
 
 void OverlayCanvas::end_run() {
     if (run_.size() > 1) {
-        if (shade_.count > 0) {
-            stroke(shade_);
+        if (halo_.count > 0) {
+            stroke(halo_);
         }
-        stroke(writing_ ? letters_ : lines_);
+        stroke(draws_text_ ? letters_ : lines_);
     }
     run_.clear();
 }
@@ -155,7 +155,7 @@ void OverlayCanvas::stroke(Strips& strips) {
     for (std::size_t i = 0; i <= last; ++i) {
         const glm::vec2 after = i < last ? direction(i) : (closed ? direction(0) : before);
         const bool inside = closed || (i > 0 && i < last);
-        if (inside && glm::dot(before, after) > sharpest_join) {
+        if (inside && glm::dot(before, after) > min_mitre_cosine) {
             const glm::vec2 middle = across(before) + across(after);
             add_row(strips, run_[i], middle * (2.0F / glm::dot(middle, middle)));
             if (i > 0) {
@@ -163,11 +163,11 @@ void OverlayCanvas::stroke(Strips& strips) {
             }
         } else {
             if (i > 0) {
-                add_row(strips, run_[i] + before * strips.beyond_ends_px, across(before));
+                add_row(strips, run_[i] + before * strips.extension_px, across(before));
                 join_last_rows(strips);
             }
             if (i < last) {
-                add_row(strips, run_[i] - after * strips.beyond_ends_px, across(after));
+                add_row(strips, run_[i] - after * strips.extension_px, across(after));
             }
         }
         before = after;
@@ -208,41 +208,41 @@ void OverlayCanvas::circle(const glm::vec2& centre, float radius) {
     polyline(corners);
 }
 
-void OverlayCanvas::text(const TextPlace& place, std::string_view text) {
-    const float step = place.height / letter_height;
+void OverlayCanvas::text(const TextLayout& place, std::string_view text) {
+    const float step = place.height / glyph_height;
     const glm::vec2 right = place.along * step;
     const glm::vec2 up = glm::vec2(place.along.y, -place.along.x) * step;
     const auto width = static_cast<float>(text_width(text.size()));
     const glm::vec2 corner =
-        place.at - right * (place.share_before * width) - up * (0.5F * letter_height);
+        place.at - right * (place.alignment * width) - up * (0.5F * glyph_height);
     const glm::vec2 across = right * width;
-    const glm::vec2 over = up * static_cast<float>(letter_height);
-    if (!clip_.holds(corner) || !clip_.holds(corner + across) || !clip_.holds(corner + over) ||
-        !clip_.holds(corner + across + over)) {
+    const glm::vec2 over = up * static_cast<float>(glyph_height);
+    if (!clip_.contains(corner) || !clip_.contains(corner + across) || !clip_.contains(corner + over) ||
+        !clip_.contains(corner + across + over)) {
         return;
     }
-    writing_ = true;
+    draws_text_ = true;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const glm::vec2 origin = corner + right * static_cast<float>(i * letter_advance);
+        const glm::vec2 origin = corner + right * static_cast<float>(i * glyph_advance);
         glm::vec2 last(0.0F);
-        for (const LetterPoint& point : strokes_of(text[i])) {
+        for (const GlyphPoint& point : glyph_strokes(text[i])) {
             const glm::vec2 at =
                 origin + right * static_cast<float>(point.x) + up * static_cast<float>(point.y);
             if (point.begins_stroke) {
                 end_run();
             } else {
-                cut_line(last, at);
+                clip_line(last, at);
             }
             last = at;
         }
         end_run();
     }
-    writing_ = false;
+    draws_text_ = false;
 }
 
 scene::OverlayDraw OverlayCanvas::finish() {
     std::vector<std::uint32_t>& all = areas_;
-    all.insert(all.end(), shade_.indices.begin(), shade_.indices.end());
+    all.insert(all.end(), halo_.indices.begin(), halo_.indices.end());
     all.insert(all.end(), lines_.indices.begin(), lines_.indices.end());
     all.insert(all.end(), letters_.indices.begin(), letters_.indices.end());
     return {vertices_, all};

@@ -19,7 +19,7 @@ struct OverlayBox {
     glm::vec2 least{0.0F};
     glm::vec2 most{0.0F};
 
-    bool holds(const glm::vec2& at) const {
+    bool contains(const glm::vec2& at) const {
         return at.x >= least.x && at.y >= least.y && at.x <= most.x && at.y <= most.y;
     }
 };
@@ -28,16 +28,16 @@ struct OverlayBox {
 /// is behind it.
 struct OverlayPen {
     float width_px = 1.5F;
-    float shade_px = 1.5F; ///< how much farther than the core the shade reaches
+    float halo_px = 1.5F; ///< how much farther than the core the shade reaches
     std::uint32_t colour = 0;
-    std::uint32_t shade = 0; ///< of alpha 0: none is drawn
+    std::uint32_t halo_colour = 0; ///< of alpha 0: none is drawn
 };
 
 /// Where a text goes. `height` is that of a capital.
-struct TextPlace {
+struct TextLayout {
     glm::vec2 at{0.0F};
     float height = 10.0F;
-    float share_before = 0.0F;   ///< of the text's width that lies before `at`: 0.5 = centred
+    float alignment = 0.0F;   ///< of the text's width that lies before `at`: 0.5 = centred
     glm::vec2 along{1.0F, 0.0F}; ///< unit vector to the right of the text
 };
 
@@ -65,7 +65,7 @@ public:
     void circle(const glm::vec2& centre, float radius);
 
     /// Nothing unless all of it lies in the clip box: half a letter cannot be read.
-    void text(const TextPlace& place, std::string_view text);
+    void text(const TextLayout& place, std::string_view text);
 
     /// Valid until the next begin(). No allocation once warmed up.
     scene::OverlayDraw finish();
@@ -80,12 +80,12 @@ private:
 
         std::array<Point, 4> points{};
         std::size_t count = 0;
-        float beyond_ends_px = 0.0F; ///< of a line
+        float extension_px = 0.0F; ///< of a line
         std::vector<std::uint32_t> indices;
     };
 
-    glm::vec2 seen_at(const glm::vec2& at) const;
-    void cut_line(const glm::vec2& from, const glm::vec2& to);
+    glm::vec2 to_picture_at(const glm::vec2& at) const;
+    void clip_line(const glm::vec2& from, const glm::vec2& to);
     void add_to_run(const glm::vec2& at);
     void end_run();
     void stroke(Strips& strips);
@@ -94,10 +94,10 @@ private:
 
     glm::mat3 to_picture_{1.0F};
     std::vector<std::uint32_t> areas_; ///< indices
-    Strips shade_;
+    Strips halo_;
     Strips lines_;
     Strips letters_;
-    bool writing_ = false; ///< what is drawn is letters
+    bool draws_text_ = false; ///< what is drawn is letters
     OverlayBox clip_;
     std::vector<glm::vec2> run_; ///< of the plane's lines within the clip box, in the picture
     std::vector<scene::OverlayVertex> vertices_;

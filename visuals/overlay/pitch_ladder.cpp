@@ -30,7 +30,7 @@ constexpr float dash_share = 0.62F; ///< of a dash and the space after it
 constexpr double reach = 0.6; ///< from the middle of the glass to the farthest rung
 
 /// A frame on the glass at the middle of a rung.
-struct RungPlace {
+struct RungFrame {
     glm::vec2 middle{0.0F};
     glm::vec2 right{1.0F, 0.0F}; ///< unit vector along the horizon
     glm::vec2 up{0.0F, -1.0F};   ///< unit vector square to it, to greater pitch
@@ -54,7 +54,7 @@ struct Meridian {
     }
 };
 
-Meridian meridian_of(const HeadUpGlass& glass, const glm::dvec3& anchor) {
+Meridian meridian_of(const HudGlass& glass, const glm::dvec3& anchor) {
     glm::dvec3 level(anchor.x, anchor.y, 0.0);
     if (glm::length(level) < 1e-6 * glm::length(anchor)) {
         level = direction_from_heading(
@@ -64,7 +64,7 @@ Meridian meridian_of(const HeadUpGlass& glass, const glm::dvec3& anchor) {
     return {level, glm::dvec3(level.y, -level.x, 0.0)};
 }
 
-int degrees_between_rungs(const HeadUpGlass& glass) {
+int degrees_between_rungs(const HudGlass& glass) {
     for (const int step_deg : {1, 2, 5, 10, 15}) {
         const double spacing_px = glass.focal_px * std::tan(rad_from_deg(step_deg));
         if (spacing_px >= static_cast<double>(min_spacing * glass.unit_px)) {
@@ -74,20 +74,20 @@ int degrees_between_rungs(const HeadUpGlass& glass) {
     return 30;
 }
 
-std::optional<RungPlace>
-place_of(const HeadUpGlass& glass, const Meridian& meridian, double pitch_rad) {
+std::optional<RungFrame>
+project(const HudGlass& glass, const Meridian& meridian, double pitch_rad) {
     constexpr double small = 0.01;
     const glm::dvec3 centre = meridian.at(pitch_rad);
-    const auto middle = glass.place_of(centre);
-    const auto beside = glass.place_of(centre + small * meridian.right);
-    if (!middle || !beside) {
+    const auto middle = glass.project(centre);
+    const auto right_of_middle = glass.project(centre + small * meridian.right);
+    if (!middle || !right_of_middle) {
         return std::nullopt;
     }
-    const glm::vec2 right = glm::normalize(*beside - *middle);
-    return RungPlace{*middle, right, glm::vec2(right.y, -right.x)};
+    const glm::vec2 right = glm::normalize(*right_of_middle - *middle);
+    return RungFrame{*middle, right, glm::vec2(right.y, -right.x)};
 }
 
-void draw_horizon(const RungPlace& place, float unit_px, OverlayCanvas& canvas) {
+void draw_horizon(const RungFrame& place, float unit_px, OverlayCanvas& canvas) {
     for (const float side : {-unit_px, unit_px}) {
         canvas.line(place.at(side * gap, 0.0F), place.at(side * horizon_end, 0.0F));
     }
@@ -95,7 +95,7 @@ void draw_horizon(const RungPlace& place, float unit_px, OverlayCanvas& canvas) 
 
 /// The outer half of a rung; `side` = unit to the right or the left.
 void draw_half_rung(
-    const RungPlace& place, float side, float bend_px, bool dashed, OverlayCanvas& canvas) {
+    const RungFrame& place, float side, float bend_px, bool dashed, OverlayCanvas& canvas) {
     const glm::vec2 bent = place.at(side * rung_end, bend_px);
     const glm::vec2 end = place.at(side * rung_end, 0.0F);
     if (!dashed) {
@@ -115,25 +115,25 @@ void draw_half_rung(
 }
 
 void draw_rung(
-    const RungPlace& place, int pitch_deg, float unit_px, float letter_px, OverlayCanvas& canvas) {
+    const RungFrame& place, int pitch_deg, float unit_px, float letter_px, OverlayCanvas& canvas) {
     std::array<char, 8> digits{};
     const auto written = fmt::format_to_n(digits.data(), digits.size(), "{}", std::abs(pitch_deg));
     const std::string_view number(digits.data(), written.size);
     const float to_horizon = pitch_deg > 0 ? -bend : bend;
     for (const float side : {-unit_px, unit_px}) {
         draw_half_rung(place, side, to_horizon * unit_px, pitch_deg < 0, canvas);
-        const float share_before = side < 0.0F ? 1.0F : 0.0F;
+        const float alignment = side < 0.0F ? 1.0F : 0.0F;
         canvas.text(
             {place.at(side * (rung_end + number_distance), 0.5F * to_horizon * unit_px),
              letter_px,
-             share_before,
+             alignment,
              place.right},
             number);
     }
 }
 
 /// Straight up a ring, straight down a ring with a cross.
-void draw_pole(const RungPlace& place, bool below, float unit_px, OverlayCanvas& canvas) {
+void draw_pole(const RungFrame& place, bool below, float unit_px, OverlayCanvas& canvas) {
     const float radius = 0.5F * gap * unit_px;
     canvas.circle(place.middle, radius);
     if (below) {
@@ -145,7 +145,7 @@ void draw_pole(const RungPlace& place, bool below, float unit_px, OverlayCanvas&
 } // namespace
 
 void draw_pitch_ladder(
-    const HeadUpGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas) {
+    const HudGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas) {
     const Meridian meridian = meridian_of(glass, anchor);
     const int step_deg = degrees_between_rungs(glass);
     const double middle_deg = deg_from_rad(meridian.pitch_of(glass.direction_to(glm::vec2(0.0F))));
@@ -154,7 +154,7 @@ void draw_pitch_ladder(
     const int most = static_cast<int>(deg_from_rad(reach_rad)) / step_deg + 1;
     for (int rung = nearest - most; rung <= nearest + most; ++rung) {
         const int along_deg = rung * step_deg; // beyond the zenith more than 90
-        auto place = place_of(glass, meridian, rad_from_deg(along_deg));
+        auto place = project(glass, meridian, rad_from_deg(along_deg));
         if (!place) {
             continue;
         }

@@ -11,6 +11,6 @@ namespace octant::visuals::overlay {
 /// `anchor` (world axes, any length): whole lines above the horizon, dashes below, ends bent
 /// towards the horizon, numbers beside them in degrees. As many degrees apart as fit.
 void draw_pitch_ladder(
-    const HeadUpGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas);
+    const HudGlass& glass, const glm::dvec3& anchor, float letter_px, OverlayCanvas& canvas);
 
 } // namespace octant::visuals::overlay

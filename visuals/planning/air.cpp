@@ -16,14 +16,14 @@ scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) 
         air.haze_height_m > 0.0 ? static_cast<float>(1.0 / air.haze_height_m) : 0.0F;
     if (air.sky) {
         haze.colour = day.haze_away();
-        haze.to_sun_level = glm::vec2(day.to_sun_level());
+        haze.horizontal_to_sun = glm::vec2(day.horizontal_to_sun());
         haze.sunward = day.haze_sunward();
     }
     return haze;
 }
 
 Sky sky_of(const Scene& scene, const scene::AirSettings& air, const nature::Daylight& day) {
-    return Sky(day, air.sky ? scene.ground->surroundings() : nature::Backdrop());
+    return Sky(day, air.sky ? scene.ground->backdrop() : nature::Backdrop());
 }
 
 double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye_m) {
@@ -41,7 +41,7 @@ Air::Air(const Scene& scene, const scene::AirSettings& settings)
     , haze_(haze_of(settings, daylight_))
     , sky_(sky_of(scene, settings, daylight_)) {}
 
-void Air::relight() {
+void Air::set_sun() {
     daylight_ = landscape::daylight_of(settings_);
     to_sun_ = landscape::direction_to_sun(settings_);
     haze_ = haze_of(settings_, daylight_);

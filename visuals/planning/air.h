@@ -18,7 +18,7 @@ public:
     Air(const Scene& scene, const scene::AirSettings& settings);
 
     /// Goes on under the sun of the settings, where that has become another one.
-    void relight();
+    void set_sun();
 
     const nature::Daylight& daylight() const { return daylight_; }
 

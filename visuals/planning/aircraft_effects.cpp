@@ -174,7 +174,7 @@ EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftSta
     constexpr double full_flame = 0.1; // of the reheat: its first stage is seen as well as its last
     EffectStrength strength;
     strength.exhaust = 1.0;
-    strength.burner = glm::smoothstep(0.0, full_flame, sim::reheat_share(kind, state));
+    strength.burner = glm::smoothstep(0.0, full_flame, sim::reheat_fraction(kind, state));
     strength.vapour = glm::smoothstep(3.0, 5.5, std::abs(state.load_factor));
     return strength;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "models/no_index.h"
+#include "models/invalid_index.h"
 #include "models/polygons/polygon_model.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
@@ -23,7 +23,7 @@ struct EffectStrength {
     /// Hot air behind the nozzles.
     double exhaust = 0.0;
     /// Afterburners: the motion needs more thrust than there is without them
-    /// (sim::reheat_share).
+    /// (sim::reheat_fraction).
     double burner = 0.0;
     /// Vapour at the wingtips, under load.
     double vapour = 0.0;
@@ -72,7 +72,7 @@ private:
         glm::dvec3 out{0.0, 0.0, -1.0};
         double radius_m = 1.0;
         /// The pivot whose blades a disc shows.
-        std::uint32_t pivot = models::no_index;
+        std::uint32_t pivot = models::invalid_index;
     };
 
     void find_discs(const models::polygons::PolygonModel& model);

@@ -1,8 +1,8 @@
 #include "visuals/planning/aircraft_model.h"
 
 #include "models/colour_vertex.h"
-#include "models/planar/side_corners.h"
-#include "models/polygons/repeated_polygons.h"
+#include "models/planar/t_junctions.h"
+#include "models/polygons/distinct_polygons.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
@@ -121,7 +121,7 @@ private:
 /// between the two may belong to neither. Normals there are those of the side.
 models::polygons::PolygonModel
 closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
-    const auto on_sides = models::planar::side_corners(model);
+    const auto on_sides = models::planar::t_junctions(model);
     if (on_sides.empty()) {
         return model;
     }
@@ -197,7 +197,7 @@ AircraftModel aircraft_model(
     BufferMaker maker(drawn, normals);
     std::vector<std::uint32_t> first_indices = first_indices_of(drawn, order.polygons());
     maker.append(order.polygons());
-    std::vector<std::uint32_t> file_list = models::polygons::polygons_without_repeats(polygons);
+    std::vector<std::uint32_t> file_list = models::polygons::distinct_polygons(polygons);
     const scene::IndexRange all = maker.append(file_list);
     const double radius_m = models::polygons::radius_m(polygons);
     const HullExtent hull = hull_extent(polygons);

@@ -60,7 +60,7 @@ struct AircraftModel {
     }
 
     /// Number of the representation by polygons.
-    std::size_t as_polygons() const { return errors_m.size() - 1; }
+    std::size_t polygons_from_mesh() const { return errors_m.size() - 1; }
 
     /// What is shaded where the aircraft is shown by this level of detail, or by its polygons.
     const shading::ShadedPolygons& shaded_as(std::size_t representation) const {

@@ -12,18 +12,18 @@ namespace octant::visuals::planning {
 
 namespace {
 
-using Shows = overlay::Dial::Shows;
+using Quantity = overlay::Dial::Quantity;
 
-constexpr std::array<std::pair<std::string_view, Shows>, 5> named_dials{
-    {{"dial_speed", Shows::Speed},
-     {"dial_altitude", Shows::Altitude},
-     {"dial_attitude", Shows::Attitude},
-     {"dial_heading", Shows::Heading},
-     {"dial_load", Shows::LoadFactor}}};
+constexpr std::array<std::pair<std::string_view, Quantity>, 5> named_dials{
+    {{"dial_speed", Quantity::Speed},
+     {"dial_altitude", Quantity::Altitude},
+     {"dial_attitude", Quantity::Attitude},
+     {"dial_heading", Quantity::Heading},
+     {"dial_load", Quantity::LoadFactor}}};
 
 /// The largest circle about the middle of a polygon's corners.
 overlay::Dial
-dial_in(const models::polygons::PolygonModel& model, std::size_t polygon, Shows shows) {
+dial_in(const models::polygons::PolygonModel& model, std::size_t polygon, Quantity quantity) {
     const auto corners = model.corners(polygon);
     glm::dvec3 middle_m(0.0);
     for (const std::uint32_t corner : corners) {
@@ -36,7 +36,7 @@ dial_in(const models::polygons::PolygonModel& model, std::size_t polygon, Shows 
             glm::normalize(model.vertices_m[corners[(i + 1) % corners.size()]] - from_m);
         radius_m = std::min(radius_m, glm::length(glm::cross(along, middle_m - from_m)));
     }
-    return {shows, middle_m, radius_m};
+    return {quantity, middle_m, radius_m};
 }
 
 } // namespace
@@ -46,14 +46,14 @@ dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimit
     overlay::InstrumentLayout layout;
     layout.speed_kt = overlay::speed_scale_kt(limits.max_speed_mps);
     layout.load_g = overlay::load_scale_g(limits.min_load_factor, limits.max_load_factor);
-    for (const auto& [name, shows] : named_dials) {
+    for (const auto& [name, quantity] : named_dials) {
         const auto polygon =
             std::ranges::find_if(cockpit.polygons, [&, part = name](const auto& one) {
                 return cockpit.parts[one.part] == part;
             });
         if (polygon != cockpit.polygons.end()) {
             const auto index = static_cast<std::size_t>(polygon - cockpit.polygons.begin());
-            layout.dials.push_back(dial_in(cockpit, index, shows));
+            layout.dials.push_back(dial_in(cockpit, index, quantity));
         }
     }
     return layout;

@@ -41,7 +41,7 @@ Facing facing_of(const scene::TriangleDraw& draw, const std::uint32_t* corners, 
 
 /// Copies the triangles first .. last - 1 that face the eye to the beginning of `kept`, which must
 /// have room for all of them. Returns the number of indices copied.
-std::size_t keep_facing(
+std::size_t remove_back_faces(
     const scene::TriangleDraw& draw,
     std::size_t first,
     std::size_t last,
@@ -70,7 +70,7 @@ facing_the_eye(const GroundFrame& ground, double pixel_rad, std::vector<std::uin
     std::size_t count = 0;
     std::size_t next = 0;
     const auto keep_until = [&](std::size_t last) {
-        count += keep_facing(draw, next, last, pixel, std::span(kept).subspan(count));
+        count += remove_back_faces(draw, next, last, pixel, std::span(kept).subspan(count));
         next = last;
     };
     for (const ShadowPieces& shadow : ground.shadows) {

@@ -111,7 +111,7 @@ void Fleet::place(
     const glm::dvec3& eye_m = view.camera.eye_m;
     for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
         const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
-        placed_[i].is_hidden = sim::is_hidden_at(aircraft.states[i].position_m.z);
+        placed_[i].is_hidden = sim::is_absent_height(aircraft.states[i].position_m.z);
         place(placed_[i], state, aircraft.turned, view);
         hulls_[i] = hull_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
     }
@@ -158,7 +158,7 @@ void Fleet::place(
     }
     const glm::dvec3 eye_in_body_m =
         draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
-    aircraft.cell = model.order.one_cell_an_eye() ? model.order.cell_of(eye_in_body_m) : 0;
+    aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
     represent(aircraft, view);
     aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
     choose_ranges(aircraft, eye_in_body_m);
@@ -190,13 +190,13 @@ void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const Fram
 /// all.
 void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
     const AircraftModel& model = *aircraft.model;
-    if (model.as_polygons() == 0) {
+    if (model.polygons_from_mesh() == 0) {
         return;
     }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
     if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
-        aircraft.representation = model.as_polygons();
+        aircraft.representation = model.polygons_from_mesh();
         aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
         return;
     }

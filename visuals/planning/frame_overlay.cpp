@@ -15,7 +15,7 @@ scene::OverlayDraw FrameOverlay::draw(
         layers_.add(path_marks(camera, states.front().position_m));
     }
     if (settings_.view.kind == scene::View::Cockpit) {
-        const overlay::HeadUpInputs inputs = shown_inputs(states.front());
+        const overlay::InstrumentReadings inputs = shown_inputs(states.front());
         layers_.add(instruments_.draw(scene_.dials, inputs, camera, size_px));
         if (settings_.view.head_up_display) {
             layers_.add(head_up_display_.draw(inputs, camera, size_px));
@@ -37,8 +37,8 @@ FrameOverlay::path_marks(const scene::Camera& camera, const glm::dvec3& aircraft
     return marks_.finish();
 }
 
-overlay::HeadUpInputs FrameOverlay::shown_inputs(const sim::AircraftState& state) const {
-    overlay::HeadUpInputs inputs{state, state.position_m.z, {}};
+overlay::InstrumentReadings FrameOverlay::shown_inputs(const sim::AircraftState& state) const {
+    overlay::InstrumentReadings inputs{state, state.position_m.z, {}};
     if (const auto ground_m = scene_.ground->height_at(state.position_m.x, state.position_m.y)) {
         inputs.height_above_ground_m = state.position_m.z - *ground_m;
     }

@@ -3,7 +3,7 @@
 #include "visuals/overlay/head_up_display.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/overlay/overlay_layers.h"
-#include "visuals/overlay/path_marks.h"
+#include "visuals/overlay/path_annotations.h"
 #include "visuals/overlay/picture_text.h"
 #include "visuals/planning/fleet.h"
 #include "visuals/planning/scene.h"
@@ -36,13 +36,13 @@ public:
 
 private:
     scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m);
-    overlay::HeadUpInputs shown_inputs(const sim::AircraftState& state) const;
+    overlay::InstrumentReadings shown_inputs(const sim::AircraftState& state) const;
 
     const Scene& scene_;
     const scene::Settings& settings_;
     overlay::InstrumentPanel instruments_;
     overlay::HeadUpDisplay head_up_display_;
-    overlay::PathMarks marks_;
+    overlay::PathAnnotations marks_;
     overlay::PictureText text_;
     overlay::OverlayLayers layers_;
 };

@@ -24,7 +24,7 @@ FrameVeils::FrameVeils(
     if (settings.air.clouds > 0.0) {
         clouds_.emplace(settings.air.clouds);
         cloud_height_m_ = height_of_clouds_m(*scene.ground, settings.air);
-        light_by(day);
+        set_daylight(day);
     }
     if (settings.view.path_ribbon && scene.path) {
         ribbon_.emplace(*scene.path);
@@ -37,9 +37,9 @@ FrameVeils::FrameVeils(
     effect_ranges_.resize(effects_.size());
 }
 
-void FrameVeils::light_by(const nature::Daylight& day) {
+void FrameVeils::set_daylight(const nature::Daylight& day) {
     if (clouds_) {
-        clouds_->light_by(day);
+        clouds_->set_daylight(day);
     }
 }
 

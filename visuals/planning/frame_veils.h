@@ -27,7 +27,7 @@ public:
     FrameVeils(const Scene& scene, const scene::Settings& settings, const nature::Daylight& day);
 
     /// Lights the clouds by another daylight.
-    void light_by(const nature::Daylight& day);
+    void set_daylight(const nature::Daylight& day);
 
     /// The effects of Scene::aircraft; none at all where the settings want none.
     std::span<const AircraftEffects> effects() const { return effects_; }

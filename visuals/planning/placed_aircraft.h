@@ -58,7 +58,7 @@ inline bool is_far(const PlacedAircraft& aircraft) {
 /// Whether an aircraft is drawn as a mesh, which has no painting order: its hidden surfaces are
 /// removed by depth.
 inline bool is_mesh(const PlacedAircraft& aircraft) {
-    return aircraft.representation < aircraft.model->as_polygons();
+    return aircraft.representation < aircraft.model->polygons_from_mesh();
 }
 
 /// Whether that mesh is one that is refined in each frame.

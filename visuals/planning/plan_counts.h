@@ -21,10 +21,10 @@ struct PlanCounts {
     /// on it.
     int painted_triangles = 0;
     /// Triangles in view of clouds and all else that is seen through.
-    int veil_triangles = 0;
+    int transparent_triangles = 0;
     /// Polygons of whole models and triangles of refined meshes, and those of them that are lit
     /// smoothly.
-    int may_be_smooth = 0;
+    int smoothable_polygons = 0;
     int smooth_polygons = 0;
     /// The representation of the first aircraft, 0 = the finest.
     int aircraft_level = 0;

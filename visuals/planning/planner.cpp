@@ -34,7 +34,7 @@ Planner::Planner(
     , veils_(scene, settings, air_.daylight())
     , overlay_(scene, settings)
     , painter_(plan_) {
-    runway_.light_by(air_.daylight());
+    runway_.set_daylight(air_.daylight());
     follow_roads();
     plan_.background = settings.air.background;
     plan_.mesh_look = settings.ground.show_mesh;
@@ -53,7 +53,7 @@ void Planner::follow_roads() {
     }
 }
 
-landscape::GroundRequest
+landscape::MeshRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
     const int asked = asked_triangles(triangle_target);
     const FrameView view = view_of(camera);
@@ -69,28 +69,28 @@ int Planner::asked_triangles(std::optional<int> triangle_target) const {
     return triangle_target.value_or(scene::triangle_target(settings_));
 }
 
-void Planner::settle(const scene::Camera& camera) {
-    mesher_->settle(ground_request(camera, std::nullopt));
+void Planner::reset_detail(const scene::Camera& camera) {
+    mesher_->reset_detail(ground_request(camera, std::nullopt));
 }
 
-void Planner::prepare(
+void Planner::begin_next_mesh(
     const scene::Camera& camera,
     std::optional<int> triangle_target,
-    const landscape::Beside& beside) {
-    mesher_->prepare(ground_request(camera, triangle_target), beside);
+    const landscape::IdleThreadRunner& on_idle_thread) {
+    mesher_->begin_next_mesh(ground_request(camera, triangle_target), on_idle_thread);
 }
 
-bool Planner::relight() {
+bool Planner::set_sun() {
     const landscape::GroundMesher* const before = mesher_.get();
-    mesher_ = landscape::mesher_after(
+    mesher_ = landscape::reuse_or_make_mesher(
         std::move(mesher_),
         *scene_.ground,
         landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
-    air_.relight();
+    air_.set_sun();
     shadows_ = ShadowCaster(air_.to_sun());
-    runway_.light_by(air_.daylight());
+    runway_.set_daylight(air_.daylight());
     follow_roads();
-    veils_.light_by(air_.daylight());
+    veils_.set_daylight(air_.daylight());
     return mesher_.get() == before;
 }
 
@@ -120,7 +120,7 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     return {plan_, counts};
 }
 
-void Planner::pass_over(const PlanRequest& request) {
+void Planner::advance_without_drawing(const PlanRequest& request) {
     place_aircraft(request, view_of(request.camera));
     choose_smooth(request.smooth);
 }
@@ -175,12 +175,12 @@ void Planner::paint_ground(
     const GroundFrame& ground,
     PlanCounts& counts) {
     const int asked = asked_triangles(request.triangle_target);
-    const bool nearest_first =
+    const bool is_front_to_back =
         settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
     const glm::dvec3& eye_m = view.camera.eye_m;
     cutter_.begin(ground.all, view);
-    runway_.paint(*mesher_, view, nearest_first, runway_.max_triangles(eye_m, asked), cutter_);
-    roads_.paint(*mesher_, view, nearest_first, roads_.max_triangles(view, asked), cutter_);
+    runway_.paint(*mesher_, view, is_front_to_back, runway_.max_triangles(eye_m, asked), cutter_);
+    roads_.paint(*mesher_, view, is_front_to_back, roads_.max_triangles(view, asked), cutter_);
     shadows_.lay(cutter_.paints());
     counts.painted_triangles = cutter_.triangles();
     counts.ground.triangles += counts.painted_triangles;
@@ -211,9 +211,9 @@ void Planner::count(const SmoothChoice::Count& shaded, PlanCounts& counts) const
     }
     counts.refine_splits = fleet_.splits();
     counts.refine_collapses = fleet_.collapses();
-    counts.may_be_smooth = shaded.polygons;
+    counts.smoothable_polygons = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
-    counts.veil_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
+    counts.transparent_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
 }
 
 } // namespace octant::visuals::planning

@@ -71,20 +71,20 @@ public:
     ~Planner() = default;
 
     /// Sets the detail of the ground for the camera of the first frame. Loading work.
-    void settle(const scene::Camera& camera);
+    void reset_detail(const scene::Camera& camera);
 
     /// Goes on under the sun of the settings and over the ground of the scene where these have
     /// become others: the same heights in other colours. Nothing may be prepared then. Returns
-    /// false where the detail of the ground begins anew: settle() again.
-    bool relight();
+    /// false where the detail of the ground begins anew: reset_detail() again.
+    bool set_sun();
 
     /// Begins the work on the ground of the next plan() beside the caller, for the camera and the
     /// triangle target that it will be given; the last plan stays valid. May be left out: changes
     /// no plan.
-    void prepare(
+    void begin_next_mesh(
         const scene::Camera& camera,
         std::optional<int> triangle_target = std::nullopt,
-        const landscape::Beside& beside = nullptr);
+        const landscape::IdleThreadRunner& on_idle_thread = nullptr);
 
     /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made
     /// when it is asked for.
@@ -98,7 +98,7 @@ public:
     /// stand-ins of far aircraft, refined meshes and smooth polygons are then what the next plan
     /// goes on from. Leaves out the ground, whose detail goes on from plan to plan only where
     /// earlier counts control it.
-    void pass_over(const PlanRequest& request);
+    void advance_without_drawing(const PlanRequest& request);
 
     /// The mesher of the ground, for the planner that follows this one in the same view. Nothing
     /// may be planned after it.
@@ -106,7 +106,7 @@ public:
 
 private:
     FrameView view_of(const scene::Camera& camera) const;
-    landscape::GroundRequest
+    landscape::MeshRequest
     ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_aircraft(const PlanRequest& request, const FrameView& view);
     SmoothChoice::Count choose_smooth(const SmoothWish& wish);

@@ -50,13 +50,13 @@ RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& vi
     const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
     refine::RefineView in_body;
     in_body.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
-    in_body.ahead = ahead_of(view.camera) * turn;
+    in_body.forward = ahead_of(view.camera) * turn;
     for (std::size_t i = 0; i < view.frustum.size(); ++i) {
         in_body.side_normals[i] = view.frustum[i] * turn;
     }
     in_body.focal_px = 1.0 / view.pixel_rad;
     if (first) {
-        refiner_.settle(in_body);
+        refiner_.refine_fully(in_body);
     }
     const refine::RefinedFrame frame = refiner_.update(in_body);
     const bool changed = first || frame.splits + frame.collapses > 0;
@@ -86,7 +86,7 @@ void RefinedAircraft::follow_front() {
     slot_count_ = front.vertices().size();
     vertices_.resize(slot_count_);
     points_.resize(slot_count_);
-    for (const refine::PlaceRange& range : ranges_) {
+    for (const refine::SlotRange& range : ranges_) {
         for (std::size_t slot = range.first; slot < range.end; ++slot) {
             const scene::ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
             vertices_[slot] = vertex;
@@ -100,7 +100,7 @@ void RefinedAircraft::follow_labels() {
     refine::SelectiveRefiner& front = refiner_.front();
     front.take_dirty_faces(ranges_);
     labels_.resize(front.indices().size() / 3);
-    for (const refine::PlaceRange& range : ranges_) {
+    for (const refine::SlotRange& range : ranges_) {
         for (std::size_t place = range.first; place < range.end; ++place) {
             labels_[place] = front.face_at(place);
         }
@@ -125,7 +125,7 @@ void RefinedAircraft::shade(
         follow_front();
         follow_labels();
     }
-    const shading::ChangingMesh mesh{
+    const shading::DynamicMesh mesh{
         .points = points_,
         .indices = refiner_.front().indices(),
         .labels = labels_,

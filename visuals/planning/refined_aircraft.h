@@ -4,7 +4,7 @@
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
-#include "visuals/shading/changing_mesh_shading.h"
+#include "visuals/shading/dynamic_mesh_shading.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -50,7 +50,7 @@ private:
     void write_flat(std::span<const std::uint32_t> corners);
 
     refine::ViewRefiner refiner_;
-    shading::ChangingMeshSelector selector_;
+    shading::DynamicMeshSelector selector_;
     bool shows_levels_;
     /// Whether some triangles are smooth and some are not.
     bool choosing_ = false;
@@ -64,11 +64,11 @@ private:
     std::size_t slot_count_ = 0;
     std::vector<scene::ModelVertex> vertices_;
     /// One for each slot.
-    std::vector<shading::LitPoint> points_;
+    std::vector<shading::ShadingPoint> points_;
     /// One for each place of the front's indices.
     std::vector<std::uint32_t> labels_;
     std::vector<std::uint32_t> indices_;
-    std::vector<refine::PlaceRange> ranges_;
+    std::vector<refine::SlotRange> ranges_;
 };
 
 } // namespace octant::visuals::planning

@@ -22,7 +22,7 @@ constexpr double level_error_px = 0.25;
 constexpr double farthest_road_m = 40000.0; ///< roads beyond it are never painted
 constexpr int max_road_triangles = 1200;
 constexpr double max_road_share = 0.06; ///< of the triangles that are aimed at
-constexpr std::span<const roads::RoadPiece> no_pieces;
+constexpr std::span<const roads::RoadSection> no_pieces;
 
 /// A unit vector upwards from the ground.
 glm::vec3 normal_of(const landscape::Ground& ground, const glm::dvec2& at_m) {
@@ -39,7 +39,7 @@ glm::vec3 normal_of(const landscape::Ground& ground, const glm::dvec2& at_m) {
 
 glm::vec3
 light_at(const landscape::Ground& ground, const nature::Daylight& day, const glm::dvec2& at_m) {
-    const nature::LightLeft left = ground.light_left(at_m.x, at_m.y);
+    const nature::LightVisibility left = ground.light_visibility(at_m.x, at_m.y);
     const float towards =
         std::max(glm::dot(normal_of(ground, at_m), glm::vec3(day.to_sun())), 0.0F);
     return day.ambient() * left.sky + day.sunlight() * (towards * left.sun);
@@ -50,7 +50,7 @@ PaintCutter::Patch
 patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dvec2& eye_m) {
     const glm::dvec2 from_m = from.at_m - eye_m;
     const glm::dvec2 to_m = to.at_m - eye_m;
-    return {from_m - from.left_m, to_m - to.left_m, to_m + to.left_m, from_m + from.left_m};
+    return {from_m - from.to_left_edge_m, to_m - to.to_left_edge_m, to_m + to.to_left_edge_m, from_m + from.to_left_edge_m};
 }
 
 /// From farther off a road looks too narrow.
@@ -78,7 +78,7 @@ void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight
     pieces_.clear();
     std::size_t stretches = 0;
     lowest_m_ = std::numeric_limits<double>::infinity();
-    for (const roads::RoadPiece& piece : network_ ? network_->pieces() : no_pieces) {
+    for (const roads::RoadSection& piece : network_ ? network_->sections() : no_pieces) {
         Piece& own = pieces_.emplace_back();
         const glm::dvec2 middle_m = 0.5 * (piece.min_m + piece.max_m);
         own.middle_m = glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
@@ -98,7 +98,7 @@ int RoadPainter::max_triangles(const FrameView& view, int triangle_target) const
     const double reach_m = reach_of(view);
     const glm::dvec2 at_m(view.camera.eye_m);
     const double over_m = view.camera.eye_m.z - lowest_m_;
-    if (!network_ || over_m >= reach_m || !network_->may_meet(at_m - reach_m, at_m + reach_m)) {
+    if (!network_ || over_m >= reach_m || !network_->may_intersect(at_m - reach_m, at_m + reach_m)) {
         return 0;
     }
     if (triangle_target >= scene::unlimited_triangles) {
@@ -111,7 +111,7 @@ int RoadPainter::max_triangles(const FrameView& view, int triangle_target) const
 void RoadPainter::paint(
     const landscape::GroundMesher& ground,
     const FrameView& view,
-    bool nearest_first,
+    bool is_front_to_back,
     int most,
     PaintCutter& cutter) {
     if (most <= 0) {
@@ -129,10 +129,10 @@ void RoadPainter::paint(
             const glm::dvec2 first_m = glm::max(glm::dvec2(min_m), from_m);
             const glm::dvec2 last_m = glm::min(glm::dvec2(max_m), to_m);
             return first_m.x <= last_m.x && first_m.y <= last_m.y &&
-                   network_->may_meet(first_m, last_m);
+                   network_->may_intersect(first_m, last_m);
         },
         candidates_);
-    if (!nearest_first) {
+    if (!is_front_to_back) {
         std::ranges::reverse(candidates_);
     }
     const int limit = cutter.triangles() + most - PaintCutter::max_triangles;
@@ -150,12 +150,12 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
     const glm::dvec2 min_m = glm::min(glm::min(a, b), c);
     const glm::dvec2 max_m = glm::max(glm::max(a, b), c);
     const glm::dvec2 eye_m(view.camera.eye_m);
-    if (!network_->may_meet(min_m + eye_m, max_m + eye_m) || !cutter.is_seen() ||
+    if (!network_->may_intersect(min_m + eye_m, max_m + eye_m) || !cutter.is_seen() ||
         cutter.is_thing()) {
         return;
     }
     numbers_.clear();
-    network_->pieces_by(min_m + eye_m, max_m + eye_m, numbers_);
+    network_->sections_in_box(min_m + eye_m, max_m + eye_m, numbers_);
     std::ranges::sort(numbers_);
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
     const glm::vec3 ground = cutter.colour();
@@ -180,7 +180,7 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
 }
 
 void RoadPainter::light(std::uint32_t number, std::size_t level) {
-    const std::vector<roads::RoadPoint>& points = network_->pieces()[number].levels[level];
+    const std::vector<roads::RoadPoint>& points = network_->sections()[number].levels[level];
     for (std::size_t i = 1; i < points.size(); ++i) {
         lights_[pieces_[number].first_light[level] + i - 1] =
             light_at(*ground_, *day_, 0.5 * (points[i - 1].at_m + points[i].at_m));
@@ -194,7 +194,7 @@ void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
     const double nearest_m =
         std::max(glm::distance(piece.middle_m, view.camera.eye_m) - piece.radius_m, 1.0);
     const std::size_t level = level_from(nearest_m, view.pixel_rad);
-    const std::vector<roads::RoadPoint>& points = network_->pieces()[number].levels[level];
+    const std::vector<roads::RoadPoint>& points = network_->sections()[number].levels[level];
     if (!piece.is_lit[level]) {
         light(number, level);
     }

@@ -36,7 +36,7 @@ public:
     void paint(
         const landscape::GroundMesher& ground,
         const FrameView& view,
-        bool nearest_first,
+        bool is_front_to_back,
         int most,
         PaintCutter& cutter);
 

@@ -26,13 +26,13 @@ constexpr double near_m = 700.0;   ///< up to here all that is usual is kept for
 RunwayPainter::RunwayPainter(std::shared_ptr<const models::heights::RunwayStrip> strip)
     : strip_(std::move(strip)) {
     if (strip_) {
-        patches_ = nature::runway_patches(strip_->length_m, strip_->width_m, strip_->heading_rad);
+        patches_ = nature::runway_rectangles(strip_->length_m, strip_->width_m, strip_->heading_rad);
         std::ranges::stable_sort(
-            patches_, {}, [](const nature::RunwayPatch& patch) { return patch.min_m.x; });
+            patches_, {}, [](const nature::RunwayRectangle& patch) { return patch.min_m.x; });
     }
 }
 
-void RunwayPainter::light_by(const nature::Daylight& day) {
+void RunwayPainter::set_daylight(const nature::Daylight& day) {
     light_ = day.ambient() + day.sunlight() * std::max(static_cast<float>(day.to_sun().z), 0.0F);
 }
 
@@ -50,7 +50,7 @@ int RunwayPainter::max_triangles(const glm::dvec3& eye_m, int triangle_target) c
 void RunwayPainter::paint(
     const landscape::GroundMesher& ground,
     const FrameView& view,
-    bool nearest_first,
+    bool is_front_to_back,
     int most,
     PaintCutter& cutter) {
     if (!strip_) {
@@ -63,7 +63,7 @@ void RunwayPainter::paint(
     }
     const auto meets_strip = [this](const glm::dvec3& min_m, const glm::dvec3& max_m) {
         const glm::dvec2 half_m(0.5 * (max_m - min_m));
-        const glm::dvec2 middle = strip_->on_strip(glm::dvec2(0.5 * (min_m + max_m)));
+        const glm::dvec2 middle = strip_->strip_from_world(glm::dvec2(0.5 * (min_m + max_m)));
         const double along_m = glm::dot(glm::abs(strip_->along()), half_m);
         const double left_m = glm::dot(glm::abs(strip_->left()), half_m);
         return middle.x + along_m >= 0.0 && middle.x - along_m <= strip_->length_m &&
@@ -71,7 +71,7 @@ void RunwayPainter::paint(
     };
     candidates_.clear();
     ground.triangles_in(meets_strip, candidates_);
-    if (!nearest_first) {
+    if (!is_front_to_back) {
         std::ranges::reverse(candidates_);
     }
     for (const std::uint32_t candidate : candidates_) {
@@ -85,7 +85,7 @@ void RunwayPainter::paint(
 /// A marking that looks narrow takes the colour of the surface, and so does not go in a step.
 void RunwayPainter::choose_patches(const FrameView& view) {
     seen_.clear();
-    for (const nature::RunwayPatch& patch : patches_) {
+    for (const nature::RunwayRectangle& patch : patches_) {
         const glm::dvec2 middle_m = strip_->place(0.5 * glm::dvec2(patch.min_m + patch.max_m));
         const double distance_m =
             glm::distance(glm::dvec3(middle_m, strip_->plane_m(middle_m)), view.camera.eye_m);
@@ -98,8 +98,8 @@ void RunwayPainter::choose_patches(const FrameView& view) {
         const auto own =
             static_cast<float>(std::clamp((seen_px - min_px) / (whole_px - min_px), 0.0, 1.0));
         const glm::vec3 colour = patch.is_painted
-                                     ? glm::mix(nature::runway_surface, nature::runway_paint, own)
-                                     : nature::runway_surface;
+                                     ? glm::mix(nature::runway_surface_colour, nature::runway_paint_colour, own)
+                                     : nature::runway_surface_colour;
         seen_.push_back(
             {glm::dvec2(patch.min_m),
              glm::dvec2(patch.max_m),
@@ -112,11 +112,11 @@ void RunwayPainter::choose_patches(const FrameView& view) {
 void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
     std::array<glm::dvec2, 3> corners = cutter.corners_m();
     for (glm::dvec2& corner : corners) {
-        corner = strip_->on_strip(corner + eye_m_);
+        corner = strip_->strip_from_world(corner + eye_m_);
     }
     const glm::dvec2 min_m = glm::min(glm::min(corners[0], corners[1]), corners[2]);
     const glm::dvec2 max_m = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-    const double first_m = min_m.x - static_cast<double>(nature::longest_patch_m);
+    const double first_m = min_m.x - static_cast<double>(nature::max_rectangle_length_m);
     const auto along_m = [](const Seen& patch) { return patch.min_m.x; };
     for (auto patch = std::ranges::lower_bound(seen_, first_m, {}, along_m);
          patch != seen_.end() && patch->min_m.x < max_m.x;

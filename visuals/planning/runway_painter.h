@@ -24,7 +24,7 @@ public:
     /// Null: there is no runway, and nothing is painted.
     explicit RunwayPainter(std::shared_ptr<const models::heights::RunwayStrip> strip);
 
-    void light_by(const nature::Daylight& day);
+    void set_daylight(const nature::Daylight& day);
 
     /// The most triangles that it takes, of so many that are aimed at: fewer from farther off.
     int max_triangles(const glm::dvec3& eye_m, int triangle_target) const;
@@ -34,7 +34,7 @@ public:
     void paint(
         const landscape::GroundMesher& ground,
         const FrameView& view,
-        bool nearest_first,
+        bool is_front_to_back,
         int most,
         PaintCutter& cutter);
 
@@ -52,7 +52,7 @@ private:
     PaintCutter::Patch on_plan(const Seen& patch) const;
 
     std::shared_ptr<const models::heights::RunwayStrip> strip_;
-    std::vector<nature::RunwayPatch> patches_;
+    std::vector<nature::RunwayRectangle> patches_;
     glm::vec3 light_{1.0F};
     std::vector<Seen> seen_;
     std::vector<std::uint32_t> candidates_;

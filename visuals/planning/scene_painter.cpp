@@ -256,9 +256,9 @@ void ScenePainter::paint(
     draw.tints = aircraft.tints;
     steps_.add(draw);
     if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
-        scene::AircraftDraw beside = draw_of(aircraft, turning.first_index, turning.index_count);
-        beside.first_smooth = frame.smooth.turning_word();
-        steps_.add(beside, scene::DepthUse::Nearest);
+        scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);
+        turning_draw.first_smooth = frame.smooth.turning_word();
+        steps_.add(turning_draw, scene::DepthUse::Nearest);
     }
 }
 

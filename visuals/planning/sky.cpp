@@ -73,7 +73,7 @@ glm::vec3 colour_below(const glm::dvec3& ray, const Plain& plain, const scene::H
     const glm::dvec3 level(ray.x, ray.y, 0.0);
     return distance_m ? seen_through(haze, *distance_m * ray, plain.colour)
                       : seen_through(
-                            {haze.colour, 1.0F, 0.0F, haze.to_sun_level, haze.sunward},
+                            {haze.colour, 1.0F, 0.0F, haze.horizontal_to_sun, haze.sunward},
                             beyond_m * level,
                             haze.colour);
 }
@@ -96,21 +96,21 @@ glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const
     const double depth = distance_m / static_cast<double>(haze.visibility_m) *
                          mean_density(place_m.z, static_cast<double>(haze.falloff_per_m));
     const double towards =
-        std::max(glm::dot(glm::dvec2(place_m), glm::dvec2(haze.to_sun_level)) / distance_m, 0.0);
+        std::max(glm::dot(glm::dvec2(place_m), glm::dvec2(haze.horizontal_to_sun)) / distance_m, 0.0);
     const glm::vec3 air =
         glm::mix(haze.colour, haze.sunward, static_cast<float>(towards * towards));
     return glm::mix(air, own, static_cast<float>(std::exp(-depth)));
 }
 
 Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
-    : first_azimuth_rad_(std::atan2(day.to_sun_level().x, day.to_sun_level().y))
+    : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y))
     , land_(std::move(land)) {
     add_dome(day);
     add_sun(day);
     sky_vertices_ = vertices_.size();
     sky_indices_ = indices_.size();
-    vertices_.resize(sky_vertices_ + land_.corners.size());
-    for (const nature::Backdrop::Corner& corner : land_.corners) {
+    vertices_.resize(sky_vertices_ + land_.vertices.size());
+    for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         land_half_m_ = glm::max(land_half_m_, glm::abs(glm::dvec2(corner.at_m)));
     }
     for (const std::uint32_t corner : land_.indices) {
@@ -120,10 +120,10 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
 
 /// Triangles between two rings of vertices, counter-clockwise seen from the inside of the dome
 /// where corners go clockwise seen from above.
-void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners) {
-    for (int corner = 0; corner < corners; ++corner) {
+void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int vertices) {
+    for (int corner = 0; corner < vertices; ++corner) {
         const auto here = static_cast<std::uint32_t>(corner);
-        const auto next = static_cast<std::uint32_t>((corner + 1) % corners);
+        const auto next = static_cast<std::uint32_t>((corner + 1) % vertices);
         indices_.insert(indices_.end(), {upper + here, lower + next, lower + here});
         indices_.insert(indices_.end(), {upper + here, upper + next, lower + next});
     }
@@ -192,22 +192,22 @@ void Sky::add_sun(const nature::Daylight& day) {
 
 void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     auto* vertex = &vertices_[sky_vertices_];
-    for (const nature::Backdrop::Corner& corner : land_.corners) {
+    for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         glm::dvec3 at_m = corner.at_m - eye_m;
         if (plain.earth_radius_m > 0.0) {
             at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * plain.earth_radius_m);
         }
-        const auto covers = static_cast<std::uint32_t>(std::lround(corner.covers));
+        const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
         const std::uint32_t colour =
             models::packed_colour(seen_through(haze, at_m, corner.colour)) & 0x00ffffffU;
-        *vertex++ = {glm::vec3(at_m), colour | covers << 24U};
+        *vertex++ = {glm::vec3(at_m), colour | cover_code << 24U};
     }
 }
 
 scene::TriangleDraw
 Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     const double deepest = deepest_rad(plain);
-    const bool has_land = !land_.corners.empty() && plain.height_below_eye_m > 0.0;
+    const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
     Plain beyond = plain;
     if (has_land) {
         const glm::dvec2 to_rim_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));

@@ -47,7 +47,7 @@ bool chooses_by(const scene::ShadingSettings& settings, bool follows_clock) {
 
 /// The light of the sun on an aircraft, in its body axes.
 shading::ShadingLight
-light_on(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
+illumination(const PlacedAircraft& aircraft, const glm::dvec3& to_sun, const glm::vec2& light) {
     shading::ShadingLight sun;
     sun.to_light = glm::vec3(to_sun * glm::dmat3(aircraft.parts[0]));
     sun.ambient = light.x;
@@ -155,7 +155,7 @@ SmoothChoice::Count SmoothChoice::choose(
     Count count{wanted_of(placed, wish), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
         int given = settings_.kind == scene::AircraftShading::Flat ? 0 : shares_[i].polygons;
-        const shading::ShadingLight sun = light_on(placed[i], to_sun, light);
+        const shading::ShadingLight sun = illumination(placed[i], to_sun, light);
         const glm::dvec3 eye_m =
             -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
         if (chooses_) {

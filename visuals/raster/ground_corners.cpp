@@ -98,7 +98,7 @@ struct Haze {
         const auto depth = hn::Mul(hn::Mul(distance_m, set(light.per_m)), density);
         share = hn::Sub(set(1.0F), exp_of_minus_each(depth));
         const auto level_m = hn::Add(
-            hn::Mul(at.x, set(light.to_sun_level.x)), hn::Mul(at.y, set(light.to_sun_level.y)));
+            hn::Mul(at.x, set(light.horizontal_to_sun.x)), hn::Mul(at.y, set(light.horizontal_to_sun.y)));
         const auto towards =
             hn::Max(hn::Div(level_m, hn::Max(distance_m, set(1e-6F))), hn::Zero(reals));
         const auto sunward = hn::Mul(towards, towards);

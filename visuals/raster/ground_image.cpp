@@ -1,6 +1,6 @@
 #include "visuals/raster/ground_image.h"
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -27,7 +27,7 @@ std::uint8_t byte_of(float share) {
 glm::vec3 haze_ahead(const scene::FramePlan& plan) {
     const glm::vec3 ahead(
         -plan.world_to_view[0].z, -plan.world_to_view[1].z, -plan.world_to_view[2].z);
-    const float towards = std::max(glm::dot(glm::vec2(ahead), plan.haze.to_sun_level), 0.0F);
+    const float towards = std::max(glm::dot(glm::vec2(ahead), plan.haze.horizontal_to_sun), 0.0F);
     return glm::mix(plan.haze.colour, plan.haze.sunward, towards * towards);
 }
 
@@ -53,7 +53,7 @@ Renderer::Renderer(
     resize(size_px, samples);
 }
 
-std::unique_ptr<scene::Renderer> Renderer::beside(const glm::ivec2& size_px, int samples) const {
+std::unique_ptr<scene::Renderer> Renderer::sibling(const glm::ivec2& size_px, int samples) const {
     return std::make_unique<Renderer>(workers_, size_px, samples);
 }
 

@@ -40,7 +40,7 @@ public:
 
     const scene::RendererInfo& info() const override { return info_; }
 
-    std::unique_ptr<scene::Renderer> beside(const glm::ivec2& size_px, int samples) const override;
+    std::unique_ptr<scene::Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const scene::ModelBuffers> models) override;
     void load_ground_texture(const scene::GroundTexture& texture) override;

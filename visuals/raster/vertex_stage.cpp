@@ -39,7 +39,7 @@ Air air_before(const glm::vec3& place_m, const Light& light) {
         const float left = exp_of_minus(std::min(size, max_haze_fall));
         density = (1.0F - left) / (fallen > 0.0F ? size : size * left);
     }
-    const float level_m = place_m.x * light.to_sun_level.x + place_m.y * light.to_sun_level.y;
+    const float level_m = place_m.x * light.horizontal_to_sun.x + place_m.y * light.horizontal_to_sun.y;
     const float towards = std::max(level_m / std::max(distance_m, 1e-6F), 0.0F);
     return {
         glm::mix(light.haze, light.sunward, towards * towards) * max_level,
@@ -81,7 +81,7 @@ Light light_of(const scene::FramePlan& plan) {
         plan.haze.colour,
         visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F,
         plan.haze.falloff_per_m,
-        plan.haze.to_sun_level,
+        plan.haze.horizontal_to_sun,
         plan.haze.sunward};
 }
 

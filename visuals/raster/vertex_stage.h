@@ -20,7 +20,7 @@ struct Light {
     glm::vec3 haze{0.0F}; ///< display values 0..1
     float per_m = 0.0F;   ///< one over the visibility; 0: no haze
     float falloff_per_m = 0.0F;
-    glm::vec2 to_sun_level{0.0F};
+    glm::vec2 horizontal_to_sun{0.0F};
     glm::vec3 sunward{0.0F}; ///< display values 0..1
 };
 

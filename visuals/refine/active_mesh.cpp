@@ -26,7 +26,7 @@ void add_triangles(
     const SelectiveRefiner& refiner,
     const std::vector<std::uint32_t>& vertices,
     models::TriangleMesh& mesh) {
-    const ProgressiveParts& parts = refiner.mesh().parts();
+    const ProgressiveMeshData& parts = refiner.mesh().parts();
     std::vector<std::uint32_t> places;
     for (std::uint32_t place = 0; 3 * std::size_t{place} < refiner.indices().size(); ++place) {
         if (refiner.face_at(place) != none) {
@@ -50,7 +50,7 @@ void add_triangles(
 
 ActiveMesh active_mesh(const SelectiveRefiner& refiner) {
     const ProgressiveMesh& hierarchy = refiner.mesh();
-    const ProgressiveParts& parts = hierarchy.parts();
+    const ProgressiveMeshData& parts = hierarchy.parts();
     ActiveMesh active;
     active.mesh.name = parts.name;
     active.mesh.materials = parts.materials;

@@ -7,11 +7,11 @@
 namespace octant::visuals::refine {
 
 /// A half-open range [first, end) of indices into an array.
-struct PlaceRange {
+struct SlotRange {
     std::size_t first = 0;
     std::size_t end = 0;
 
-    bool operator==(const PlaceRange&) const = default;
+    bool operator==(const SlotRange&) const = default;
 };
 
 /// Remembers which blocks of an array were written since take() was last called, so that only these
@@ -36,7 +36,7 @@ public:
 
     /// Puts the maximal runs of marked blocks into `ranges`, ascending and cut off at `size`
     /// places, and clears all marks.
-    void take(std::size_t size, std::vector<PlaceRange>& ranges) {
+    void take(std::size_t size, std::vector<SlotRange>& ranges) {
         ranges.clear();
         for (std::size_t block = 0; block < marks_.size(); ++block) {
             if (marks_[block] == 0) {

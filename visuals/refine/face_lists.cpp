@@ -7,10 +7,10 @@
 
 namespace octant::visuals::refine {
 
-FaceLists::FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most)
-    : vertices_at_max_(vertices_at_most)
-    , faces_at_max_(faces_at_most) {
-    assert(3 * faces_at_most < no_corner);
+FaceLists::FaceLists(std::size_t vertex_capacity, std::size_t face_capacity)
+    : vertices_at_max_(vertex_capacity)
+    , faces_at_max_(face_capacity) {
+    assert(3 * face_capacity < no_corner);
 }
 
 void FaceLists::clear() {
@@ -24,7 +24,7 @@ void FaceLists::clear() {
 
 std::uint32_t FaceLists::add_vertex() {
     if (free_vertices_ == no_corner) {
-        make_room(vertices_, vertices_.size() + 1, vertices_at_max_);
+        reserve_up_to(vertices_, vertices_.size() + 1, vertices_at_max_);
         vertices_.emplace_back();
         return static_cast<std::uint32_t>(vertices_.size() - 1);
     }
@@ -54,8 +54,8 @@ std::uint32_t FaceLists::add(const std::array<std::uint32_t, 3>& vertices, std::
         free_ = links_[corner].next;
     } else {
         corner = static_cast<std::uint32_t>(links_.size());
-        make_room(links_, links_.size() + 3, 3 * faces_at_max_);
-        make_room(indices_, indices_.size() + 3, 3 * faces_at_max_);
+        reserve_up_to(links_, links_.size() + 3, 3 * faces_at_max_);
+        reserve_up_to(indices_, indices_.size() + 3, 3 * faces_at_max_);
         links_.resize(links_.size() + 3);
         indices_.resize(indices_.size() + 3);
     }

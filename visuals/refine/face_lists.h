@@ -14,7 +14,7 @@ namespace octant::visuals::refine {
 /// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling,
 /// and never beyond `most` items, to keep memory small.
 template <class Item>
-void make_room(std::vector<Item>& items, std::size_t count, std::size_t most) {
+void reserve_up_to(std::vector<Item>& items, std::size_t count, std::size_t most) {
     if (count > items.capacity()) {
         items.reserve(std::max(count, std::min(count + count / 4, most)));
     }
@@ -31,9 +31,9 @@ class FaceLists {
 public:
     static constexpr std::uint32_t none = models::none;
 
-    /// `vertices_at_most` and `faces_at_most` limit how many there may be at a time. Corner numbers
+    /// `vertex_capacity` and `face_capacity` limit how many there may be at a time. Corner numbers
     /// and face labels must stay below 2^24 - 1 (asserted).
-    FaceLists(std::size_t vertices_at_most, std::size_t faces_at_most);
+    FaceLists(std::size_t vertex_capacity, std::size_t face_capacity);
 
     /// Removes all vertices and faces but keeps the memory.
     void clear();
@@ -70,7 +70,7 @@ public:
 
     /// Calls use(corner) for each corner at a vertex.
     template <class Use>
-    void each_corner(std::uint32_t vertex, const Use& use) const {
+    void for_each_corner(std::uint32_t vertex, const Use& use) const {
         for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
             use(c);
         }
@@ -107,7 +107,7 @@ public:
     }
 
     /// The previous corner of the same face, counter-clockwise.
-    static std::uint32_t before_in_face(std::uint32_t corner) {
+    static std::uint32_t previous_in_face(std::uint32_t corner) {
         return corner % 3 == 0 ? corner + 2 : corner - 1;
     }
 
@@ -121,7 +121,7 @@ public:
     }
 
     /// How many face numbers are in use, those of removed faces included.
-    std::size_t place_count() const { return links_.size() / 3; }
+    std::size_t face_slot_count() const { return links_.size() / 3; }
 
     std::size_t face_count() const { return face_count_; }
 

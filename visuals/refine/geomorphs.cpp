@@ -40,7 +40,7 @@ RefinedVertex mixed(const RefinedVertex& from, const RefinedVertex& to, double s
 /// middle.
 double step_m(const glm::dvec3& from_eye_m, const RefineView& view, double step_px) {
     const double distance_m = std::max(glm::length(from_eye_m), view.near_m);
-    const double depth_m = std::max(glm::dot(from_eye_m, view.ahead), 0.5 * distance_m);
+    const double depth_m = std::max(glm::dot(from_eye_m, view.forward), 0.5 * distance_m);
     return step_px * depth_m * depth_m / (view.focal_px * distance_m);
 }
 
@@ -80,7 +80,7 @@ RefinedVertex Geomorphs::drawn(const SelectiveRefiner& refiner, const Move& move
 }
 
 void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node) {
-    const Split split = refiner.mesh().split_of(split_node);
+    const VertexSplit split = refiner.mesh().split_of(split_node);
     const std::uint32_t first = refiner.slot_below(split.first);
     const Move* known = find(first);
     const RefinedVertex from =
@@ -89,7 +89,7 @@ void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node)
     add({refiner.slot_below(split.second), split.second, from, 0.0});
 }
 
-void Geomorphs::send(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target) {
+void Geomorphs::retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target) {
     const Move* known = find(slot);
     if (known != nullptr && known->target == target) {
         return;
@@ -123,7 +123,7 @@ std::size_t Geomorphs::move(SelectiveRefiner& refiner, const RefineView& view) {
             move.share = std::min(1.0, move.share + step);
             ++moved;
         }
-        refiner.draw_at(move.slot, drawn(refiner, move));
+        refiner.set_drawn_vertex(move.slot, drawn(refiner, move));
         if (move.share >= 1.0 && move.target == refiner.node_at(move.slot)) {
             forget(move.slot);
         }

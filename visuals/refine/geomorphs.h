@@ -31,7 +31,7 @@ public:
 
     /// Sends the vertex of an active node to the position of node `target`, which is the node
     /// itself or its parent.
-    void send(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target);
+    void retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target);
 
     /// The node to whose position a slot's vertex travels; `none` when it rests at its own node.
     std::uint32_t target(std::uint32_t slot) const;

@@ -57,7 +57,7 @@ struct PackedColour {
 };
 
 /// Packs a colour; parts outside 0 to 1 are clamped.
-inline PackedColour packed_parts(const glm::vec3& colour) {
+inline PackedColour packed_rgb16(const glm::vec3& colour) {
     const auto part = [](float value) {
         return static_cast<std::uint16_t>(std::lround(glm::clamp(value, 0.0F, 1.0F) * 65535.0F));
     };
@@ -69,7 +69,7 @@ inline glm::vec3 unpacked(const PackedColour& colour) {
 }
 
 /// The colour as the renderer takes it, 8 bits a part: the same rounding as models::packed_colour.
-inline std::uint32_t drawn_colour(const PackedColour& colour) {
+inline std::uint32_t packed_rgba8(const PackedColour& colour) {
     const auto byte = [](std::uint32_t part) { return (part * 255U + 32767U) / 65535U; };
     return byte(colour.red) | byte(colour.green) << 8U | byte(colour.blue) << 16U | 0xff000000U;
 }

@@ -50,7 +50,7 @@ glm::vec3 colour_of(const ActiveMesh& active, std::size_t vertex, ColourBy by) {
 
 } // namespace
 
-models::TriangleMesh coloured_active(ActiveMesh active, ColourBy by) {
+models::TriangleMesh coloured_mesh(ActiveMesh active, ColourBy by) {
     if (by != ColourBy::Nothing) {
         active.mesh.colours.resize(active.nodes.size());
         for (std::size_t vertex = 0; vertex < active.nodes.size(); ++vertex) {
@@ -62,7 +62,7 @@ models::TriangleMesh coloured_active(ActiveMesh active, ColourBy by) {
 
 models::TriangleMesh partition_mesh(const SelectiveRefiner& refiner, ColourBy by) {
     const ProgressiveMesh& hierarchy = refiner.mesh();
-    const ProgressiveParts& parts = hierarchy.parts();
+    const ProgressiveMeshData& parts = hierarchy.parts();
     const ActiveMesh active = active_mesh(refiner);
     models::TriangleMesh mesh;
     mesh.name = parts.name;

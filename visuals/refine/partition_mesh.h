@@ -14,7 +14,7 @@ enum class ColourBy {
 };
 
 /// The active mesh with coloured vertices.
-models::TriangleMesh coloured_active(ActiveMesh active, ColourBy by);
+models::TriangleMesh coloured_mesh(ActiveMesh active, ColourBy by);
 
 /// The original mesh, vertices and faces numbered as in its file, where each vertex has the colour
 /// of its active ancestor. This shows the paper's partition of the original into the regions S(v),

@@ -52,7 +52,7 @@ void ProgressiveMesh::bound_leaves() {
         const bool flat = normal_of_face == glm::vec3(0.0F);
         const Triangle& corners = parts_.faces[face];
         for (const std::uint32_t leaf : corners) {
-            NodeShape& here = shape(leaf);
+            NodeGeometry& here = shape(leaf);
             for (const std::uint32_t other : corners) {
                 here.radius_m = std::max(
                     here.radius_m, rounding * glm::distance(here.position_m, position_m(other)));
@@ -66,8 +66,8 @@ void ProgressiveMesh::bound_leaves() {
 /// Bounds each inner node by the spheres and cones of its children, from the finest nodes up.
 void ProgressiveMesh::bound_nodes() {
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
-        const Split split = split_of(node);
-        NodeShape& here = shape(node);
+        const VertexSplit split = split_of(node);
+        NodeGeometry& here = shape(node);
         float cone = 0.0F;
         for (const std::uint32_t child : {split.first, split.second}) {
             const float away_m = glm::distance(here.position_m, position_m(child));

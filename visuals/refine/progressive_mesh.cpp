@@ -11,7 +11,7 @@
 #include "visuals/refine/progressive_mesh.h"
 
 #include "sim/base/error.h"
-#include "visuals/refine/sequence_parts.h"
+#include "visuals/refine/sequence_mesh_data.h"
 
 #include <algorithm>
 #include <cassert>
@@ -41,7 +41,7 @@ std::size_t bytes_of(const std::vector<Item>& items) {
 
 } // namespace
 
-ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
+ProgressiveMesh::ProgressiveMesh(ProgressiveMeshData parts)
     : parts_(std::move(parts)) {
     assert(parts_.positions_m.size() == leaf_count() + parts_.splits.size());
     assert(parts_.normals.size() == parts_.positions_m.size());
@@ -63,7 +63,7 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveParts parts)
 }
 
 ProgressiveMesh::ProgressiveMesh(const models::CollapseSequence& sequence)
-    : ProgressiveMesh(parts_of(sequence)) {}
+    : ProgressiveMesh(mesh_data_of(sequence)) {}
 
 /// Sorts the faces by their corners' leaf numbers, so that a split finds its faces close together
 /// in memory.
@@ -77,7 +77,7 @@ void ProgressiveMesh::order_faces() {
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, {}, key);
     std::vector<std::uint32_t> places(face_count());
-    ProgressiveParts ordered;
+    ProgressiveMeshData ordered;
     ordered.faces.reserve(face_count());
     ordered.original_faces.reserve(face_count());
     for (const std::uint32_t face : order) {
@@ -93,7 +93,7 @@ void ProgressiveMesh::order_faces() {
     parts_.faces = std::move(ordered.faces);
     parts_.original_faces = std::move(ordered.original_faces);
     parts_.face_materials = std::move(ordered.face_materials);
-    for (Split& split : parts_.splits) {
+    for (VertexSplit& split : parts_.splits) {
         for (std::uint32_t* face : {&split.left_face, &split.right_face}) {
             *face = *face == none ? none : places[*face];
         }
@@ -108,7 +108,7 @@ void ProgressiveMesh::order_nodes() {
     std::iota(first_leaves.begin(), first_leaves.end(), 0U);
     std::vector<bool> has_parent(first_leaves.size(), false);
     auto node = leaves;
-    for (Split& split : parts_.splits) {
+    for (VertexSplit& split : parts_.splits) {
         assert(split.first < node && split.second < node && split.first != split.second);
         for (const std::uint32_t child : {split.first, split.second}) {
             assert(!has_parent[child]);
@@ -131,12 +131,12 @@ void ProgressiveMesh::order_nodes() {
     for (std::uint32_t& root : roots_) {
         root = numbers[root];
     }
-    forks_.resize(parts_.splits.size());
-    sequence_numbers_.resize(forks_.size());
+    packed_splits_.resize(parts_.splits.size());
+    sequence_numbers_.resize(packed_splits_.size());
     for (node = leaves; node < numbers.size(); ++node) {
-        const Split& split = parts_.splits[node - leaves];
+        const VertexSplit& split = parts_.splits[node - leaves];
         sequence_numbers_[numbers[node] - leaves] = node;
-        forks_[numbers[node] - leaves] = {
+        packed_splits_[numbers[node] - leaves] = {
             split.first_leaf,
             split.middle & 0x7fffffffU,
             split.second < leaves ? 1U : 0U,
@@ -171,7 +171,7 @@ std::vector<std::uint32_t> ProgressiveMesh::new_numbers() const {
 }
 
 std::vector<std::uint32_t> ProgressiveMesh::coarsest_first() const {
-    std::vector<std::uint32_t> nodes(forks_.size());
+    std::vector<std::uint32_t> nodes(packed_splits_.size());
     for (std::uint32_t i = 0; i < nodes.size(); ++i) {
         nodes[node_count() - 1 - sequence_numbers_[i]] =
             static_cast<std::uint32_t>(leaf_count()) + i;
@@ -181,7 +181,7 @@ std::vector<std::uint32_t> ProgressiveMesh::coarsest_first() const {
 
 std::vector<bool> ProgressiveMesh::base_faces() const {
     std::vector<bool> base(face_count(), true);
-    for (const Fork& fork : forks_) {
+    for (const PackedSplit& fork : packed_splits_) {
         for (const std::uint32_t face : {fork.left_face, fork.right_face}) {
             if (face != none) {
                 base[face] = false;
@@ -206,7 +206,7 @@ void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
     }
     has_colours_ = !parts_.colours.empty();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        NodeShape& here = shape(numbers[i]);
+        NodeGeometry& here = shape(numbers[i]);
         here.position_m = parts_.positions_m[i];
         here.normal = parts_.normals[i];
         if (has_colours_) {
@@ -218,8 +218,8 @@ void ProgressiveMesh::place_shapes(const std::vector<std::uint32_t>& numbers) {
     parts_.colours = {};
 }
 
-ProgressiveParts ProgressiveMesh::whole_parts() const {
-    ProgressiveParts parts = parts_;
+ProgressiveMeshData ProgressiveMesh::full_data() const {
+    ProgressiveMeshData parts = parts_;
     std::vector<std::uint32_t> nodes(leaf_count());
     std::iota(nodes.begin(), nodes.end(), 0U);
     const std::vector<std::uint32_t> inner = coarsest_first();
@@ -234,7 +234,7 @@ ProgressiveParts ProgressiveMesh::whole_parts() const {
             parts.colours.push_back(shape(node).colour);
         }
         if (!is_leaf(node)) {
-            const Split split = split_of(node);
+            const VertexSplit split = split_of(node);
             parts.splits.push_back(
                 {old_number(split.first),
                  old_number(split.second),
@@ -249,22 +249,22 @@ ProgressiveParts ProgressiveMesh::whole_parts() const {
 /// Finds the fundamental cut vertices of every inner node.
 void ProgressiveMesh::find_cuts() {
     // For each inner node the end of the leaves below it.
-    std::vector<std::uint32_t> ends(forks_.size());
+    std::vector<std::uint32_t> ends(packed_splits_.size());
     for (auto node = static_cast<std::uint32_t>(leaf_count()); node < node_count(); ++node) {
         const std::size_t i = node - leaf_count();
         const std::uint32_t second = split_of(node).second;
         ends[i] = is_leaf(second) ? second + 1 : ends[second - leaf_count()];
         const auto cut = [&](std::uint32_t face) {
             return face == none ? none
-                                : third_corner(parts_.faces[face], forks_[i].first_leaf, ends[i]);
+                                : third_corner(parts_.faces[face], packed_splits_[i].first_leaf, ends[i]);
         };
-        forks_[i].left_cut = cut(forks_[i].left_face);
-        forks_[i].right_cut = cut(forks_[i].right_face);
+        packed_splits_[i].left_cut = cut(packed_splits_[i].left_face);
+        packed_splits_[i].right_cut = cut(packed_splits_[i].right_face);
     }
 }
 
 std::size_t ProgressiveMesh::bytes() const {
-    return sizeof(*this) + bytes_of(forks_) + bytes_of(sequence_numbers_) + bytes_of(parts_.faces) +
+    return sizeof(*this) + bytes_of(packed_splits_) + bytes_of(sequence_numbers_) + bytes_of(parts_.faces) +
            bytes_of(parts_.face_materials) + bytes_of(parts_.original_faces) +
            bytes_of(parts_.original_vertices) + bytes_of(roots_) + bytes_of(places_) +
            bytes_of(shapes_);

@@ -3,7 +3,7 @@
 #include "models/collapse_sequence.h"
 #include "models/triangle_mesh.h"
 #include "visuals/refine/packed_attributes.h"
-#include "visuals/refine/progressive_parts.h"
+#include "visuals/refine/progressive_mesh_data.h"
 
 #include <glm/vec3.hpp>
 
@@ -16,7 +16,7 @@ namespace octant::visuals::refine {
 
 /// All that is needed to draw a node and to judge its error. 28 bytes; siblings lie side by side in
 /// memory, because a split reads both.
-struct NodeShape {
+struct NodeGeometry {
     glm::vec3 position_m{0.0F};
     PackedNormal normal;
     float radius_m = 0.0F; ///< The radius of its bounding sphere, see ProgressiveMesh::radius_m.
@@ -35,9 +35,9 @@ struct NodeShape {
 /// what is close on the surface is close in memory, and parents come before their children.
 class ProgressiveMesh {
 public:
-    /// The parts must keep the promises stated at ProgressiveParts (asserted where that is cheap).
+    /// The parts must keep the promises stated at ProgressiveMeshData (asserted where that is cheap).
     /// Throws Error for more faces than `max_faces` or more leaves than `max_leaves`.
-    explicit ProgressiveMesh(ProgressiveParts parts);
+    explicit ProgressiveMesh(ProgressiveMeshData parts);
 
     /// Makes a hierarchy from a simplification. Positions that are floats already are kept bit for
     /// bit; others are rounded to float relative to the middle of the mesh. Colours keep 16 bits a
@@ -66,10 +66,10 @@ public:
     }
 
     /// The vertex split of an inner node.
-    Split split_of(std::uint32_t node) const {
-        const Fork& fork = forks_[node - leaf_count()];
+    VertexSplit split_of(std::uint32_t node) const {
+        const PackedSplit& fork = packed_splits_[node - leaf_count()];
         const std::uint32_t below_first = fork.middle - fork.first_leaf; // leaves
-        Split split;
+        VertexSplit split;
         split.first = below_first == 1 ? fork.first_leaf : node - 1;
         split.second = fork.second_is_leaf != 0 ? std::uint32_t{fork.middle} : node - below_first;
         split.left_face = fork.left_face;
@@ -91,7 +91,7 @@ public:
 
     /// The first of the consecutive leaves below a node; a leaf is below itself.
     std::uint32_t first_leaf(std::uint32_t node) const {
-        return is_leaf(node) ? node : forks_[node - leaf_count()].first_leaf;
+        return is_leaf(node) ? node : packed_splits_[node - leaf_count()].first_leaf;
     }
 
     /// The last of the leaves below a node.
@@ -102,11 +102,11 @@ public:
         return node;
     }
 
-    const NodeShape& shape(std::uint32_t node) const { return shapes_[places_[node]]; }
+    const NodeGeometry& shape(std::uint32_t node) const { return shapes_[places_[node]]; }
 
     /// The shapes of both children of an inner node, the first child's first.
-    std::span<const NodeShape, 2> child_shapes(std::uint32_t node) const {
-        return std::span<const NodeShape, 2>(&shapes_[first_child_place(node)], 2);
+    std::span<const NodeGeometry, 2> child_shapes(std::uint32_t node) const {
+        return std::span<const NodeGeometry, 2>(&shapes_[first_child_place(node)], 2);
     }
 
     const glm::vec3& position_m(std::uint32_t node) const { return shape(node).position_m; }
@@ -122,7 +122,7 @@ public:
     /// How far the surface is from the original where this node is active, metres. It is 0 for
     /// leaves and never decreases towards the root.
     float error_m(std::uint32_t node) const {
-        return is_leaf(node) ? 0.0F : forks_[node - leaf_count()].error_m;
+        return is_leaf(node) ? 0.0F : packed_splits_[node - leaf_count()].error_m;
     }
 
     /// The radius of a sphere about the node's position that holds the positions of all nodes below
@@ -150,10 +150,10 @@ public:
 
     /// The data it was made from, without splits, positions, normals and colours: these have moved
     /// into split_of() and shape().
-    const ProgressiveParts& parts() const { return parts_; }
+    const ProgressiveMeshData& parts() const { return parts_; }
 
     /// Complete parts, from which an equal hierarchy can be made.
-    ProgressiveParts whole_parts() const;
+    ProgressiveMeshData full_data() const;
 
     /// The number of a node in the CollapseSequence: for a leaf that of its vertex in the original
     /// mesh, for an inner node the vertex count plus the index of its collapse.
@@ -170,7 +170,7 @@ public:
 
 private:
     /// The contents of split_of() in 28 bytes; children follow from the numbering of the nodes.
-    struct Fork {
+    struct PackedSplit {
         std::uint32_t first_leaf;
         std::uint32_t middle : 31;
         std::uint32_t second_is_leaf : 1;
@@ -190,8 +190,8 @@ private:
     void bound_nodes();
     void bound_all();
 
-    ProgressiveParts parts_;
-    std::vector<Fork> forks_;                     ///< One for each inner node.
+    ProgressiveMeshData parts_;
+    std::vector<PackedSplit> packed_splits_;                     ///< One for each inner node.
     std::vector<std::uint32_t> sequence_numbers_; ///< One for each inner node.
 
     /// The index in shapes_ of an inner node's first child. The roots come first, then the pairs of
@@ -200,12 +200,12 @@ private:
         return roots_.size() + 2 * (node_count() - 1 - node);
     }
 
-    NodeShape& shape(std::uint32_t node) { return shapes_[places_[node]]; }
+    NodeGeometry& shape(std::uint32_t node) { return shapes_[places_[node]]; }
 
     std::vector<std::uint32_t> roots_; ///< Ordered by their first leaves.
     /// For each node its index in shapes_, which also tells its parent.
     std::vector<std::uint32_t> places_;
-    std::vector<NodeShape> shapes_;
+    std::vector<NodeGeometry> shapes_;
     bool has_colours_ = false;
     glm::dvec3 middle_m_{0.0};
     double half_diagonal_m_ = 0.0;

@@ -4,7 +4,7 @@
 // early is still of use, because its splits come coarsest first.
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
-#include "visuals/refine/byte_coder.h"
+#include "visuals/refine/varint_coder.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/progressive_layout.h"
 #include "visuals/refine/progressive_tree.h"
@@ -32,23 +32,23 @@ struct Head {
 };
 
 /// The reading of one file, with its position for messages.
-class ProgressiveReading {
+class ProgressiveReader {
 public:
-    explicit ProgressiveReading(const std::filesystem::path& path)
+    explicit ProgressiveReader(const std::filesystem::path& path)
         : path_(path) {
         std::error_code fault;
         if (!std::filesystem::is_regular_file(path, fault)) {
-            error_in(path, "expected a file, found none");
+            throw_error_in(path, "expected a file, found none");
         }
         file_bytes_ = std::filesystem::file_size(path, fault);
         file_.open(path, std::ios::binary);
         if (fault || !file_) {
-            error_in(path, "expected a file that can be read");
+            throw_error_in(path, "expected a file that can be read");
         }
     }
 
     ProgressiveMesh read(std::size_t max_vertices) {
-        read_mark();
+        read_signature();
         const auto head_block = next_block();
         if (!head_block) {
             refuse("expected a head, got the end of the file");
@@ -63,10 +63,10 @@ public:
             head_.splits, max_vertices - std::min<std::size_t>(max_vertices, head_.roots));
         const bool whole_splits = read_splits(wanted);
         if (whole_splits && wanted == head_.splits) {
-            keep(tree_.is_whole(head_.leaves, head_.faces));
+            keep(tree_.is_complete(head_.leaves, head_.faces));
             read_numbers();
         }
-        ProgressiveParts parts = tree_.parts();
+        ProgressiveMeshData parts = tree_.parts();
         if ((head_.flags & has_colours) == 0) {
             parts.colours = {};
         }
@@ -90,13 +90,13 @@ public:
 
 private:
     [[noreturn]] void refuse(const std::string& what) const {
-        error_in(path_, fmt::format("{} at byte {}", what, at_));
+        throw_error_in(path_, fmt::format("{} at byte {}", what, at_));
     }
 
-    void read_mark() {
-        std::string mark(progressive_mark.size(), '\0');
+    void read_signature() {
+        std::string mark(progressive_signature.size(), '\0');
         file_.read(mark.data(), static_cast<std::streamsize>(mark.size()));
-        if (!file_ || mark != progressive_mark) {
+        if (!file_ || mark != progressive_signature) {
             refuse("expected a progressive mesh of Octant, got something else");
         }
         at_ = mark.size();
@@ -107,28 +107,28 @@ private:
     std::optional<std::string> next_block() {
         const std::uint64_t left = file_bytes_ - std::min(file_bytes_, at_);
         std::string frame(4, '\0');
-        if (left < block_frame_bytes) {
-            return cut_off();
+        if (left < block_header_bytes) {
+            return truncated();
         }
         file_.read(frame.data(), 4);
-        const auto count = ByteReader(frame).take<std::uint32_t>();
-        if (count > left - block_frame_bytes) {
-            return cut_off();
+        const auto count = VarintReader(frame).take<std::uint32_t>();
+        if (count > left - block_header_bytes) {
+            return truncated();
         }
         std::string bytes(count, '\0');
         file_.read(bytes.data(), static_cast<std::streamsize>(count));
         std::string sum(8, '\0');
         file_.read(sum.data(), 8);
-        if (!file_ || ByteReader(sum).take<std::uint64_t>() != checksum_of(bytes)) {
+        if (!file_ || VarintReader(sum).take<std::uint64_t>() != checksum_of(bytes)) {
             refuse("expected a whole block, got a wrong checksum");
         }
-        at_ += count + block_frame_bytes;
+        at_ += count + block_header_bytes;
         return bytes;
     }
 
     /// Returns nothing for a file shorter than its head says. Throws Error for a whole file with a
     /// block that reaches beyond its end.
-    std::optional<std::string> cut_off() {
+    std::optional<std::string> truncated() {
         if (head_.file_bytes != 0 && file_bytes_ >= head_.file_bytes) {
             refuse("expected a block, got one longer than the file");
         }
@@ -136,7 +136,7 @@ private:
     }
 
     void read_head(const std::string& block) {
-        ByteReader in(block);
+        VarintReader in(block);
         const auto version = in.take<std::uint32_t>();
         if (version != progressive_version) {
             refuse(fmt::format("expected version {}, got {}", progressive_version, version));
@@ -149,7 +149,7 @@ private:
         head_.flags = in.take<std::uint8_t>();
         origin_m_ = in.take<glm::dvec3>();
         name_ = in.take_text();
-        const std::uint64_t materials = in.take_short();
+        const std::uint64_t materials = in.take_varint();
         for (std::uint64_t i = 0; i < materials && in.good(); ++i) {
             models::Material material;
             material.name = in.take_text();
@@ -171,12 +171,12 @@ private:
                 head_.faces));
         }
         if (file_bytes_ > head_.file_bytes) {
-            error_in(
+            throw_error_in(
                 path_, fmt::format("expected {} bytes, got {}", head_.file_bytes, file_bytes_));
         }
     }
 
-    TreeNode take_node(ByteReader& in) const {
+    TreeNode take_node(VarintReader& in) const {
         TreeNode node;
         node.position_m = in.take<glm::vec3>();
         node.normal = in.take<PackedNormal>();
@@ -187,13 +187,13 @@ private:
     }
 
     /// Reads a face whose corners were written as differences from leaf `near`.
-    TreeFace take_face(ByteReader& in, std::uint32_t near) const {
+    TreeFace take_face(VarintReader& in, std::uint32_t near) const {
         TreeFace face;
         for (std::uint32_t& corner : face.corners) {
-            corner = in.take_difference(near);
+            corner = in.take_delta(near);
         }
         if ((head_.flags & has_materials) != 0) {
-            const std::uint32_t material = in.take_short32();
+            const std::uint32_t material = in.take_varint32();
             if (material >= materials_.size() || material > 65535) {
                 refuse("expected a material of the file, got another one");
             }
@@ -203,17 +203,17 @@ private:
     }
 
     void read_base(const std::string& block) {
-        ByteReader in(block);
+        VarintReader in(block);
         for (std::uint32_t i = 0; i < head_.roots && in.good(); ++i) {
-            const std::uint32_t begin = in.take_short32();
-            const std::uint32_t leaves = in.take_short32();
+            const std::uint32_t begin = in.take_varint32();
+            const std::uint32_t leaves = in.take_varint32();
             TreeNode root = take_node(in);
             root.begin = begin;
             root.end = begin + std::min(leaves, none - begin);
             keep(tree_.add_root(root) && root.end <= head_.leaves && in.good());
         }
-        keep(in.good() && tree_.roots_cover(head_.leaves));
-        const std::uint64_t faces = in.take_short();
+        keep(in.good() && tree_.roots_cover_leaves(head_.leaves));
+        const std::uint64_t faces = in.take_varint();
         for (std::uint64_t i = 0; i < faces && in.good(); ++i) {
             keep(tree_.add_base_face(take_face(in, 0)));
         }
@@ -227,9 +227,9 @@ private:
             if (!block) {
                 return false;
             }
-            ByteReader in(*block);
+            VarintReader in(*block);
             const std::size_t in_block =
-                std::min<std::size_t>(splits_a_block, head_.splits - tree_.split_count());
+                std::min<std::size_t>(splits_per_block, head_.splits - tree_.split_count());
             const std::size_t end = std::min(wanted, tree_.split_count() + in_block);
             while (tree_.split_count() < end) {
                 take_split(in);
@@ -239,18 +239,18 @@ private:
         return true;
     }
 
-    void take_split(ByteReader& in) {
+    void take_split(VarintReader& in) {
         TreeSplit split;
-        split.begin = in.take_short32();
-        split.middle = split.begin + std::min(in.take_short32(), none - split.begin);
+        split.begin = in.take_varint32();
+        split.middle = split.begin + std::min(in.take_varint32(), none - split.begin);
         split.error_m = in.take<float>();
         split.first = take_node(in);
         split.second = take_node(in);
         const auto sides = in.take<std::uint8_t>();
-        if ((sides & has_left) != 0) {
+        if ((sides & has_left_face) != 0) {
             split.left = take_face(in, split.begin);
         }
-        if ((sides & has_right) != 0) {
+        if ((sides & has_right_face) != 0) {
             split.right = take_face(in, split.begin);
         }
         keep(in.good() && tree_.add_split(split));
@@ -262,9 +262,9 @@ private:
             // The file was cut off just before this block; the leaves then count as they come.
             return;
         }
-        ByteReader in(*block);
+        VarintReader in(*block);
         std::uint32_t last = 0;
-        const auto take = [&] { return last = in.take_difference(last); };
+        const auto take = [&] { return last = in.take_delta(last); };
         std::vector<std::uint32_t> vertices(head_.leaves);
         std::ranges::generate(vertices, take);
         std::vector<std::uint32_t> faces(head_.faces);
@@ -293,7 +293,7 @@ private:
 } // namespace
 
 ProgressiveMesh read_progressive(const std::filesystem::path& path, std::size_t max_vertices) {
-    return ProgressiveReading(path).read(max_vertices);
+    return ProgressiveReader(path).read(max_vertices);
 }
 
 } // namespace octant::visuals::refine

@@ -65,7 +65,7 @@ bool ProgressiveTree::add_root(const TreeNode& root) {
     return root.begin < root.end && is_finite(root.position_m);
 }
 
-bool ProgressiveTree::roots_cover(std::uint32_t leaves) {
+bool ProgressiveTree::roots_cover_leaves(std::uint32_t leaves) {
     leaves_ = leaves;
     std::vector<TreeNode> roots = nodes_;
     std::ranges::sort(roots, {}, &TreeNode::begin);
@@ -109,8 +109,8 @@ bool ProgressiveTree::add_base_face(const TreeFace& face) {
 /// wait for that vertex to split first, which in a damaged file might never end.
 bool ProgressiveTree::is_cut_apart(const TreeSplit& split, std::uint32_t end) const {
     return !split.left || !split.right ||
-           starts_.at_or_before(outside_corner(*split.left, split.begin, end)) !=
-               starts_.at_or_before(outside_corner(*split.right, split.begin, end));
+           starts_.last_up_to(outside_corner(*split.left, split.begin, end)) !=
+               starts_.last_up_to(outside_corner(*split.right, split.begin, end));
 }
 
 bool ProgressiveTree::add_split(const TreeSplit& split) {
@@ -118,7 +118,7 @@ bool ProgressiveTree::add_split(const TreeSplit& split) {
     if (at == active_.end()) {
         return false;
     }
-    Grown grown;
+    GrownSplit grown;
     grown.node = at->second;
     grown.first_child = static_cast<std::uint32_t>(nodes_.size());
     grown.error_m = split.error_m;
@@ -154,12 +154,12 @@ bool ProgressiveTree::number(
     return is_permutation_of_places(vertex_numbers_) && is_permutation_of_places(face_numbers_);
 }
 
-/// For each node its number in ProgressiveParts: the leaves by their place in the order, then the
+/// For each node its number in ProgressiveMeshData: the leaves by their place in the order, then the
 /// inner nodes, the last split first.
 std::vector<std::uint32_t> ProgressiveTree::final_numbers() const {
     std::vector<std::uint32_t> numbers(nodes_.size(), none);
     auto next = static_cast<std::uint32_t>(nodes_.size());
-    for (const Grown& split : splits_) {
+    for (const GrownSplit& split : splits_) {
         numbers[split.node] = --next;
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
@@ -175,10 +175,10 @@ std::vector<std::uint32_t> ProgressiveTree::final_numbers() const {
     return numbers;
 }
 
-ProgressiveParts ProgressiveTree::parts() const {
+ProgressiveMeshData ProgressiveTree::parts() const {
     const std::vector<std::uint32_t> numbers = final_numbers();
     const std::size_t leaves = nodes_.size() - splits_.size();
-    ProgressiveParts parts;
+    ProgressiveMeshData parts;
     parts.positions_m.resize(nodes_.size());
     parts.normals.resize(nodes_.size());
     parts.colours.resize(nodes_.size());
@@ -192,7 +192,7 @@ ProgressiveParts ProgressiveTree::parts() const {
         }
     }
     parts.splits.resize(splits_.size());
-    for (const Grown& split : splits_) {
+    for (const GrownSplit& split : splits_) {
         parts.splits[numbers[split.node] - leaves] = {
             numbers[split.first_child],
             numbers[split.first_child + 1],

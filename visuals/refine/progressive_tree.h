@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/refine/active_starts.h"
-#include "visuals/refine/progressive_parts.h"
+#include "visuals/refine/active_leaf_set.h"
+#include "visuals/refine/progressive_mesh_data.h"
 
 #include <array>
 #include <cstdint>
@@ -48,7 +48,7 @@ public:
 
     /// To be called after the last root. Returns whether the roots' ranges cover all leaves, each
     /// once.
-    bool roots_cover(std::uint32_t leaves);
+    bool roots_cover_leaves(std::uint32_t leaves);
 
     bool add_base_face(const TreeFace& face);
 
@@ -57,7 +57,7 @@ public:
     std::size_t split_count() const { return splits_.size(); }
 
     /// Whether there is nothing left to split and all faces have been added.
-    bool is_whole(std::size_t leaves, std::size_t faces) const {
+    bool is_complete(std::size_t leaves, std::size_t faces) const {
         return nodes_.size() - splits_.size() == leaves && faces_.size() == faces;
     }
 
@@ -67,11 +67,11 @@ public:
 
     /// The hierarchy as far as it has grown. Without number() its leaves and faces are numbered in
     /// the order in which they come.
-    ProgressiveParts parts() const;
+    ProgressiveMeshData parts() const;
 
 private:
     /// A split that was made, by indices into nodes_ and faces_.
-    struct Grown {
+    struct GrownSplit {
         std::uint32_t node = 0;
         /// The index of the first child; the second child is the next one.
         std::uint32_t first_child = 0;
@@ -87,11 +87,11 @@ private:
     std::vector<TreeNode> nodes_; ///< The roots, then the two children of each split.
     std::uint32_t leaves_ = 0;    ///< The number of leaves of the whole hierarchy.
     std::vector<std::uint32_t> root_begins_;
-    std::vector<Grown> splits_;
+    std::vector<GrownSplit> splits_;
     std::vector<TreeFace> faces_;
     /// The active nodes by their first leaves.
     std::unordered_map<std::uint32_t, std::uint32_t> active_;
-    ActiveStarts starts_; ///< The first leaves of the active nodes.
+    ActiveLeafSet starts_; ///< The first leaves of the active nodes.
     std::vector<std::uint32_t> vertex_numbers_;
     std::vector<std::uint32_t> face_numbers_;
 };

@@ -3,7 +3,7 @@
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "visuals/refine/byte_coder.h"
+#include "visuals/refine/varint_coder.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/progressive_layout.h"
 
@@ -17,20 +17,20 @@ namespace octant::visuals::refine {
 namespace {
 
 /// The bytes of one file while they are put together.
-class ProgressiveWriting {
+class ProgressiveWriter {
 public:
-    explicit ProgressiveWriting(const ProgressiveMesh& mesh)
+    explicit ProgressiveWriter(const ProgressiveMesh& mesh)
         : mesh_(mesh)
         , is_base_(mesh.base_faces())
         , order_(mesh.coarsest_first()) {}
 
     std::string text() {
         add_block(base());
-        ByteWriter block;
+        VarintWriter block;
         std::size_t in_block = 0;
         for (const std::uint32_t node : order_) {
             put_split(block, node);
-            if (++in_block == splits_a_block) {
+            if (++in_block == splits_per_block) {
                 add_block(block.bytes());
                 block.bytes().clear();
                 in_block = 0;
@@ -40,16 +40,16 @@ public:
             add_block(block.bytes());
         }
         add_block(numbers());
-        const std::size_t head_bytes = head(0).size() + block_frame_bytes;
+        const std::size_t head_bytes = head(0).size() + block_header_bytes;
         const std::string blocks = std::move(text_);
-        text_ = progressive_mark;
+        text_ = progressive_signature;
         add_block(head(text_.size() + head_bytes + blocks.size()));
         return text_ + blocks;
     }
 
 private:
     void add_block(const std::string& bytes) {
-        ByteWriter frame;
+        VarintWriter frame;
         frame.put(static_cast<std::uint32_t>(bytes.size()));
         text_ += frame.bytes() + bytes;
         frame.bytes().clear();
@@ -60,8 +60,8 @@ private:
     /// The first block. `file_bytes` is the length of the whole file; the block's own length does
     /// not depend on it.
     std::string head(std::uint64_t file_bytes) const {
-        const ProgressiveParts& parts = mesh_.parts();
-        ByteWriter out;
+        const ProgressiveMeshData& parts = mesh_.parts();
+        VarintWriter out;
         out.put(progressive_version);
         out.put(file_bytes);
         out.put(static_cast<std::uint32_t>(mesh_.leaf_count()));
@@ -73,7 +73,7 @@ private:
             (parts.face_materials.empty() ? 0 : has_materials)));
         out.put(parts.origin_m);
         out.put_text(parts.name);
-        out.put_short(parts.materials.size());
+        out.put_varint(parts.materials.size());
         for (const models::Material& material : parts.materials) {
             out.put_text(material.name);
             out.put(material.colour);
@@ -81,7 +81,7 @@ private:
         return out.bytes();
     }
 
-    void put_node(ByteWriter& out, std::uint32_t node) const {
+    void put_node(VarintWriter& out, std::uint32_t node) const {
         out.put(mesh_.position_m(node));
         out.put(mesh_.packed_normal(node));
         if (mesh_.has_colours()) {
@@ -90,17 +90,17 @@ private:
     }
 
     /// Writes a face's corners as differences from leaf `near`, which makes them short.
-    void put_face(ByteWriter& out, std::uint32_t face, std::uint32_t near) const {
+    void put_face(VarintWriter& out, std::uint32_t face, std::uint32_t near) const {
         for (const std::uint32_t corner : mesh_.faces()[face]) {
-            out.put_difference(corner, near);
+            out.put_delta(corner, near);
         }
         if (!mesh_.parts().face_materials.empty()) {
-            out.put_short(mesh_.parts().face_materials[face]);
+            out.put_varint(mesh_.parts().face_materials[face]);
         }
     }
 
     std::string base() const {
-        ByteWriter out;
+        VarintWriter out;
         const auto roots = mesh_.roots();
         std::vector<std::uint32_t> begins;
         for (const std::uint32_t root : roots) {
@@ -110,12 +110,12 @@ private:
         begins.push_back(static_cast<std::uint32_t>(mesh_.leaf_count()));
         for (const std::uint32_t root : roots) {
             const auto at = std::ranges::lower_bound(begins, mesh_.first_leaf(root));
-            out.put_short(*at);
-            out.put_short(*std::next(at) - *at);
+            out.put_varint(*at);
+            out.put_varint(*std::next(at) - *at);
             put_node(out, root);
         }
         const auto inner = std::ranges::count(is_base_, true);
-        out.put_short(static_cast<std::uint64_t>(inner));
+        out.put_varint(static_cast<std::uint64_t>(inner));
         for (std::uint32_t face = 0; face < is_base_.size(); ++face) {
             if (is_base_[face]) {
                 put_face(out, face, 0);
@@ -124,17 +124,17 @@ private:
         return out.bytes();
     }
 
-    void put_split(ByteWriter& out, std::uint32_t node) const {
-        const Split split = mesh_.split_of(node);
+    void put_split(VarintWriter& out, std::uint32_t node) const {
+        const VertexSplit split = mesh_.split_of(node);
         const std::uint32_t begin = mesh_.first_leaf(node);
         const std::uint32_t middle = mesh_.first_leaf(split.second);
-        out.put_short(begin);
-        out.put_short(middle - begin);
+        out.put_varint(begin);
+        out.put_varint(middle - begin);
         out.put(split.error_m);
         put_node(out, split.first);
         put_node(out, split.second);
         out.put(static_cast<std::uint8_t>(
-            (split.left_face != none ? has_left : 0) | (split.right_face != none ? has_right : 0)));
+            (split.left_face != none ? has_left_face : 0) | (split.right_face != none ? has_right_face : 0)));
         for (const std::uint32_t face : {split.left_face, split.right_face}) {
             if (face != none) {
                 put_face(out, face, begin);
@@ -145,10 +145,10 @@ private:
     /// The last block: the original numbers of leaves and faces, each as the difference from the
     /// one before.
     std::string numbers() const {
-        ByteWriter out;
+        VarintWriter out;
         std::uint32_t last = 0;
         const auto put = [&](std::uint32_t number) {
-            out.put_difference(number, last);
+            out.put_delta(number, last);
             last = number;
         };
         std::ranges::for_each(mesh_.parts().original_vertices, put);
@@ -158,7 +158,7 @@ private:
             }
         }
         for (const std::uint32_t node : order_) {
-            const Split split = mesh_.split_of(node);
+            const VertexSplit split = mesh_.split_of(node);
             for (const std::uint32_t face : {split.left_face, split.right_face}) {
                 if (face != none) {
                     put(mesh_.original_face(face));
@@ -177,11 +177,11 @@ private:
 } // namespace
 
 bool is_progressive_file(const std::filesystem::path& path) {
-    return ending_of(path) == ".pm";
+    return extension_of(path) == ".pm";
 }
 
 void write_progressive(const std::filesystem::path& path, const ProgressiveMesh& mesh) {
-    write_file(path, ProgressiveWriting(mesh).text());
+    write_file(path, ProgressiveWriter(mesh).text());
 }
 
 } // namespace octant::visuals::refine

@@ -39,12 +39,12 @@ double facing_weight(
     }
     const double cosine = glm::dot(glm::dvec3(mesh.normal(node)), to_eye_m) / distance_m;
     const double angle_rad = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double play_rad = static_cast<double>(mesh.cone_rad(node)) +
-                            std::asin(radius_m / distance_m) + options.play_rad;
+    const double angle_margin_rad = static_cast<double>(mesh.cone_rad(node)) +
+                            std::asin(radius_m / distance_m) + options.angle_margin_rad;
     // Largest and least angle between a normal below the node and the way to the eye; monotone
     // up the tree, and so is the weight.
-    const double most = (angle_rad + play_rad - right_angle_rad) / ramp_rad;
-    const double least = (angle_rad - play_rad - right_angle_rad) / ramp_rad;
+    const double most = (angle_rad + angle_margin_rad - right_angle_rad) / ramp_rad;
+    const double least = (angle_rad - angle_margin_rad - right_angle_rad) / ramp_rad;
     const double outline = std::clamp(1.0 + most, 0.0, 1.0);
     const double turned = std::clamp(least, 0.0, 1.0);
     const double weight =
@@ -63,11 +63,11 @@ double picture_weight(
     if (distance_m <= radius_m) {
         return 1.0;
     }
-    const double play_rad = std::asin(radius_m / distance_m) + options.play_rad;
+    const double angle_margin_rad = std::asin(radius_m / distance_m) + options.angle_margin_rad;
     double outside_rad = 0.0;
     for (const glm::dvec3& normal : view.side_normals) {
         const double sine = glm::dot(normal, to_eye_m) / distance_m;
-        outside_rad = std::max(outside_rad, std::asin(std::clamp(sine, -1.0, 1.0)) - play_rad);
+        outside_rad = std::max(outside_rad, std::asin(std::clamp(sine, -1.0, 1.0)) - angle_margin_rad);
     }
     return 1.0 + std::min(1.0, outside_rad / ramp_rad) * (options.outside_weight - 1.0);
 }
@@ -83,17 +83,17 @@ RefineView picture_view(
     double height_px) {
     RefineView view;
     view.eye_m = eye_m;
-    view.ahead = glm::normalize(look_m - eye_m);
-    const glm::dvec3 right = glm::normalize(glm::cross(view.ahead, up));
-    const glm::dvec3 above = glm::cross(right, view.ahead);
+    view.forward = glm::normalize(look_m - eye_m);
+    const glm::dvec3 right = glm::normalize(glm::cross(view.forward, up));
+    const glm::dvec3 above = glm::cross(right, view.forward);
     const double half_height = std::tan(0.5 * fov_rad);
     const double half_width = half_height * width_px / height_px;
     view.focal_px = 0.5 * height_px / half_height;
     view.side_normals = {
-        glm::normalize(half_width * view.ahead - right),
-        glm::normalize(half_width * view.ahead + right),
-        glm::normalize(half_height * view.ahead - above),
-        glm::normalize(half_height * view.ahead + above)};
+        glm::normalize(half_width * view.forward - right),
+        glm::normalize(half_width * view.forward + right),
+        glm::normalize(half_height * view.forward - above),
+        glm::normalize(half_height * view.forward + above)};
     return view;
 }
 

@@ -12,7 +12,7 @@ namespace octant::visuals::refine {
 /// Where a mesh is seen from, in the mesh's own axes (those of its file), metres.
 struct RefineView {
     glm::dvec3 eye_m{0.0};
-    glm::dvec3 ahead{0.0, 1.0, 0.0}; ///< A unit vector along the line of sight.
+    glm::dvec3 forward{0.0, 1.0, 0.0}; ///< A unit vector along the line of sight.
     /// The unit normals of the view frustum's four side planes, which pass through the eye,
     /// pointing inwards; zero means that there is no such side.
     std::array<glm::dvec3, 4> side_normals{};
@@ -44,7 +44,7 @@ struct CriterionOptions {
     double outside_weight = 0.1; ///< of what is not in the picture: it may be soon
     /// Weights are taken as the largest within this angle, so that they do not change at once when
     /// the eye moves.
-    double play_rad = 0.0; ///< weights are the largest for directions so far off
+    double angle_margin_rad = 0.0; ///< weights are the largest for directions so far off
 };
 
 /// The screen-space error of an inner node in pixels, weighted by its orientation and place. A

@@ -46,7 +46,7 @@ std::size_t refine_regions(SelectiveRefiner& refiner, std::span<const Sphere> re
     return refine_above(refiner, marked);
 }
 
-std::size_t refine_below(SelectiveRefiner& refiner, std::uint32_t node) {
+std::size_t refine_subtree(SelectiveRefiner& refiner, std::uint32_t node) {
     const ProgressiveMesh& mesh = refiner.mesh();
     std::vector<bool> marked(mesh.node_count(), false);
     marked[node] = true;

@@ -25,7 +25,7 @@ std::size_t refine_regions(SelectiveRefiner& refiner, std::span<const Sphere> re
 
 /// Splits until every original vertex below a node is active. Returns the requested splits as
 /// refine_regions does.
-std::size_t refine_below(SelectiveRefiner& refiner, std::uint32_t node);
+std::size_t refine_subtree(SelectiveRefiner& refiner, std::uint32_t node);
 
 /// Splits every inner node whose projected error exceeds `error_px`. Returns how many these are.
 /// Does not call repair().

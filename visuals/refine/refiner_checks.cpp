@@ -18,7 +18,7 @@ namespace octant::visuals::refine {
 
 namespace {
 
-// Marks on vertices; the first three are set only while links_allow runs. `once`: seen in one face
+// Marks on vertices; the first three are set only while satisfies_link_condition runs. `once`: seen in one face
 // of the first vertex; `twice`: seen in two; `seen`: met at the second vertex; `changed`: its faces
 // have changed since repair() last looked at them.
 constexpr std::uint32_t once = 1;
@@ -40,13 +40,13 @@ bool is_against(
 /// have no common neighbours but the third corners of the one or two faces between them, they are
 /// not both on a boundary unless the edge is, and their component is more than a lone tetrahedron
 /// or triangle.
-bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t second_slot) {
+bool SelectiveRefiner::satisfies_link_condition(std::uint32_t first_slot, std::uint32_t second_slot) {
     std::size_t first_faces = 0;
     int first_open = 0; // The number of its boundary edges.
-    faces_.each_corner(first_slot, [&](std::uint32_t corner) {
+    faces_.for_each_corner(first_slot, [&](std::uint32_t corner) {
         ++first_faces;
         for (const std::uint32_t at :
-             {FaceLists::next_in_face(corner), FaceLists::before_in_face(corner)}) {
+             {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
             const std::uint32_t other = faces_.vertex(at);
             const bool is_new = (faces_.marks(other) & once) == 0;
             first_open += is_new ? 1 : -1;
@@ -57,10 +57,10 @@ bool SelectiveRefiner::links_allow(std::uint32_t first_slot, std::uint32_t secon
     std::size_t second_neighbours = 0;
     std::size_t common = 0;
     std::size_t between = 0;
-    faces_.each_corner(second_slot, [&](std::uint32_t corner) {
+    faces_.for_each_corner(second_slot, [&](std::uint32_t corner) {
         ++second_faces;
         for (const std::uint32_t at :
-             {FaceLists::next_in_face(corner), FaceLists::before_in_face(corner)}) {
+             {FaceLists::next_in_face(corner), FaceLists::previous_in_face(corner)}) {
             const std::uint32_t other = faces_.vertex(at);
             between += static_cast<std::size_t>(other == first_slot);
             if ((faces_.marks(other) & seen) == 0) {
@@ -88,9 +88,9 @@ void SelectiveRefiner::unmark(std::uint32_t slot, std::uint32_t bits) {
 }
 
 void SelectiveRefiner::clear_link_marks(std::uint32_t slot) {
-    faces_.each_corner(slot, [&](std::uint32_t corner) {
+    faces_.for_each_corner(slot, [&](std::uint32_t corner) {
         unmark(faces_.vertex(FaceLists::next_in_face(corner)), link_bits);
-        unmark(faces_.vertex(FaceLists::before_in_face(corner)), link_bits);
+        unmark(faces_.vertex(FaceLists::previous_in_face(corner)), link_bits);
     });
 }
 
@@ -101,12 +101,12 @@ const glm::vec3& SelectiveRefiner::position_at(std::uint32_t corner) const {
 
 /// Whether any face at `slot` that does not touch `other` would turn over against its original when
 /// the slot's vertex moved to the position of `node`.
-bool SelectiveRefiner::turns_faces(
+bool SelectiveRefiner::flips_faces(
     std::uint32_t slot, std::uint32_t other, std::uint32_t node) const {
     bool turns = false;
-    faces_.each_corner(slot, [&](std::uint32_t corner) {
+    faces_.for_each_corner(slot, [&](std::uint32_t corner) {
         const std::uint32_t b = faces_.vertex(FaceLists::next_in_face(corner));
-        const std::uint32_t c = faces_.vertex(FaceLists::before_in_face(corner));
+        const std::uint32_t c = faces_.vertex(FaceLists::previous_in_face(corner));
         turns = turns || (b != other && c != other &&
                           is_against(
                               mesh_->position_m(node),
@@ -118,7 +118,7 @@ bool SelectiveRefiner::turns_faces(
 }
 
 /// Whether the face at a place of the index list is more than 90 degrees off its original.
-bool SelectiveRefiner::is_turned(std::uint32_t place) const {
+bool SelectiveRefiner::is_flipped(std::uint32_t place) const {
     const std::uint32_t face = faces_.label(place);
     return face != none && is_against(
                                position_at(3 * place),
@@ -127,18 +127,18 @@ bool SelectiveRefiner::is_turned(std::uint32_t place) const {
                                mesh_->face_normal(face));
 }
 
-std::size_t SelectiveRefiner::turned_faces() const {
+std::size_t SelectiveRefiner::flipped_faces() const {
     std::size_t turned = 0;
-    for (std::uint32_t place = 0; place < faces_.place_count(); ++place) {
-        turned += static_cast<std::size_t>(is_turned(place));
+    for (std::uint32_t place = 0; place < faces_.face_slot_count(); ++place) {
+        turned += static_cast<std::size_t>(is_flipped(place));
     }
     return turned;
 }
 
-/// The inner node with the largest error at the corners of a face, one that spare(node) does not
+/// The inner node with the largest error at the corners of a face, one that is_protected(node) does not
 /// want spared if there is any; `none` when all corners are original vertices.
 std::uint32_t SelectiveRefiner::coarsest_corner(
-    std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const {
+    std::uint32_t place, const std::function<bool(std::uint32_t)>& is_protected) const {
     // the coarsest of all corners, and of those that are not spared
     std::array<std::uint32_t, 2> coarsest{none, none};
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -146,7 +146,7 @@ std::uint32_t SelectiveRefiner::coarsest_corner(
         if (mesh_->is_leaf(node)) {
             continue;
         }
-        const bool spared = spare && spare(node);
+        const bool spared = is_protected && is_protected(node);
         for (std::size_t i = 0; i < (spared ? 1U : 2U); ++i) {
             if (coarsest[i] == none || mesh_->error_m(node) > mesh_->error_m(coarsest[i])) {
                 coarsest[i] = node;
@@ -157,21 +157,21 @@ std::uint32_t SelectiveRefiner::coarsest_corner(
 }
 
 /// Remembers that the faces at a slot changed, for repair().
-void SelectiveRefiner::note_change(std::uint32_t slot) {
+void SelectiveRefiner::mark_changed(std::uint32_t slot) {
     if (options_.repair && (faces_.marks(slot) & changed) == 0) {
         mark(slot, changed);
         changed_.push_back(slot);
     }
 }
 
-std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& spare) {
+std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& is_protected) {
     const std::size_t before = counts_.splits;
     const std::size_t by_rule = counts_.forced_by_rule;
     while (!changed_.empty()) {
         const std::uint32_t slot = changed_.back();
         changed_.pop_back();
         unmark(slot, changed);
-        repair_around(slot, spare);
+        repair_around(slot, is_protected);
     }
     const std::size_t done = counts_.splits - before;
     counts_.forced_by_rule = by_rule;
@@ -182,26 +182,26 @@ std::size_t SelectiveRefiner::repair(const std::function<bool(std::uint32_t)>& s
 /// Splits the coarsest corner of one turned face at a slot, if there is one, and has the slot
 /// looked at again after that.
 void SelectiveRefiner::repair_around(
-    std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare) {
+    std::uint32_t slot, const std::function<bool(std::uint32_t)>& is_protected) {
     if (node_at(slot) == none) {
         return;
     }
     std::uint32_t turned = none;
-    faces_.each_corner(slot, [&](std::uint32_t corner) {
-        turned = turned == none && is_turned(corner / 3) ? corner / 3 : turned;
+    faces_.for_each_corner(slot, [&](std::uint32_t corner) {
+        turned = turned == none && is_flipped(corner / 3) ? corner / 3 : turned;
     });
     if (turned == none) {
         return;
     }
-    const std::uint32_t coarsest = coarsest_corner(turned, spare);
+    const std::uint32_t coarsest = coarsest_corner(turned, is_protected);
     if (coarsest == none) {
         return; // An original face that turned by rounding only; nothing is left to split.
     }
-    note_change(slot); // looked at again behind the split
+    mark_changed(slot); // looked at again behind the split
     split(coarsest);
 }
 
-void SelectiveRefiner::nodes_forced_by(
+void SelectiveRefiner::find_forced_splits(
     std::uint32_t active_node, std::vector<std::uint32_t>& forced) const {
     // In hierarchies that a simplification made, a few nodes are the rule.
     constexpr std::size_t most = 200;
@@ -209,7 +209,7 @@ void SelectiveRefiner::nodes_forced_by(
     // Each of these waits for the next one to split.
     std::vector<std::uint32_t> waiting{active_node};
     while (!waiting.empty() && forced.size() + waiting.size() <= most) {
-        const Split wanted = mesh_->split_of(waiting.back());
+        const VertexSplit wanted = mesh_->split_of(waiting.back());
         const bool is_inside = wanted.left_cut != none && wanted.right_cut != none;
         const std::uint32_t left = is_inside ? ancestor_after(wanted.left_cut, forced) : none;
         if (is_inside && left == ancestor_after(wanted.right_cut, forced)) {
@@ -229,7 +229,7 @@ std::uint32_t
 SelectiveRefiner::ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const {
     std::uint32_t node = active_ancestor(leaf);
     while (std::ranges::find(split, node) != split.end()) {
-        const Split done = mesh_->split_of(node);
+        const VertexSplit done = mesh_->split_of(node);
         node = leaf < done.middle ? done.first : done.second;
     }
     return node;

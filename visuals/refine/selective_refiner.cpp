@@ -27,8 +27,8 @@ namespace octant::visuals::refine {
 
 namespace {
 
-RefinedVertex drawn(const NodeShape& shape) {
-    return {shape.position_m, shape.normal, drawn_colour(shape.colour)};
+RefinedVertex drawn(const NodeGeometry& shape) {
+    return {shape.position_m, shape.normal, packed_rgba8(shape.colour)};
 }
 
 /// The given nodes without repetition in descending order, by a bitmap over all nodes.
@@ -56,8 +56,8 @@ SelectiveRefiner::SelectiveRefiner(
     : mesh_(std::move(mesh))
     , options_(std::move(options))
     , faces_(mesh_->leaf_count(), mesh_->face_count()) {
-    if (options_.rule != SplitRule::Selective && !options_.earlier) {
-        options_.earlier = std::make_shared<const EarlierRules>(*mesh_);
+    if (options_.rule != SplitRule::Selective && !options_.classic_rules) {
+        options_.classic_rules = std::make_shared<const ClassicSplitRules>(*mesh_);
     }
     stack_.reserve(64);
     path_.reserve(64);
@@ -76,7 +76,7 @@ void SelectiveRefiner::restart() {
         const std::uint32_t slot = new_slot();
         slots_.set(mesh_->first_leaf(root), slot);
         put(slot, root, mesh_->shape(root));
-        note_change(slot);
+        mark_changed(slot);
     }
     active_count_ = faces_.vertex_count();
     const std::vector<bool> base = mesh_->base_faces();
@@ -94,7 +94,7 @@ void SelectiveRefiner::restart() {
 std::uint32_t SelectiveRefiner::new_slot() {
     const std::uint32_t slot = faces_.add_vertex();
     if (slot >= vertices_.size()) {
-        make_room(vertices_, vertices_.size() + 1, mesh_->leaf_count());
+        reserve_up_to(vertices_, vertices_.size() + 1, mesh_->leaf_count());
         vertices_.emplace_back();
     }
     dirty_vertices_.mark(slot);
@@ -102,18 +102,18 @@ std::uint32_t SelectiveRefiner::new_slot() {
 }
 
 /// Puts a node into a slot, drawn at its own position.
-void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape) {
+void SelectiveRefiner::put(std::uint32_t slot, std::uint32_t node, const NodeGeometry& shape) {
     faces_.set_vertex_label(slot, node);
     vertices_[slot] = drawn(shape);
 }
 
 std::size_t SelectiveRefiner::split(std::uint32_t node) {
-    return split_one(node, nullptr);
+    return split_single(node, nullptr);
 }
 
 /// As split(); adds the nodes that the rule demanded to `forced` unless that is null. The common
 /// case, an active node with two different cut vertices, takes no detour.
-std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uint32_t>* forced) {
+std::size_t SelectiveRefiner::split_single(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     assert(!mesh_->is_leaf(node));
     const std::uint32_t leaf = mesh_->first_leaf(node);
     const std::uint32_t begins_there = starts_.has(leaf) ? node_at(slots_[leaf]) : none;
@@ -122,18 +122,18 @@ std::size_t SelectiveRefiner::split_one(std::uint32_t node, std::vector<std::uin
     }
     if (begins_there == node && options_.rule == SplitRule::Selective) {
         if (const Cuts cuts = active_cuts(node); cuts.left != cuts.right) { // nearly always
-            split_now(node, cuts);
+            apply_split(node, cuts);
             return 1;
         }
     }
     const std::size_t before = counts_.splits;
-    split_with_others(node, forced);
+    split_with_prerequisites(node, forced);
     return counts_.splits - before;
 }
 
 /// Splits an inner node that is not split yet, after its ancestors and whatever the rule demands.
 /// Works on a stack of nodes, each of which waits for the one above it.
-void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced) {
+void SelectiveRefiner::split_with_prerequisites(std::uint32_t node, std::vector<std::uint32_t>* forced) {
     // The node itself and its ancestors were asked for; every other split counts as forced.
     path_.clear();
     for (std::uint32_t at = node; at != none && !is_split(at); at = mesh_->parent(at)) {
@@ -146,12 +146,12 @@ void SelectiveRefiner::split_with_others(std::uint32_t node, std::vector<std::ui
             stack_.pop_back();
         } else if (!is_active(next)) {
             stack_.push_back(mesh_->parent(next));
-        } else if (const std::uint32_t first = needed_before(next); first != none) {
+        } else if (const std::uint32_t first = required_split(next); first != none) {
             stack_.push_back(first);
         } else if (const Cuts cuts = active_cuts(next); cuts.left == cuts.right) {
             stack_.push_back(node_at(slots_[cuts.left]));
         } else {
-            split_now(next, cuts);
+            apply_split(next, cuts);
             stack_.pop_back();
             if (std::ranges::find(path_, next) == path_.end()) {
                 ++counts_.forced_by_rule;
@@ -170,7 +170,7 @@ std::size_t SelectiveRefiner::split_all(std::span<const std::uint32_t> nodes) {
     const std::vector<std::uint32_t> ordered = falling(nodes, mesh_->node_count());
     std::vector<std::uint32_t> forced;
     for (const std::uint32_t node : ordered) {
-        split_one(node, &forced);
+        split_single(node, &forced);
     }
     // A forced split was asked for after all when one of the given nodes lies below it.
     for (const std::uint32_t node : forced) {
@@ -187,18 +187,18 @@ SelectiveRefiner::Cuts SelectiveRefiner::active_cuts(std::uint32_t node) const {
     const std::uint32_t left = mesh_->split_of(node).left_cut;
     const std::uint32_t right = mesh_->split_of(node).right_cut;
     return {
-        left == none ? none : starts_.at_or_before(left),
-        right == none ? none - 1 : starts_.at_or_before(right)};
+        left == none ? none : starts_.last_up_to(left),
+        right == none ? none - 1 : starts_.last_up_to(right)};
 }
 
 /// A node that the rule Hoppe or Xia wants to be split before an active node; `none` when the node
 /// may split.
-std::uint32_t SelectiveRefiner::needed_before(std::uint32_t node) const {
+std::uint32_t SelectiveRefiner::required_split(std::uint32_t node) const {
     switch (options_.rule) {
     case SplitRule::Hoppe:
-        return needed_by_hoppe(node);
+        return split_required_by_hoppe(node);
     case SplitRule::Xia:
-        return needed_by_xia(node);
+        return split_required_by_xia(node);
     case SplitRule::Selective:
         break;
     }
@@ -207,12 +207,12 @@ std::uint32_t SelectiveRefiner::needed_before(std::uint32_t node) const {
 
 /// The introducer of one of the four faces beside the node's edge that is not in the active mesh
 /// yet.
-std::uint32_t SelectiveRefiner::needed_by_hoppe(std::uint32_t node) const {
-    for (const std::uint32_t face : options_.earlier->faces_beside(node)) {
+std::uint32_t SelectiveRefiner::split_required_by_hoppe(std::uint32_t node) const {
+    for (const std::uint32_t face : options_.classic_rules->adjacent_faces(node)) {
         if (face == none) {
             continue;
         }
-        const std::uint32_t introducer = options_.earlier->introducer(face);
+        const std::uint32_t introducer = options_.classic_rules->introducer(face);
         if (introducer != none && !is_split(introducer)) {
             return introducer;
         }
@@ -221,8 +221,8 @@ std::uint32_t SelectiveRefiner::needed_by_hoppe(std::uint32_t node) const {
 }
 
 /// The unsplit parent of a node of the 1-ring at collapse time.
-std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
-    for (const std::uint32_t around : options_.earlier->ring(node)) {
+std::uint32_t SelectiveRefiner::split_required_by_xia(std::uint32_t node) const {
+    for (const std::uint32_t around : options_.classic_rules->ring(node)) {
         const std::uint32_t parent = mesh_->parent(around);
         if (parent != none && !is_split(parent)) {
             return parent;
@@ -233,8 +233,8 @@ std::uint32_t SelectiveRefiner::needed_by_xia(std::uint32_t node) const {
 
 /// vsplit: replaces an active node by its children, given its active cut vertices, which must
 /// differ.
-void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
-    const Split split = mesh_->split_of(node);
+void SelectiveRefiner::apply_split(std::uint32_t node, const Cuts& cuts) {
+    const VertexSplit split = mesh_->split_of(node);
     const std::uint32_t middle = split.middle;
     const std::uint32_t first_slot = slots_[split.first_leaf];
     const std::uint32_t second_slot = new_slot();
@@ -242,7 +242,7 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     slots_.set(middle, second_slot);
     ++active_count_;
     ++counts_.splits;
-    if (options_.remember_splits) {
+    if (options_.records_splits) {
         recent_splits_.push_back(node);
     }
     const auto shapes = mesh_->child_shapes(node);
@@ -268,35 +268,35 @@ void SelectiveRefiner::split_now(std::uint32_t node, const Cuts& cuts) {
     if (split.right_face != none) {
         add_face(split.right_face, split.right_cut, cuts.right);
     }
-    note_change(first_slot);
-    note_change(second_slot);
+    mark_changed(first_slot);
+    mark_changed(second_slot);
 }
 
-bool SelectiveRefiner::may_collapse(std::uint32_t node) {
+bool SelectiveRefiner::can_collapse(std::uint32_t node) {
     assert(!mesh_->is_leaf(node));
-    const Split split = mesh_->split_of(node);
+    const VertexSplit split = mesh_->split_of(node);
     if (!is_active(split.first) || !is_active(split.second)) {
         return false;
     }
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
-    return links_allow(first_slot, second_slot) &&
-           !(options_.repair && (turns_faces(first_slot, second_slot, node) ||
-                                 turns_faces(second_slot, first_slot, node)));
+    return satisfies_link_condition(first_slot, second_slot) &&
+           !(options_.repair && (flips_faces(first_slot, second_slot, node) ||
+                                 flips_faces(second_slot, first_slot, node)));
 }
 
 bool SelectiveRefiner::collapse(std::uint32_t node) {
-    if (!may_collapse(node)) {
+    if (!can_collapse(node)) {
         ++counts_.blocked;
         return false;
     }
-    collapse_now(node);
+    apply_collapse(node);
     return true;
 }
 
 /// ecol: replaces two active siblings by their parent.
-void SelectiveRefiner::collapse_now(std::uint32_t node) {
-    const Split split = mesh_->split_of(node);
+void SelectiveRefiner::apply_collapse(std::uint32_t node) {
+    const VertexSplit split = mesh_->split_of(node);
     const std::uint32_t first_slot = slot(split.first);
     const std::uint32_t second_slot = slot(split.second);
     for (const std::uint32_t face : {split.left_face, split.right_face}) {
@@ -316,24 +316,24 @@ void SelectiveRefiner::collapse_now(std::uint32_t node) {
     faces_.remove_vertex(second_slot);
     put(first_slot, node, mesh_->shape(node));
     dirty_vertices_.mark(first_slot);
-    note_change(first_slot);
+    mark_changed(first_slot);
 }
 
 RefinedVertex SelectiveRefiner::vertex_of(std::uint32_t node) const {
     return drawn(mesh_->shape(node));
 }
 
-void SelectiveRefiner::draw_at(std::uint32_t slot, const RefinedVertex& vertex) {
+void SelectiveRefiner::set_drawn_vertex(std::uint32_t slot, const RefinedVertex& vertex) {
     vertices_[slot] = vertex;
     dirty_vertices_.mark(slot);
 }
 
-void SelectiveRefiner::take_dirty_vertices(std::vector<PlaceRange>& ranges) {
+void SelectiveRefiner::take_dirty_vertices(std::vector<SlotRange>& ranges) {
     dirty_vertices_.take(vertices_.size(), ranges);
 }
 
-void SelectiveRefiner::take_dirty_faces(std::vector<PlaceRange>& ranges) {
-    dirty_faces_.take(faces_.place_count(), ranges);
+void SelectiveRefiner::take_dirty_faces(std::vector<SlotRange>& ranges) {
+    dirty_faces_.take(faces_.face_slot_count(), ranges);
 }
 
 std::size_t SelectiveRefiner::bytes() const {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "visuals/refine/active_starts.h"
+#include "visuals/refine/active_leaf_set.h"
 #include "visuals/refine/dirty_blocks.h"
-#include "visuals/refine/earlier_rules.h"
+#include "visuals/refine/classic_split_rules.h"
 #include "visuals/refine/face_lists.h"
 #include "visuals/refine/progressive_mesh.h"
-#include "visuals/refine/short_numbers.h"
+#include "visuals/refine/uint24_array.h"
 
 #include <glm/vec3.hpp>
 
@@ -28,11 +28,11 @@ struct RefinedVertex {
 /// How a front splits.
 struct RefinerOptions {
     SplitRule rule = SplitRule::Selective;
-    bool remember_splits = false; ///< Fills recent_splits().
+    bool records_splits = false; ///< Fills recent_splits().
     bool repair = true;           ///< Mends fold-overs and refuses collapses that would make any.
     /// What the rules Hoppe and Xia need; made by the constructor when null. Not used by Selective.
-    std::shared_ptr<const EarlierRules>
-        earlier{}; ///< for the rules Hoppe and Xia only; null = made
+    std::shared_ptr<const ClassicSplitRules>
+        classic_rules{}; ///< for the rules Hoppe and Xia only; null = made
 };
 
 /// How many operations were done since the front was made.
@@ -77,7 +77,7 @@ public:
 
     /// Puts the nodes that split(active_node) would split before that one into `forced`, in order,
     /// for the rule Selective. At most 200 are found.
-    void nodes_forced_by(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
+    void find_forced_splits(std::uint32_t active_node, std::vector<std::uint32_t>& forced) const;
 
     /// Returns to the base mesh. Memory is kept and the counts go on.
     void restart();
@@ -89,23 +89,23 @@ public:
     bool collapse(std::uint32_t node);
 
     /// Whether collapse(node) would succeed now.
-    bool may_collapse(std::uint32_t node);
+    bool can_collapse(std::uint32_t node);
 
-    /// The inner nodes that were split since forget_recent_splits was last called, in order. Needs
-    /// options().remember_splits.
+    /// The inner nodes that were split since clear_recent_splits was last called, in order. Needs
+    /// options().records_splits.
     std::span<const std::uint32_t> recent_splits() const { return recent_splits_; }
 
-    void forget_recent_splits() { recent_splits_.clear(); }
+    void clear_recent_splits() { recent_splits_.clear(); }
 
     /// Splits the coarsest corner of each face that is turned over against its original, until
     /// there is none. Only faces that changed since the last call are looked at. Returns how many
-    /// splits were done. Does nothing without options().repair. Nodes for which spare(node) is true
+    /// splits were done. Does nothing without options().repair. Nodes for which is_protected(node) is true
     /// are split only where no other corner can be.
-    std::size_t repair(const std::function<bool(std::uint32_t)>& spare = {});
+    std::size_t repair(const std::function<bool(std::uint32_t)>& is_protected = {});
 
     /// How many faces of the active mesh are turned over: their normals are more than 90 degrees
     /// off those of their original faces.
-    std::size_t turned_faces() const;
+    std::size_t flipped_faces() const;
 
     bool is_active(std::uint32_t node) const {
         const std::uint32_t leaf = mesh_->first_leaf(node);
@@ -124,7 +124,7 @@ public:
 
     /// The slot of a leaf's active ancestor.
     std::uint32_t slot_above(std::uint32_t leaf) const {
-        return slots_[starts_.at_or_before(leaf)];
+        return slots_[starts_.last_up_to(leaf)];
     }
 
     std::size_t active_count() const { return active_count_; }
@@ -159,15 +159,15 @@ public:
 
     /// Sets a vertex as it is drawn, for geomorphs. The next split or collapse of its node puts it
     /// back to the node's position.
-    void draw_at(std::uint32_t slot, const RefinedVertex& vertex);
+    void set_drawn_vertex(std::uint32_t slot, const RefinedVertex& vertex);
 
     /// The vertex of a node at the node's own position.
     RefinedVertex vertex_of(std::uint32_t node) const;
 
     /// Puts the ranges of slots whose vertices were written since the last call into `ranges`.
-    void take_dirty_vertices(std::vector<PlaceRange>& ranges);
+    void take_dirty_vertices(std::vector<SlotRange>& ranges);
     /// Puts the ranges of places whose faces were written since the last call into `ranges`.
-    void take_dirty_faces(std::vector<PlaceRange>& ranges);
+    void take_dirty_faces(std::vector<SlotRange>& ranges);
 
     /// The memory of the front without vertices(), its part that grows with the hierarchy included.
     std::size_t bytes() const;
@@ -182,27 +182,27 @@ private:
     };
 
     Cuts active_cuts(std::uint32_t node) const;
-    std::uint32_t needed_before(std::uint32_t node) const;
-    std::uint32_t needed_by_hoppe(std::uint32_t node) const;
-    std::uint32_t needed_by_xia(std::uint32_t node) const;
+    std::uint32_t required_split(std::uint32_t node) const;
+    std::uint32_t split_required_by_hoppe(std::uint32_t node) const;
+    std::uint32_t split_required_by_xia(std::uint32_t node) const;
     std::uint32_t new_slot();
-    void put(std::uint32_t slot, std::uint32_t node, const NodeShape& shape);
-    std::size_t split_one(std::uint32_t node, std::vector<std::uint32_t>* forced);
-    void split_with_others(std::uint32_t node, std::vector<std::uint32_t>* forced);
-    void split_now(std::uint32_t node, const Cuts& cuts);
-    void collapse_now(std::uint32_t node);
-    void note_change(std::uint32_t slot);
-    bool links_allow(std::uint32_t first_slot, std::uint32_t second_slot);
+    void put(std::uint32_t slot, std::uint32_t node, const NodeGeometry& shape);
+    std::size_t split_single(std::uint32_t node, std::vector<std::uint32_t>* forced);
+    void split_with_prerequisites(std::uint32_t node, std::vector<std::uint32_t>* forced);
+    void apply_split(std::uint32_t node, const Cuts& cuts);
+    void apply_collapse(std::uint32_t node);
+    void mark_changed(std::uint32_t slot);
+    bool satisfies_link_condition(std::uint32_t first_slot, std::uint32_t second_slot);
     void mark(std::uint32_t slot, std::uint32_t bits);
     void unmark(std::uint32_t slot, std::uint32_t bits);
     void clear_link_marks(std::uint32_t slot);
     const glm::vec3& position_at(std::uint32_t corner) const;
-    bool turns_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const;
-    void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& spare);
+    bool flips_faces(std::uint32_t slot, std::uint32_t other, std::uint32_t node) const;
+    void repair_around(std::uint32_t slot, const std::function<bool(std::uint32_t)>& is_protected);
     std::uint32_t ancestor_after(std::uint32_t leaf, std::span<const std::uint32_t> split) const;
-    bool is_turned(std::uint32_t place) const;
+    bool is_flipped(std::uint32_t place) const;
     std::uint32_t
-    coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& spare) const;
+    coarsest_corner(std::uint32_t place, const std::function<bool(std::uint32_t)>& is_protected) const;
 
     std::shared_ptr<const ProgressiveMesh> mesh_;
     RefinerOptions options_;
@@ -210,11 +210,11 @@ private:
     /// faces.
     FaceLists faces_;
     std::vector<RefinedVertex> vertices_; ///< One for each slot.
-    ActiveStarts starts_;                 ///< The first leaves of the active nodes.
+    ActiveLeafSet starts_;                 ///< The first leaves of the active nodes.
     /// For the first leaf of each active node its slot; other entries mean nothing.
-    ShortNumbers slots_;
+    Uint24Array slots_;
     std::vector<std::uint32_t> stack_;   ///< Nodes that wait to be split; the last one is next.
-    std::vector<std::uint32_t> path_;    ///< Scratch memory of split_with_others.
+    std::vector<std::uint32_t> path_;    ///< Scratch memory of split_with_prerequisites.
     std::vector<std::uint32_t> changed_; ///< The slots whose faces repair() has to look at.
     std::vector<std::uint32_t> recent_splits_;
     DirtyBlocks dirty_vertices_;

@@ -2,9 +2,9 @@
 // H. Hoppe's criterion (1997, section 4).
 //
 // A frame splits every active node whose projected error exceeds error_px, the largest error first,
-// and merges siblings whose parent would show less than merge_share of it, the smallest error
+// and merges siblings whose parent would show less than merge_error_ratio of it, the smallest error
 // first. Three things keep nodes from being split and merged in turns: the gap between the two
-// thresholds, weights that look ahead by an angle (merge_play_rad), and a rest of some frames after
+// thresholds, weights that look ahead by an angle (merge_angle_margin_rad), and a rest of some frames after
 // each operation.
 //
 // Merging takes several frames: geomorphs first carry both vertices to the parent's position, then
@@ -20,7 +20,7 @@ namespace octant::visuals::refine {
 ViewRefiner::ViewRefiner(
     std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options)
     : options_(options)
-    , front_(std::move(mesh), {.remember_splits = true, .repair = options.repair})
+    , refiner_(std::move(mesh), {.records_splits = true, .repair = options.repair})
     , moves_(options.geomorph) {}
 
 RefinedFrame ViewRefiner::update(const RefineView& view) {
@@ -31,29 +31,29 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
     has_view_ = true;
     ++frame_;
     waiting_ = false;
-    const RefinerCounts before = front_.counts();
-    gather();
+    const RefinerCounts before = refiner_.counts();
+    collect_candidates();
     split_worst();
-    front_.repair([this](std::uint32_t node) { return needs_resting(node); });
+    refiner_.repair([this](std::uint32_t node) { return needs_resting(node); });
     start_moves();
-    turn_back_moves();
+    reverse_moves();
     merge_smallest();
     RefinedFrame frame;
-    frame.moving = options_.geomorphs ? moves_.move(front_, view) : 0;
-    frame.splits = front_.counts().splits - before.splits;
-    frame.collapses = front_.counts().collapses - before.collapses;
+    frame.moving = options_.geomorphs ? moves_.move(refiner_, view) : 0;
+    frame.splits = refiner_.counts().splits - before.splits;
+    frame.collapses = refiner_.counts().collapses - before.collapses;
     settled_ = frame.splits + frame.collapses + frame.moving == 0 && !waiting_;
     frame.settled = settled_;
     return frame;
 }
 
-void ViewRefiner::settle(const RefineView& view) {
+void ViewRefiner::refine_fully(const RefineView& view) {
     // Repair and merging could otherwise undo each other's work for ever.
     constexpr int max_rounds = 100;
     const ViewRefinerOptions kept = options_;
     options_.geomorphs = false;
     options_.operations = std::numeric_limits<std::size_t>::max();
-    options_.rest_frames = 0;
+    options_.merge_delay_frames = 0;
     settled_ = false;
     for (int round = 0; round < max_rounds && !update(view).settled; ++round) {
     }
@@ -62,19 +62,19 @@ void ViewRefiner::settle(const RefineView& view) {
 
 /// Fills splits_ with the nodes to split, and merges_ with the parents whose children may be
 /// merged.
-void ViewRefiner::gather() {
+void ViewRefiner::collect_candidates() {
     splits_.clear();
     merges_.clear();
-    const ProgressiveMesh& mesh = front_.mesh();
-    for (std::uint32_t slot = 0; slot < front_.vertices().size(); ++slot) {
-        const std::uint32_t node = front_.node_at(slot);
+    const ProgressiveMesh& mesh = refiner_.mesh();
+    for (std::uint32_t slot = 0; slot < refiner_.vertices().size(); ++slot) {
+        const std::uint32_t node = refiner_.node_at(slot);
         if (node == none) {
             continue;
         }
         consider_split(node);
         const std::uint32_t parent = mesh.parent(node);
         if (parent == none || mesh.split_of(parent).first != node ||
-            !front_.is_active(mesh.split_of(parent).second)) {
+            !refiner_.is_active(mesh.split_of(parent).second)) {
             continue;
         }
         if (!keeps_split(parent)) {
@@ -85,7 +85,7 @@ void ViewRefiner::gather() {
 
 /// Adds a node to splits_ when its error is too large.
 void ViewRefiner::consider_split(std::uint32_t node) {
-    if (front_.mesh().is_leaf(node)) {
+    if (refiner_.mesh().is_leaf(node)) {
         return;
     }
     const double shown_px = error_px(node);
@@ -107,18 +107,18 @@ void ViewRefiner::split_worst() {
         std::ranges::pop_heap(splits_, less);
         const auto [shown_px, node] = splits_.back();
         splits_.pop_back();
-        if (!front_.is_active(node)) {
+        if (!refiner_.is_active(node)) {
             continue; // It has been split already, because another node forced it.
         }
-        if (shown_px <= options_.again_share * options_.error_px && needs_resting(node)) {
+        if (shown_px <= options_.resplit_error_ratio * options_.error_px && needs_resting(node)) {
             waiting_ = true;
             continue;
         }
-        front_.split(node);
+        refiner_.split(node);
         --left;
-        const Split split = front_.mesh().split_of(node);
+        const VertexSplit split = refiner_.mesh().split_of(node);
         for (const std::uint32_t child : {split.first, split.second}) {
-            if (front_.is_active(child)) {
+            if (refiner_.is_active(child)) {
                 consider_split(child);
             }
         }
@@ -128,34 +128,34 @@ void ViewRefiner::split_worst() {
 
 /// Starts geomorphs for all nodes that were split in this frame.
 void ViewRefiner::start_moves() {
-    split_frames_.resize(front_.vertices().size(), 0);
-    for (const std::uint32_t node : front_.recent_splits()) {
-        const Split split = front_.mesh().split_of(node);
-        split_frames_[front_.slot_below(split.first)] = frame_;
-        split_frames_[front_.slot_below(split.second)] = frame_;
+    split_frames_.resize(refiner_.vertices().size(), 0);
+    for (const std::uint32_t node : refiner_.recent_splits()) {
+        const VertexSplit split = refiner_.mesh().split_of(node);
+        split_frames_[refiner_.slot_below(split.first)] = frame_;
+        split_frames_[refiner_.slot_below(split.second)] = frame_;
         if (options_.geomorphs) {
-            moves_.start(front_, node);
+            moves_.start(refiner_, node);
         }
     }
-    front_.forget_recent_splits();
+    refiner_.clear_recent_splits();
 }
 
 /// Sends vertices back that travel to a merge which is no longer wanted or no longer possible.
-void ViewRefiner::turn_back_moves() {
+void ViewRefiner::reverse_moves() {
     turning_.clear();
     moves_.each([&](std::uint32_t slot, std::uint32_t target) {
-        const std::uint32_t node = front_.node_at(slot);
+        const std::uint32_t node = refiner_.node_at(slot);
         if (target == node) {
             return;
         }
-        const Split split = front_.mesh().split_of(target);
-        if (!front_.is_active(split.first) || !front_.is_active(split.second) ||
-            error_px(target) > options_.error_px || !front_.may_collapse(target)) {
+        const VertexSplit split = refiner_.mesh().split_of(target);
+        if (!refiner_.is_active(split.first) || !refiner_.is_active(split.second) ||
+            error_px(target) > options_.error_px || !refiner_.can_collapse(target)) {
             turning_.push_back(slot);
         }
     });
     for (const std::uint32_t slot : turning_) {
-        moves_.send(front_, slot, front_.node_at(slot));
+        moves_.retarget(refiner_, slot, refiner_.node_at(slot));
     }
 }
 
@@ -166,11 +166,11 @@ void ViewRefiner::merge_smallest() {
     });
     std::size_t left = options_.operations;
     for (const Candidate& candidate : merges_) {
-        const Split split = front_.mesh().split_of(candidate.node);
-        if (!front_.is_active(split.first) || !front_.is_active(split.second)) {
+        const VertexSplit split = refiner_.mesh().split_of(candidate.node);
+        if (!refiner_.is_active(split.first) || !refiner_.is_active(split.second)) {
             continue; // A child has been split in the meantime.
         }
-        if (left == 0 || is_resting(candidate.node)) {
+        if (left == 0 || is_merge_delayed(candidate.node)) {
             waiting_ = true;
         } else if (merge(candidate.node)) {
             --left;
@@ -178,43 +178,43 @@ void ViewRefiner::merge_smallest() {
     }
 }
 
-/// Whether one of a node's children came by a split within the last rest_frames.
-bool ViewRefiner::is_resting(std::uint32_t node) const {
-    const Split split = front_.mesh().split_of(node);
+/// Whether one of a node's children came by a split within the last merge_delay_frames.
+bool ViewRefiner::is_merge_delayed(std::uint32_t node) const {
+    const VertexSplit split = refiner_.mesh().split_of(node);
     const std::uint32_t came =
-        std::max(split_frames_[front_.slot(split.first)], split_frames_[front_.slot(split.second)]);
-    return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.rest_frames);
+        std::max(split_frames_[refiner_.slot(split.first)], split_frames_[refiner_.slot(split.second)]);
+    return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.merge_delay_frames);
 }
 
-/// Whether an active node came by a merge within the last rest_frames.
-bool ViewRefiner::rests_after_merge(std::uint32_t node) const {
-    const std::uint32_t slot = front_.slot(node);
+/// Whether an active node came by a merge within the last merge_delay_frames.
+bool ViewRefiner::is_split_delayed(std::uint32_t node) const {
+    const std::uint32_t slot = refiner_.slot(node);
     return slot < merged_.size() && merged_[slot].node == node &&
-           frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.rest_frames);
+           frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.merge_delay_frames);
 }
 
 /// Whether splitting an active node would split one that rests after its merge: itself or a forced
 /// one.
 bool ViewRefiner::needs_resting(std::uint32_t node) {
-    if (rests_after_merge(node)) {
+    if (is_split_delayed(node)) {
         return true;
     }
-    front_.nodes_forced_by(node, forced_);
+    refiner_.find_forced_splits(node, forced_);
     return std::ranges::any_of(forced_, [this](std::uint32_t forced) {
-        return front_.is_active(forced) && rests_after_merge(forced);
+        return refiner_.is_active(forced) && is_split_delayed(forced);
     });
 }
 
 /// Merges a node's children, or with geomorphs sends them to the node's position until they have
 /// arrived. Returns false when that is not possible now.
 bool ViewRefiner::merge(std::uint32_t node) {
-    const Split split = front_.mesh().split_of(node);
-    const std::uint32_t first = front_.slot(split.first);
-    const std::uint32_t second = front_.slot(split.second);
+    const VertexSplit split = refiner_.mesh().split_of(node);
+    const std::uint32_t first = refiner_.slot(split.first);
+    const std::uint32_t second = refiner_.slot(split.second);
     const bool there = moves_.target(first) == node && moves_.target(second) == node &&
                        moves_.has_arrived(first) && moves_.has_arrived(second);
     if (!options_.geomorphs || there) {
-        if (!front_.collapse(node)) {
+        if (!refiner_.collapse(node)) {
             return false;
         }
         moves_.forget(first);
@@ -224,11 +224,11 @@ bool ViewRefiner::merge(std::uint32_t node) {
         merged_[first] = {node, frame_};
         return true;
     }
-    if (!front_.may_collapse(node)) {
+    if (!refiner_.can_collapse(node)) {
         return false;
     }
-    moves_.send(front_, first, node);
-    moves_.send(front_, second, node);
+    moves_.retarget(refiner_, first, node);
+    moves_.retarget(refiner_, second, node);
     return true;
 }
 

@@ -15,15 +15,15 @@ namespace octant::visuals::refine {
 struct ViewRefinerOptions {
     double error_px = 1.0; ///< A node with a larger projected error is split.
     /// A node with a projected error below this share of error_px is merged; below 1.
-    double merge_share = 0.75;
-    /// CriterionOptions::play_rad for merges: a node that may come into sight soon is not merged.
-    double merge_play_rad = 0.2; ///< criterion.play_rad for merges: what comes into sight keeps
+    double merge_error_ratio = 0.75;
+    /// CriterionOptions::angle_margin_rad for merges: a node that may come into sight soon is not merged.
+    double merge_angle_margin_rad = 0.2; ///< criterion.angle_margin_rad for merges: what comes into sight keeps
     /// A node that was split is not merged for this many frames.
-    int rest_frames = 10; ///< a node that was split is not merged for so many
-    /// A node that was merged is not split again for rest_frames either, nor is one that would
+    int merge_delay_frames = 10; ///< a node that was split is not merged for so many
+    /// A node that was merged is not split again for merge_delay_frames either, nor is one that would
     /// force it to split, unless its error is more than this many times error_px or nothing else
     /// mends a turned face.
-    double again_share = 3.0;
+    double resplit_error_ratio = 3.0;
     /// At most this many splits and this many collapses are begun in one frame.
     std::size_t operations = 2000; ///< splits and collapses asked for in a frame, at most
     bool geomorphs = true;
@@ -55,15 +55,15 @@ public:
 
     /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for
     /// the first picture that shows it.
-    void settle(const RefineView& view);
+    void refine_fully(const RefineView& view);
 
-    const SelectiveRefiner& front() const { return front_; }
+    const SelectiveRefiner& front() const { return refiner_; }
 
-    SelectiveRefiner& front() { return front_; }
+    SelectiveRefiner& front() { return refiner_; }
 
     /// Whether the criterion alone keeps a node split in the view of the last frame.
     bool keeps_split(std::uint32_t node) const {
-        return merged_error_px(node) >= options_.merge_share * options_.error_px;
+        return merged_error_px(node) >= options_.merge_error_ratio * options_.error_px;
     }
 
 private:
@@ -74,15 +74,15 @@ private:
     };
 
     double error_px(std::uint32_t node) const {
-        return projected_error_px(front_.mesh(), node, view_, options_.criterion);
+        return projected_error_px(refiner_.mesh(), node, view_, options_.criterion);
     }
 
     /// The projected error that a node would have once its children are merged into it; with
-    /// merge_play_rad.
+    /// merge_angle_margin_rad.
     double merged_error_px(std::uint32_t node) const {
         CriterionOptions criterion = options_.criterion;
-        criterion.play_rad += options_.merge_play_rad;
-        return projected_error_px(front_.mesh(), node, view_, criterion);
+        criterion.angle_margin_rad += options_.merge_angle_margin_rad;
+        return projected_error_px(refiner_.mesh(), node, view_, criterion);
     }
 
     /// The node that was last merged in a slot, and when.
@@ -91,19 +91,19 @@ private:
         std::uint32_t frame = 0;
     };
 
-    void gather();
+    void collect_candidates();
     void consider_split(std::uint32_t node);
     void split_worst();
     void start_moves();
-    void turn_back_moves();
+    void reverse_moves();
     void merge_smallest();
     bool merge(std::uint32_t node);
-    bool is_resting(std::uint32_t node) const;
-    bool rests_after_merge(std::uint32_t node) const;
+    bool is_merge_delayed(std::uint32_t node) const;
+    bool is_split_delayed(std::uint32_t node) const;
     bool needs_resting(std::uint32_t node);
 
     ViewRefinerOptions options_;
-    SelectiveRefiner front_;
+    SelectiveRefiner refiner_;
     Geomorphs moves_;
     RefineView view_;
     bool has_view_ = false;
@@ -112,7 +112,7 @@ private:
     std::uint32_t frame_ = 0;
     std::vector<Candidate> splits_; ///< A heap with the largest error on top.
     std::vector<Candidate> merges_;
-    std::vector<std::uint32_t> turning_; ///< Scratch memory of turn_back_moves: slots.
+    std::vector<std::uint32_t> turning_; ///< Scratch memory of reverse_moves: slots.
     std::vector<std::uint32_t> forced_;  ///< Scratch memory of needs_resting.
     /// For each slot the frame in which a split put its node there.
     std::vector<std::uint32_t> split_frames_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/roads/road_curve.h"
-#include "visuals/roads/road_ground.h"
+#include "visuals/roads/road_cost_grid.h"
 #include "visuals/terrain/ground_samples.h"
 
 #include <glm/vec2.hpp>
@@ -19,15 +19,15 @@ class RoadNetwork {
 public:
     /// Loading work; the ground is needed by the constructor alone. Without roads where the ground
     /// is too small, too coarse or too rough.
-    RoadNetwork(const terrain::GroundSamples& ground, const RoadWish& wish);
+    RoadNetwork(const terrain::GroundSamples& ground, const RoadConstraints& constraints);
 
-    std::span<const RoadPiece> pieces() const { return pieces_; }
+    std::span<const RoadSection> sections() const { return sections_; }
 
     /// False only where no road touches this box.
-    bool may_meet(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
+    bool may_intersect(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
 
     /// Appends numbers of the pieces that may touch this box, some of them more than once.
-    void pieces_by(
+    void sections_in_box(
         const glm::dvec2& min_m,
         const glm::dvec2& max_m,
         std::vector<std::uint32_t>& numbers) const;
@@ -37,27 +37,27 @@ public:
 
 private:
     /// Squares of a grid over the ground.
-    struct Squares {
+    struct GridRange {
         glm::ivec2 first;
         glm::ivec2 last;
     };
 
-    void lay(const terrain::GroundSamples& ground, const RoadWish& wish);
+    void build(const terrain::GroundSamples& ground, const RoadConstraints& constraints);
     void index();
-    void add_places(
+    void add_cells(
         const RoadPoint& from,
         const RoadPoint& to,
         std::uint32_t number,
         std::vector<std::pair<std::uint32_t, std::uint32_t>>& places) const;
-    Squares squares(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
-    std::size_t square(int column, int row) const;
+    GridRange grid_range(const glm::dvec2& min_m, const glm::dvec2& max_m) const;
+    std::size_t grid_cell(int column, int row) const;
 
-    std::vector<RoadPiece> pieces_;
+    std::vector<RoadSection> sections_;
     glm::dvec2 first_m_{0.0}; ///< of the squares
-    double square_m_ = 0.0;
-    glm::ivec2 counts_{0};
-    std::vector<std::uint32_t> first_of_; ///< for each square, and the end, a place in by_square_
-    std::vector<std::uint32_t> by_square_;
+    double grid_cell_m_ = 0.0;
+    glm::ivec2 grid_size_{0};
+    std::vector<std::uint32_t> first_of_; ///< for each square, and the end, a place in sections_by_cell_
+    std::vector<std::uint32_t> sections_by_cell_;
     /// How often a piece lies in a square south-west of here: (columns + 1) x (rows + 1).
     std::vector<std::uint32_t> sums_;
 };

@@ -61,7 +61,7 @@ Mixture mixture_of(int kind, const std::array<Cover, CoverContrast::covers>& cov
 glm::dvec3 shown_of(const Mixture& mixture, double deviations) {
     const double second = glm::clamp((deviations - mixture.border) / border_width + 0.5, 0.0, 1.0);
     const auto shown = [&](const Cover& cover) {
-        return glm::dvec3(cover.colour) * (1.0 + static_cast<double>(cover.mottled) * deviations);
+        return glm::dvec3(cover.colour) * (1.0 + static_cast<double>(cover.mottling) * deviations);
     };
     return glm::mix(shown(mixture.first), shown(mixture.second), second);
 }

@@ -13,7 +13,7 @@ struct Cover {
     /// Own colour, display values.
     glm::vec3 colour{0.5F};
     /// Standard deviation of its brightness in the pattern, as a share of itself.
-    float mottled = 0.1F;
+    float mottling = 0.1F;
 };
 
 /// How a pixel of ground differs from the mean around it. A mean says by a number from 0 to 255

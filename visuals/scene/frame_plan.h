@@ -20,7 +20,7 @@
 
 // The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
 //
-// All colours are display values (models/display_colour.h), and all arithmetic is done on them
+// All colours are display values (models/srgb.h), and all arithmetic is done on them
 // directly; README.md of this room says what that costs.
 
 namespace octant::visuals::scene {
@@ -110,7 +110,7 @@ struct Haze {
     /// How fast the air gets thinner with height; 0 = it is as dense at all heights.
     float falloff_per_m = 0.0F;
     /// The level direction of the sun, a unit vector east and north; 0 = one colour all around.
-    glm::vec2 to_sun_level{0.0F};
+    glm::vec2 horizontal_to_sun{0.0F};
     /// The colour of the haze towards the sun, display values 0..1.
     glm::vec3 sunward{0.0F};
 };

@@ -38,7 +38,7 @@ public:
 
     /// Another renderer on the same device, with nothing loaded. Throws Error when the driver
     /// cannot hold that size.
-    virtual std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const = 0;
+    virtual std::unique_ptr<Renderer> sibling(const glm::ivec2& size_px, int samples) const = 0;
 
     /// Draws pictures of another size or with other samples (1, 4 or 16 a pixel; nothing: as many
     /// as suit this renderer) from now on. Throws Error and leaves it as it is when it cannot.

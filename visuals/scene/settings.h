@@ -26,7 +26,7 @@ enum class View { Chase, Cockpit, Tower, Orbit, Free };
 enum class GroundMetric { Printed, Midpoint, ScreenError };
 enum class Propagation { CrackFree, Printed };
 enum class GroundFans { Partial, Full };
-enum class DetailControl { Exact, Damped, Previous, Literal, Fixed };
+enum class DetailControl { Exact, Damped, Previous, Printed, Fixed };
 enum class Palette { Temperate, Arid };
 enum class GroundShading { Auto, Vertex, Texture };
 enum class AircraftShading { Flat, Gouraud, Hybrid, Phong };
@@ -74,7 +74,7 @@ struct ViewSettings {
 /// How hidden surfaces of aircraft are removed, and with which detail.
 struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
-    draworder::Method order_method = draworder::Method::Tree;
+    draworder::OrderMethod order_method = draworder::OrderMethod::Tree;
     /// About the most that the search for an order takes, on one core.
     double order_seconds = 20.0;
     /// Where orders are kept: a folder, "user" for the user's own cache, or "none". The pictures are
@@ -121,7 +121,7 @@ struct GroundSettings {
     /// By screen error: vertices move into place instead of jumping.
     bool geomorphs = true;
     /// Whether the next frame's ground is meshed while this one is drawn.
-    bool mesh_ahead = true;
+    bool mesh_async = true;
     /// By screen error: distant ground and aircraft sink.
     bool earth_curvature = true;
     /// C of the first frame; 0 = the one that meets the triangle target.

@@ -142,10 +142,10 @@ double seen_from(
     const double off = std::abs(std::asin(ahead_of(camera).z) - look.skyline_rad) / fov_rad;
     const double samples =
         wish.spacing_m > 0.0 ? fov_rad * background_m / wish.spacing_m : many_samples;
-    const double across_mps =
+    const double in_plane_mps =
         glm::length(glm::cross(to_aircraft_m, state.velocity_mps)) / distance_m;
     const double elevation_rad = std::asin(to_aircraft_m.z / distance_m);
-    const double calm = 1.0 - rising(calm_radps, hectic_radps, across_mps / distance_m);
+    const double calm = 1.0 - rising(calm_radps, hectic_radps, in_plane_mps / distance_m);
     const double flat = 1.0 - 0.7 * rising(steep_rad, upright_rad, std::abs(elevation_rad));
     const double balance = 1.0 - rising(0.25, 0.5, off);
     return calm * flat *

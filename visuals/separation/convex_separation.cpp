@@ -183,26 +183,26 @@ bool separable(
     std::span<const glm::dvec3> b,
     std::span<const glm::dvec3> a,
     std::span<const glm::dvec4> eyes) {
-    Dictionary programme(6 + b.size() + a.size() + eyes.size());
+    Dictionary program(6 + b.size() + a.size() + eyes.size());
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 n(0.0);
         n[axis] = 1.0;
-        programme.add(n, 0.0, 0.0, 1.0);
-        programme.add(-n, 0.0, 0.0, 1.0);
+        program.add(n, 0.0, 0.0, 1.0);
+        program.add(-n, 0.0, 0.0, 1.0);
     }
     for (const glm::dvec3& point : b) {
-        programme.add(-point, 1.0, 1.0, 0.0);
+        program.add(-point, 1.0, 1.0, 0.0);
     }
     for (const glm::dvec3& point : a) {
-        programme.add(point, -1.0, 1.0, 0.0);
+        program.add(point, -1.0, 1.0, 0.0);
     }
     for (const glm::dvec4& eye : eyes) {
-        programme.add({eye.x, eye.y, eye.z}, -eye.w, 0.0, 0.0);
+        program.add({eye.x, eye.y, eye.z}, -eye.w, 0.0, 0.0);
     }
-    if (!programme.exceeds(min_air)) {
+    if (!program.exceeds(min_air)) {
         return false;
     }
-    const glm::dvec4 plane = programme.plane();
+    const glm::dvec4 plane = program.plane();
     const glm::dvec3 normal(plane.x, plane.y, plane.z);
     const auto above = [&](const glm::dvec3& point) { return glm::dot(normal, point) > plane.w; };
     const auto below = [&](const glm::dvec3& point) { return glm::dot(normal, point) < plane.w; };

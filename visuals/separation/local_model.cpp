@@ -110,14 +110,14 @@ Plane LocalModel::from_file(const Plane& plane_m) const {
 Plane LocalModel::about(const Plane& plane_m) const {
     long double offset = plane_m.offset_m;
     for (int i = 0; i < 3; ++i) {
-        offset += static_cast<long double>(plane_m.normal[i]) * about_m[i];
+        offset += static_cast<long double>(plane_m.normal[i]) * reference_m[i];
     }
     return {plane_m.normal, static_cast<double>(offset)};
 }
 
 Plane LocalModel::in_metres(const Plane& plane) const {
     long double offset = static_cast<long double>(plane.offset_m) * size_m;
-    const glm::dvec3 to_middle_m = middle_m - about_m;
+    const glm::dvec3 to_middle_m = middle_m - reference_m;
     for (int i = 0; i < 3; ++i) {
         offset -= static_cast<long double>(plane.normal[i]) * to_middle_m[i];
     }
@@ -141,7 +141,7 @@ local_model(const PolygonModel& model, const models::polygons::FileAxes& axes, d
     out.middle_m = least + box * 0.5;
     out.size_m = std::max({box.x, box.y, box.z});
     if (glm::length(out.middle_m) > far_sizes * out.size_m) {
-        out.about_m = out.middle_m;
+        out.reference_m = out.middle_m;
     }
     const auto local = [&](const glm::dvec3& point_m) {
         return (axes.file_from_body(point_m) - out.middle_m) / out.size_m;

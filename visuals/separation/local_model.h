@@ -46,13 +46,13 @@ struct LocalModel {
     double size_m = 1.0;
     /// From where certificates measure, in the file's axes: the origin or, of a model so far from
     /// it that the rounding of planes would count in a sum of them, the middle.
-    glm::dvec3 about_m{0.0};
+    glm::dvec3 reference_m{0.0};
     double tolerance = tolerance_sizes; ///< Of the certificate.
     std::vector<LocalAxis> axes;        ///< One for each pivot.
     std::vector<LocalPolygon> polygons;
 
     Plane from_file(const Plane& plane_m) const;
-    /// A plane of the file with its offset from about_m.
+    /// A plane of the file with its offset from reference_m.
     Plane about(const Plane& plane_m) const;
     /// The same of a plane of this model.
     Plane in_metres(const Plane& plane) const;

@@ -14,13 +14,13 @@ constexpr double magnification = 1e6;
 constexpr int rounds = 1;
 
 /// The programme of what is to be added to a solution, times `magnification`.
-LinearProgramme correction(const LinearProgramme& programme, const std::vector<double>& solution) {
-    LinearProgramme out = programme;
+LinearProgram correction(const LinearProgram& program, const std::vector<double>& solution) {
+    LinearProgram out = program;
     for (std::size_t i = 0; i < solution.size(); ++i) {
         out.variables[i].least = (out.variables[i].least - solution[i]) * magnification;
         out.variables[i].most = (out.variables[i].most - solution[i]) * magnification;
     }
-    for (LinearProgramme::Row& row : out.rows) {
+    for (LinearProgram::Row& row : out.rows) {
         long double value = 0.0;
         for (std::size_t i = 0; i < solution.size(); ++i) {
             value += static_cast<long double>(row.factors[i]) * solution[i];
@@ -33,10 +33,10 @@ LinearProgramme correction(const LinearProgramme& programme, const std::vector<d
 
 } // namespace
 
-std::optional<std::vector<double>> refined_optimum(const LinearProgramme& programme) {
-    auto solution = optimum(programme);
+std::optional<std::vector<double>> refined_optimum(const LinearProgram& program) {
+    auto solution = optimum(program);
     for (int round = 0; solution && round < rounds; ++round) {
-        const auto more = optimum(correction(programme, *solution));
+        const auto more = optimum(correction(program, *solution));
         if (!more) {
             break;
         }

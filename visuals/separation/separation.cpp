@@ -8,7 +8,7 @@
 // rests on the solver's word.
 #include "visuals/separation/separation.h"
 
-#include "visuals/separation/linear_programme.h"
+#include "visuals/separation/linear_program.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -41,35 +41,35 @@ bool parts(
 
 /// The programme of a separating plane. Its unknowns are a factor for each plane, one for (0, 1),
 /// and the margin, which is maximised; the factors add up to 1.
-LinearProgramme separation_programme(
-    std::span<const glm::dvec3> near_one,
+LinearProgram separation_programme(
+    std::span<const glm::dvec3> occluder,
     std::span<const glm::dvec3> far_one,
     std::span<const Plane> planes) {
-    LinearProgramme programme;
-    programme.variables.assign(planes.size() + 1, {});
-    programme.variables.push_back({.weight = 1.0, .least = -1e3, .most = 1e3});
+    LinearProgram program;
+    program.variables.assign(planes.size() + 1, {});
+    program.variables.push_back({.weight = 1.0, .least = -1e3, .most = 1e3});
     const auto add_corner = [&](const glm::dvec3& corner, double sign) {
-        LinearProgramme::Row row;
+        LinearProgram::Row row;
         for (const Plane& plane : planes) {
             row.factors.push_back(sign * distance_m(plane, corner));
         }
         row.factors.push_back(sign);
         row.factors.push_back(-1.0);
         row.least = 0.0;
-        programme.rows.push_back(std::move(row));
+        program.rows.push_back(std::move(row));
     };
-    for (const glm::dvec3& corner : near_one) {
+    for (const glm::dvec3& corner : occluder) {
         add_corner(corner, -1.0);
     }
     for (const glm::dvec3& corner : far_one) {
         add_corner(corner, 1.0);
     }
-    LinearProgramme::Row sum;
+    LinearProgram::Row sum;
     sum.factors.assign(planes.size() + 1, 1.0);
     sum.factors.push_back(0.0);
     sum.least = sum.most = 1.0;
-    programme.rows.push_back(std::move(sum));
-    return programme;
+    program.rows.push_back(std::move(sum));
+    return program;
 }
 
 /// The sum of the planes with these factors; negative ones, which are rounding, count as 0.
@@ -85,48 +85,48 @@ Plane sum_of(std::span<const Plane> planes, const std::vector<double>& factors) 
 
 } // namespace
 
-Certificate separated(
-    std::span<const glm::dvec3> near_one,
+SeparationMethod find_separation(
+    std::span<const glm::dvec3> occluder,
     std::span<const glm::dvec3> far_one,
     std::span<const Plane> planes) {
     for (const Plane& plane : planes) {
-        if (parts(plane, check_tolerance, near_one, far_one)) {
-            return Certificate::Plane;
+        if (parts(plane, check_tolerance, occluder, far_one)) {
+            return SeparationMethod::Plane;
         }
     }
-    const auto factors = optimum(separation_programme(near_one, far_one, planes));
+    const auto factors = optimum(separation_programme(occluder, far_one, planes));
     if (!factors) {
-        return Certificate::None;
+        return SeparationMethod::None;
     }
     const Plane sum = sum_of(planes, *factors);
     const double length = glm::length(sum.normal);
     const bool no_inside = length < min_normal && sum.offset_m < min_normal;
-    const bool good = no_inside || parts(sum, check_tolerance * length, near_one, far_one);
-    return good ? Certificate::LinearProgramme : Certificate::None;
+    const bool good = no_inside || parts(sum, check_tolerance * length, occluder, far_one);
+    return good ? SeparationMethod::LinearProgram : SeparationMethod::None;
 }
 
 // The unknowns are a factor for each plane and the error, which is minimised. The sum of the planes
 // with their factors and of `plane` itself must be (0, 0, 0, 0 or less) within the error.
 bool is_behind(std::span<const Plane> planes, const Plane& plane, double tolerance) {
-    LinearProgramme programme;
-    programme.variables.assign(planes.size(), {});
-    programme.variables.push_back({.weight = -1.0});
+    LinearProgram program;
+    program.variables.assign(planes.size(), {});
+    program.variables.push_back({.weight = -1.0});
     for (int i = 0; i < 4; ++i) {
         const auto part = [&](const Plane& of) { return i < 3 ? of.normal[i] : of.offset_m; };
         for (const double sign : {1.0, -1.0}) {
             if (i == 3 && sign < 0.0) {
                 continue;
             }
-            LinearProgramme::Row row;
+            LinearProgram::Row row;
             for (const Plane& other : planes) {
                 row.factors.push_back(sign * part(other));
             }
             row.factors.push_back(-1.0);
             row.most = -sign * part(plane);
-            programme.rows.push_back(std::move(row));
+            program.rows.push_back(std::move(row));
         }
     }
-    const auto factors = optimum(programme);
+    const auto factors = optimum(program);
     if (!factors) {
         return false;
     }

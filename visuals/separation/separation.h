@@ -14,18 +14,18 @@ namespace octant::visuals::separation {
 inline constexpr double check_tolerance = 1e-6;
 
 /// How it was proved that one polygon hides nothing of another, the strongest proof first.
-enum class Certificate {
+enum class SeparationMethod {
     Plane,           ///< A plane of the region itself separates them.
-    LinearProgramme, ///< A plane that a linear programme found separates them.
+    LinearProgram, ///< A plane that a linear programme found separates them.
     None             ///< There is no proof.
 };
 
-/// Proves that no eye of a region sees `near_one` in front of `far_one`, by a plane with near_one
+/// Proves that no eye of a region sees `occluder` in front of `far_one`, by a plane with occluder
 /// behind it and far_one and the region in front, all weakly. The region is the intersection of the
 /// half-spaces in front of `planes` (unit normals); a region without interior is separated from
 /// everything.
-Certificate separated(
-    std::span<const glm::dvec3> near_one,
+SeparationMethod find_separation(
+    std::span<const glm::dvec3> occluder,
     std::span<const glm::dvec3> far_one,
     std::span<const Plane> planes);
 

@@ -35,7 +35,7 @@ float intensity(
     assert(light.shininess >= 1);
     const float cosine = glm::dot(normal, light.to_light);
     if (cosine <= 0.0F || light.specular <= 0.0F) {
-        return matt_intensity(cosine, colour_sum, light);
+        return diffuse_intensity(cosine, colour_sum, light);
     }
     const glm::vec3 mirrored = 2.0F * cosine * normal - light.to_light;
     const glm::vec3 to_eye = eye_m - place_m;
@@ -44,7 +44,7 @@ float intensity(
     if (towards_eye > 0.0F) {
         specular = light.specular * whole_power(towards_eye / glm::length(to_eye), light.shininess);
     }
-    return matt_intensity(cosine, colour_sum, light) + 3.0F * specular;
+    return diffuse_intensity(cosine, colour_sum, light) + 3.0F * specular;
 }
 
 } // namespace octant::visuals::shading

@@ -22,7 +22,7 @@ struct ShadingLight {
 
 /// intensity() of a surface without a highlight (ambient + diffuse). `cosine` is that between the
 /// normal and the direction to the light.
-inline float matt_intensity(float cosine, float colour_sum, const ShadingLight& light) {
+inline float diffuse_intensity(float cosine, float colour_sum, const ShadingLight& light) {
     return (light.ambient + light.diffuse * std::max(cosine, 0.0F)) * colour_sum;
 }
 

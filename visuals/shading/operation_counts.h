@@ -17,7 +17,7 @@ OperationCounts operation_counts(int polygons, int smooth);
 
 /// The row that the paper prints for 415 polygons with 9 smooth ones. Its 5408 is 13 x 416, for the
 /// torus has 416 polygons; 13 x 415 would be 5395.
-inline constexpr OperationCounts printed_counts{
+inline constexpr OperationCounts paper_counts{
     .selection = 3735, .all_flat = 4150, .all_smooth = 5408, .hybrid = 4177};
 
 } // namespace octant::visuals::shading

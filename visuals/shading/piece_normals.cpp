@@ -127,7 +127,7 @@ glm::dvec3 middle_of(const models::polygons::PolygonModel& model, std::size_t po
 
 } // namespace
 
-std::vector<glm::vec3> normals_of_pieces(
+std::vector<glm::vec3> piece_normals(
     const models::polygons::PolygonModel& whole,
     std::span<const glm::vec3> normals,
     const models::polygons::PolygonModel& pieces) {

@@ -18,7 +18,7 @@ namespace octant::visuals::shading {
 /// `whole` is the model before it was cut and `normals` has one unit normal for each of its corners
 /// (asserted). The parents of `pieces` are the polygons of `whole`. Returns one unit normal for
 /// each corner of `pieces`.
-std::vector<glm::vec3> normals_of_pieces(
+std::vector<glm::vec3> piece_normals(
     const models::polygons::PolygonModel& whole,
     std::span<const glm::vec3> normals,
     const models::polygons::PolygonModel& pieces);

@@ -25,7 +25,7 @@ float sum_of(const glm::vec3& colour) {
     return colour.x + colour.y + colour.z;
 }
 
-auto key_of(const LitPoint& point) {
+auto sort_key(const ShadingPoint& point) {
     return std::tuple(
         point.place_m.x,
         point.place_m.y,
@@ -36,16 +36,16 @@ auto key_of(const LitPoint& point) {
         point.colour_sum);
 }
 
-/// Merges corners that are equal in position, normal and colour into one LitPoint each, numbered in
+/// Merges corners that are equal in position, normal and colour into one ShadingPoint each, numbered in
 /// the order in which they first occur, and fills `shaded.points` and `corner_points`.
-void share_points(std::span<const LitPoint> corners, ShadedPolygons& shaded) {
+void share_points(std::span<const ShadingPoint> corners, ShadedPolygons& shaded) {
     std::vector<std::uint32_t> sorted(corners.size());
     std::iota(sorted.begin(), sorted.end(), 0U);
     std::ranges::sort(
-        sorted, {}, [&](std::uint32_t c) { return std::tuple(key_of(corners[c]), c); });
+        sorted, {}, [&](std::uint32_t c) { return std::tuple(sort_key(corners[c]), c); });
     std::vector<std::uint32_t> first(corners.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const bool again = i > 0 && key_of(corners[sorted[i]]) == key_of(corners[sorted[i - 1]]);
+        const bool again = i > 0 && sort_key(corners[sorted[i]]) == sort_key(corners[sorted[i - 1]]);
         first[sorted[i]] = again ? first[sorted[i - 1]] : sorted[i];
     }
     shaded.corner_points.resize(corners.size());
@@ -61,7 +61,7 @@ void share_points(std::span<const LitPoint> corners, ShadedPolygons& shaded) {
 
 /// Computes perimeter, area, centroid, mean colour and triangle fan of one polygon from its
 /// corners.
-void measure(ShadedPolygon& polygon, std::span<const LitPoint> corners, std::span<float> fan_m2) {
+void measure(ShadedPolygon& polygon, std::span<const ShadingPoint> corners, std::span<float> fan_m2) {
     const glm::vec3& first_m = corners.front().place_m;
     glm::vec3 weighted(0.0F);
     glm::vec3 mean(0.0F);
@@ -82,24 +82,24 @@ void measure(ShadedPolygon& polygon, std::span<const LitPoint> corners, std::spa
 }
 
 /// Sets the centre and the radius of a sphere around all points.
-void enclose(ShadedPolygons& shaded) {
+void compute_bounds(ShadedPolygons& shaded) {
     if (shaded.points.empty()) {
         return;
     }
     glm::vec3 min_m(std::numeric_limits<float>::max());
     glm::vec3 max_m = -min_m;
-    for (const LitPoint& point : shaded.points) {
+    for (const ShadingPoint& point : shaded.points) {
         min_m = glm::min(min_m, point.place_m);
         max_m = glm::max(max_m, point.place_m);
     }
     shaded.centre_m = 0.5F * (min_m + max_m);
-    for (const LitPoint& point : shaded.points) {
+    for (const ShadingPoint& point : shaded.points) {
         shaded.radius_m = std::max(shaded.radius_m, glm::distance(point.place_m, shaded.centre_m));
     }
 }
 
 /// Completes `shaded`, whose polygons have only their normal, first_corner and corner_count so far.
-ShadedPolygons finished(ShadedPolygons shaded, std::span<const LitPoint> corners) {
+ShadedPolygons normalised(ShadedPolygons shaded, std::span<const ShadingPoint> corners) {
     shaded.fan_m2.resize(corners.size());
     double perimeters_m = 0.0;
     for (ShadedPolygon& polygon : shaded.polygons) {
@@ -113,7 +113,7 @@ ShadedPolygons finished(ShadedPolygons shaded, std::span<const LitPoint> corners
         shaded.mean_perimeter_m = perimeters_m / static_cast<double>(shaded.size());
     }
     share_points(corners, shaded);
-    enclose(shaded);
+    compute_bounds(shaded);
     return shaded;
 }
 
@@ -128,7 +128,7 @@ ShadedPolygons shaded_polygons(
     const models::polygons::PolygonModel& model, std::span<const glm::vec3> corner_normals) {
     assert(corner_normals.size() == model.corner_vertices.size());
     ShadedPolygons shaded;
-    std::vector<LitPoint> corners(model.corner_vertices.size());
+    std::vector<ShadingPoint> corners(model.corner_vertices.size());
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
         const models::polygons::Polygon& polygon = model.polygons[i];
         shaded.polygons.push_back(
@@ -143,14 +143,14 @@ ShadedPolygons shaded_polygons(
                 sum_of(model.materials[polygon.material].colour)};
         }
     }
-    return finished(std::move(shaded), corners);
+    return normalised(std::move(shaded), corners);
 }
 
 ShadedPolygons
 shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> corner_normals) {
     assert(corner_normals.size() == 3 * mesh.triangles.size());
     ShadedPolygons shaded;
-    std::vector<LitPoint> corners;
+    std::vector<ShadingPoint> corners;
     corners.reserve(corner_normals.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const models::Triangle& triangle = mesh.triangles[i];
@@ -165,7 +165,7 @@ shaded_polygons(const models::TriangleMesh& mesh, std::span<const glm::vec3> cor
                  colour_sum(mesh, i, vertex)});
         }
     }
-    return finished(std::move(shaded), corners);
+    return normalised(std::move(shaded), corners);
 }
 
 } // namespace octant::visuals::shading

@@ -14,7 +14,7 @@ namespace octant::visuals::shading {
 
 /// A point at which light is computed. Corners of smooth polygons with the same position, normal
 /// and colour share one, so that each is lit once.
-struct LitPoint {
+struct ShadingPoint {
     glm::vec3 place_m{0.0F};
     glm::vec3 normal{0.0F, 0.0F, 1.0F}; ///< A unit vector.
     float colour_sum = 2.1F;            ///< red + green + blue of the surface there
@@ -43,7 +43,7 @@ struct ShadedPolygons {
     /// polygon's first corner; 0 for the first and the last corner of a polygon. These triangles
     /// are the polygon's triangle fan.
     std::vector<float> fan_m2;
-    std::vector<LitPoint> points;
+    std::vector<ShadingPoint> points;
     glm::vec3 centre_m{0.0F}; ///< The centre of the bounding box of `points`.
     float radius_m = 0.0F;    ///< The radius of the sphere about centre_m that holds all points.
     /// The mean over all polygons: the paper's threshold between small and large.

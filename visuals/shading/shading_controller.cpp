@@ -58,13 +58,13 @@ Vector times(const std::array<double, 9>& matrix, const Vector& vector) {
 }
 
 /// The factors on a, bf n0 and (bg - bf) n0 in the model of the frame time.
-Vector regressors(const ShadingFit& fit, double polygons, double smooth) {
+Vector regressors(const FrameTimeModel& fit, double polygons, double smooth) {
     return {1.0, polygons / fit.polygons, smooth / fit.polygons};
 }
 
 /// Lets every coefficient's variance grow by its drift, up to that of an unknown one, so that old
 /// frames count less.
-void forget(ShadingFit& fit, const ShadingControl& control) {
+void discount(FrameTimeModel& fit, const ShadingControllerSettings& control) {
     const Vector drift{control.level_drift, control.slope_drift, control.slope_drift};
     for (std::size_t i = 0; i < 3; ++i) {
         double& variance = fit.covariance[4 * i];
@@ -73,7 +73,7 @@ void forget(ShadingFit& fit, const ShadingControl& control) {
 }
 
 /// After a change of load: a may now be anything, and bg - bf may differ by a third.
-void open_up(ShadingFit& fit) {
+void open_up(FrameTimeModel& fit) {
     fit.covariance[4 * level] += unknown;
     const double third = fit.ms[slope] / 3.0 / fit.noise_ms;
     fit.covariance[4 * slope] += std::min(third * third, unknown);
@@ -83,7 +83,7 @@ void open_up(ShadingFit& fit) {
 
 /// One step of recursive least squares. `x` are the regressors of a frame that took `missed_ms`
 /// longer than the fit expected.
-void correct(ShadingFit& fit, const Vector& x, double missed_ms) {
+void correct(FrameTimeModel& fit, const Vector& x, double missed_ms) {
     const Vector spread = times(fit.covariance, x);
     const double total = 1.0 + dot(x, spread);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -96,13 +96,13 @@ void correct(ShadingFit& fit, const Vector& x, double missed_ms) {
 
 /// The fit after one more frame: forgets, judges whether the frame is a surprise, an outlier or a
 /// change of load, corrects the coefficients and updates the estimate of the noise.
-ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFrame& frame) {
+FrameTimeModel updated_fit(FrameTimeModel fit, const ShadingControllerSettings& control, const MeasuredFrame& frame) {
     const Vector x = regressors(fit, frame.flat + frame.smooth, frame.smooth);
     const bool first = fit.noise_ms == 0.0;
     if (first) {
         fit.noise_ms = std::max(0.02 * frame.frame_ms, 1e-3);
     }
-    forget(fit, control);
+    discount(fit, control);
     const double missed_ms = frame.frame_ms - dot(fit.ms, x);
     const double deviation = std::sqrt(1.0 + dot(x, times(fit.covariance, x)));
     const double surprise = missed_ms / deviation / fit.noise_ms;
@@ -130,15 +130,15 @@ ShadingFit learnt(ShadingFit fit, const ShadingControl& control, const ShadedFra
 }
 
 /// The standard deviation of (bg - bf) n0.
-double slope_sd_ms(const ShadingFit& fit) {
+double slope_sd_ms(const FrameTimeModel& fit) {
     return fit.noise_ms * std::sqrt(std::max(fit.covariance[4 * slope], 0.0));
 }
 
 /// Whether flat polygons gain nothing or too little to be measured. `before` is the last judgement:
 /// it takes clearer evidence to change it than to keep it.
-bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& control) {
+bool full_detail(bool before, const FrameTimeModel& fit, const ShadingControllerSettings& control) {
     const double sd_ms = slope_sd_ms(fit);
-    const bool is_little = fit.ms[slope] + 2.0 * sd_ms < control.little_gain * control.share_ms;
+    const bool is_little = fit.ms[slope] + 2.0 * sd_ms < control.min_gain_ratio * control.target_frame_ms;
     if (before) {
         return fit.ms[slope] < 4.0 * sd_ms && (is_little || fit.frames < learning_frames);
     }
@@ -146,15 +146,15 @@ bool without_gain(bool before, const ShadingFit& fit, const ShadingControl& cont
 }
 
 /// Moves `target` towards the best number of smooth polygons, by at most one largest step.
-void aim(ShadingState& state, const ShadingControl& control) {
-    const ShadingFit& fit = state.fit;
+void compute_target(ShadingState& state, const ShadingControllerSettings& control) {
+    const FrameTimeModel& fit = state.fit;
     const double n = state.polygons;
-    const double per_polygon_ms = std::max(fit.ms[slope], 1e-3 * control.share_ms) / fit.polygons;
+    const double per_polygon_ms = std::max(fit.ms[slope], 1e-3 * control.target_frame_ms) / fit.polygons;
     const Vector now = regressors(fit, n, state.target);
     const double expected_ms = dot(fit.ms, now);
-    const double room_ms = control.share_ms - expected_ms;
-    const double more = (room_ms - control.aim_sds * fit.noise_ms) / per_polygon_ms;
-    const double best = state.no_gain ? n : std::clamp(state.target + more, 0.0, n);
+    const double room_ms = control.target_frame_ms - expected_ms;
+    const double more = (room_ms - control.target_margin_sds * fit.noise_ms) / per_polygon_ms;
+    const double best = state.has_no_gain ? n : std::clamp(state.target + more, 0.0, n);
     const double unsure =
         fit.noise_ms * std::sqrt(std::max(dot(now, times(fit.covariance, now)), 0.0));
     const double band = n * std::clamp(
@@ -162,22 +162,22 @@ void aim(ShadingState& state, const ShadingControl& control) {
                                 control.dead_band,
                                 widest_band);
     const bool too_many = best < state.target && room_ms < control.overload_sds * fit.noise_ms;
-    const bool too_few = best > state.target + band || (best == n && state.no_gain);
+    const bool too_few = best > state.target + band || (best == n && state.has_no_gain);
     const double off = std::abs(best - state.target);
     state.moving = off > 0.0 && (too_many || too_few || (state.moving && off > 0.01 * n));
     if (state.moving) {
-        const double step = std::max(control.largest_step * n, 1.0);
+        const double step = std::max(control.max_step * n, 1.0);
         state.target += std::clamp(best - state.target, -step, step);
     }
 }
 
 /// g of the next frame: the target, or a little less of it while the cost of smooth polygons is not
 /// known well enough.
-int probed(ShadingState& state, const ShadingControl& control) {
+int probed(ShadingState& state, const ShadingControllerSettings& control) {
     const bool is_known = slope_sd_ms(state.fit) < 0.2 * state.fit.ms[slope];
     // Rounded down, for one polygon more would not fit into T.
     const int target = static_cast<int>(state.target + 1e-6);
-    if (is_known || state.moving || state.no_gain || target == state.polygons) {
+    if (is_known || state.moving || state.has_no_gain || target == state.polygons) {
         state.probe_frame = 0;
         return target;
     }
@@ -186,9 +186,9 @@ int probed(ShadingState& state, const ShadingControl& control) {
         return target;
     }
     // Where not even all flat fits, the machine is asked in one large step what smooth ones cost.
-    const double share = target == 0 ? control.largest_step : control.probe;
+    const double share = target == 0 ? control.max_step : control.probe;
     const int probe = std::max(static_cast<int>(share * state.polygons), 1);
-    if (target != 0 && probe > control.largest_probe * state.polygons) {
+    if (target != 0 && probe > control.max_probe * state.polygons) {
         return target; // few polygons: one of them is too much
     }
     return target >= probe ? target - probe : target + probe;
@@ -196,7 +196,7 @@ int probed(ShadingState& state, const ShadingControl& control) {
 
 } // namespace
 
-ShadingState starting_shading(int polygons) {
+ShadingState initial_shading_state(int polygons) {
     assert(polygons >= 1);
     ShadingState state;
     state.polygons = polygons;
@@ -207,21 +207,21 @@ ShadingState starting_shading(int polygons) {
     return state;
 }
 
-ShadingState next_shading(
+ShadingState update_shading(
     const ShadingState& state,
-    const ShadingControl& control,
-    const ShadedFrame& frame,
+    const ShadingControllerSettings& control,
+    const MeasuredFrame& frame,
     int polygons) {
-    assert(control.share_ms > 0.0 && control.probe_frames >= 2 && polygons >= 1);
+    assert(control.target_frame_ms > 0.0 && control.probe_frames >= 2 && polygons >= 1);
     assert(control.level_drift >= 0.0 && control.slope_drift >= 0.0);
-    assert(control.overload_sds >= 0.0 && control.overload_sds <= control.aim_sds);
+    assert(control.overload_sds >= 0.0 && control.overload_sds <= control.target_margin_sds);
     assert(frame.frame_ms >= 0.0 && frame.flat >= 0 && frame.smooth >= 0);
     ShadingState next = state;
-    next.fit = learnt(state.fit, control, frame);
+    next.fit = updated_fit(state.fit, control, frame);
     next.polygons = polygons;
     next.target = std::min<double>(state.target, polygons);
-    next.no_gain = without_gain(state.no_gain, next.fit, control);
-    aim(next, control);
+    next.has_no_gain = full_detail(state.has_no_gain, next.fit, control);
+    compute_target(next, control);
     next.smooth = probed(next, control);
     return next;
 }

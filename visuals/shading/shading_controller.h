@@ -6,29 +6,29 @@ namespace octant::visuals::shading {
 
 /// All constants by which the share of smooth polygons follows the frame time. "Deviations" are
 /// standard deviations of the frame times about the fitted model.
-struct ShadingControl {
-    double share_ms = 1000.0 / 60.0; ///< T: the time a frame should take, above zero.
+struct ShadingControllerSettings {
+    double target_frame_ms = 1000.0 / 60.0; ///< T: the time a frame should take, above zero.
     /// How much the variance of a grows from frame to frame, in units of the noise's variance. With
     /// 6.5e-4 about the last 40 frames decide on a.
     double level_drift = 6.5e-4;
     double slope_drift = 1e-4;   ///< The same growth for bf n0 and for (bg - bf) n0.
     double noise_weight = 0.025; ///< The weight of one frame in the running estimate of the noise.
-    double aim_sds = 2.6;        ///< The expected frame time is aimed this many deviations below T.
-    /// Less room below T than this many deviations counts as overload; 0 to aim_sds.
+    double target_margin_sds = 2.6;        ///< The expected frame time is aimed this many deviations below T.
+    /// Less room below T than this many deviations counts as overload; 0 to target_margin_sds.
     double overload_sds = 1.9;
     /// As long as no more than this share of the polygons could still turn smooth, nothing changes.
     double dead_band = 0.04;
     /// At most this share of the polygons changes from one frame to the next.
-    double largest_step = 0.10;
+    double max_step = 0.10;
     /// While the fit does not know well what smooth polygons cost, this share of the polygons (at
     /// least one) turns flat for half of each `probe_frames`. Where all are flat already, the share
-    /// `largest_step` turns smooth instead.
+    /// `max_step` turns smooth instead.
     double probe = 0.01;
     int probe_frames = 40;
     /// No probe is made in a model with so few polygons that a single one exceeds this share.
-    double largest_probe = 0.05;
+    double max_probe = 0.05;
     /// Flat polygons that might still save more than this share of T are not declared useless.
-    double little_gain = 0.2;
+    double min_gain_ratio = 0.2;
     /// Three frames in a row that miss the fit by more than this, on the same side, mean that the
     /// load changed.
     double surprise_sds = 2.5;
@@ -38,7 +38,7 @@ struct ShadingControl {
 
 /// The model of the frame time, t = a + bf f + bg g, fitted by recursive least squares. Its slopes
 /// are stored times a fixed number of polygons n0, so that all three numbers are milliseconds.
-struct ShadingFit {
+struct FrameTimeModel {
     std::array<double, 3> ms{}; ///< The three numbers a, bf n0 and (bg - bf) n0.
     /// Their covariance matrix (3 x 3, by rows) in units of the noise's variance.
     std::array<double, 9> covariance{};
@@ -58,13 +58,13 @@ struct ShadingState {
     bool moving = false; ///< The target is still on its way to the best number.
     /// Flat polygons are not measurably faster than smooth ones; then all are smooth, whatever T
     /// is.
-    bool no_gain = false;
+    bool has_no_gain = false;
     int probe_frame = 0; ///< The place in the cycle of probe_frames.
-    ShadingFit fit;
+    FrameTimeModel fit;
 };
 
 /// What was measured of the frame that was drawn with ShadingState::smooth.
-struct ShadedFrame {
+struct MeasuredFrame {
     double frame_ms = 0.0; ///< The frame time, at least 0.
     int flat = 0;          ///< f, how many polygons were flat.
     int smooth = 0;        ///< g, how many polygons were smooth.
@@ -72,15 +72,15 @@ struct ShadedFrame {
 
 /// The state before the first frame of n polygons (at least 1, asserted). All are flat, for that
 /// cannot overload the machine.
-ShadingState starting_shading(int polygons);
+ShadingState initial_shading_state(int polygons);
 
 /// The state after a frame was measured. `polygons` (at least 1) is n of the next frame, which may
 /// differ from this frame's. The settings must be within the limits that their comments state
 /// (asserted). A pure function: same arguments, same result.
-ShadingState next_shading(
+ShadingState update_shading(
     const ShadingState& state,
-    const ShadingControl& control,
-    const ShadedFrame& frame,
+    const ShadingControllerSettings& control,
+    const MeasuredFrame& frame,
     int polygons);
 
 } // namespace octant::visuals::shading

@@ -1,5 +1,5 @@
 // Which polygons are smooth: H. Kim, H. Park, "A Hybrid Rendering Model to support LOD (Level of
-// Detail)", 2008, section 3, is the rule Paper; the rule Error is ours. Both light every LitPoint,
+// Detail)", 2008, section 3, is the rule Paper; the rule Error is ours. Both light every ShadingPoint,
 // give each polygon a sort key, and make the g greatest keys smooth.
 //
 // Error: let d1, d2, d3 be the differences between the intensities at a triangle's corners and the
@@ -36,8 +36,8 @@ std::uint64_t mixed(std::uint64_t bits) {
 
 } // namespace
 
-ShadingRuleSettings without_memory(ShadingRule rule) {
-    return {.rule = rule, .hold = 1.0F, .reselect_rad = 0.0, .reselect_distance = 0.0};
+ShadingRuleSettings without_hysteresis(ShadingRule rule) {
+    return {.rule = rule, .hysteresis = 1.0F, .reselect_rad = 0.0, .reselect_distance = 0.0};
 }
 
 ShadingSelector::ShadingSelector(
@@ -48,13 +48,13 @@ ShadingSelector::ShadingSelector(
     , keys_(polygons.size())
     , smooth_(polygons.size())
     , next_(polygons.size()) {
-    assert(settings.hold >= 1.0F);
+    assert(settings.hysteresis >= 1.0F);
     assert(settings.reselect_rad >= 0.0 && settings.reselect_distance >= 0.0);
 }
 
 void ShadingSelector::light_points(const glm::vec3& eye_m, const ShadingLight& light) {
     for (std::size_t i = 0; i < intensities_.size(); ++i) {
-        const LitPoint& point = polygons_->points[i];
+        const ShadingPoint& point = polygons_->points[i];
         intensities_[i] = intensity(point.place_m, point.normal, point.colour_sum, light, eye_m);
     }
 }
@@ -67,7 +67,7 @@ std::uint32_t ShadingSelector::by_error(
     const glm::vec3 to_eye_m = eye_m - shape.centre_m;
     const float in_front_m = glm::dot(to_eye_m, shape.normal);
     if (in_front_m <= 0.0F) {
-        return key_of(0, 0.0F);
+        return sort_key(0, 0.0F);
     }
     const float flat = intensity(shape.centre_m, shape.normal, shape.colour_sum, light, eye_m);
     const std::uint32_t* const points = &polygons_->corner_points[shape.first_corner];
@@ -81,8 +81,8 @@ std::uint32_t ShadingSelector::by_error(
     }
     const float distance_m = glm::length(to_eye_m);
     const float on_screen = in_front_m / (distance_m * distance_m * distance_m);
-    const float hold = smooth_[polygon] != 0 ? settings_.hold : 1.0F;
-    return key_of(1, hold * on_screen * error / 6.0F);
+    const float hysteresis = smooth_[polygon] != 0 ? settings_.hysteresis : 1.0F;
+    return sort_key(1, hysteresis * on_screen * error / 6.0F);
 }
 
 /// The key by rule Paper: the tier says whether the corners differ and whether the polygon is
@@ -96,10 +96,10 @@ std::uint32_t ShadingSelector::by_paper(std::size_t polygon) const {
         least = std::min(least, here);
         most = std::max(most, here);
     }
-    const float hold = smooth_[polygon] != 0 ? settings_.hold : 1.0F;
-    const bool differs = hold * (most - least) > settings_.threshold;
+    const float hysteresis = smooth_[polygon] != 0 ? settings_.hysteresis : 1.0F;
+    const bool differs = hysteresis * (most - least) > settings_.threshold;
     const bool is_large = shape.perimeter_m > polygons_->mean_perimeter_m;
-    return key_of(differs ? (is_large ? 2U : 1U) : 0U, shape.perimeter_m);
+    return sort_key(differs ? (is_large ? 2U : 1U) : 0U, shape.perimeter_m);
 }
 
 void ShadingSelector::rank_all(const glm::vec3& eye_m, const ShadingLight& light) {
@@ -121,7 +121,7 @@ void ShadingSelector::rank_all(const glm::vec3& eye_m, const ShadingLight& light
 
 /// Makes the polygons with the greatest keys smooth. Returns how many polygons changed.
 int ShadingSelector::take_best(int smooth_count) {
-    greatest_.choose(keys_, static_cast<std::size_t>(smooth_count), next_);
+    largest_keys_.choose(keys_, static_cast<std::size_t>(smooth_count), next_);
     int changed = 0;
     for (std::size_t i = 0; i < next_.size(); ++i) {
         changed += next_[i] != smooth_[i] ? 1 : 0;
@@ -133,25 +133,25 @@ int ShadingSelector::take_best(int smooth_count) {
 ShadingChoice
 ShadingSelector::choose(const glm::dvec3& eye_m, const ShadingLight& light, int smooth_count) {
     assert(smooth_count >= 0 && static_cast<std::size_t>(smooth_count) <= polygons_->size());
-    const RememberedLook look{eye_m, light};
-    const LookTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
+    const ViewAndLight look{eye_m, light};
+    const ReselectionTolerance tolerance{settings_.reselect_rad, settings_.reselect_distance};
     const bool moved =
-        !chosen_ || is_other_look(look_, look, glm::dvec3(polygons_->centre_m), tolerance);
+        !has_choice_ || needs_reselection(last_view_, look, glm::dvec3(polygons_->centre_m), tolerance);
     if (!moved && smooth_count == smooth_count_) {
         return {.smooth = smooth_, .smooth_count = smooth_count};
     }
     if (moved) {
-        look_ = look;
+        last_view_ = look;
         light_points(glm::vec3(eye_m), light);
     }
-    rank_all(glm::vec3(look_.eye_m), look_.light);
+    rank_all(glm::vec3(last_view_.eye_m), last_view_.light);
     const int changed = take_best(smooth_count);
     smooth_count_ = smooth_count;
     return {
         .smooth = smooth_,
         .smooth_count = smooth_count,
-        .changed = std::exchange(chosen_, true) ? changed : 0,
-        .anew = true};
+        .changed = std::exchange(has_choice_, true) ? changed : 0,
+        .was_reranked = true};
 }
 
 } // namespace octant::visuals::shading

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "visuals/shading/greatest_keys.h"
+#include "visuals/shading/largest_keys.h"
 #include "visuals/shading/intensity.h"
-#include "visuals/shading/remembered_look.h"
+#include "visuals/shading/reselection.h"
 #include "visuals/shading/shaded_polygons.h"
 
 #include <glm/vec3.hpp>
@@ -32,7 +32,7 @@ struct ShadingRuleSettings {
     /// Hysteresis, at least 1. The error of a polygon that is smooth already (Error), or the
     /// difference between its corners (Paper), is multiplied by this, so that it gives way only to
     /// a clearly better polygon.
-    float hold = 1.5F;
+    float hysteresis = 1.5F;
     /// The choice is made again when the eye has moved about the model's centre, or the light has
     /// turned, by more than this angle ...
     double reselect_rad = 0.03;
@@ -42,7 +42,7 @@ struct ShadingRuleSettings {
 
 /// Settings with which every choice depends on eye and light of that call only: no hysteresis and
 /// no tolerance. For measurements.
-ShadingRuleSettings without_memory(ShadingRule rule);
+ShadingRuleSettings without_hysteresis(ShadingRule rule);
 
 /// Six times the mean square of an error over a triangle, where the error is a, b and c at the
 /// corners and linear between them.
@@ -55,7 +55,7 @@ struct ShadingChoice {
     std::span<const std::uint8_t> smooth; ///< One flag for each polygon: 1 = smooth, 0 = flat.
     int smooth_count = 0;
     int changed = 0;   ///< How many polygons this call changed; 0 for the first choice.
-    bool anew = false; ///< This call ranked the polygons again.
+    bool was_reranked = false; ///< This call ranked the polygons again.
 };
 
 /// Chooses the smooth polygons of one drawn model and remembers the choice, so each drawn aircraft
@@ -84,14 +84,14 @@ private:
 
     const ShadedPolygons* polygons_;
     ShadingRuleSettings settings_;
-    std::vector<float> intensities_;  ///< One for each LitPoint.
-    std::vector<std::uint32_t> keys_; ///< One sort key for each polygon, made by key_of.
-    GreatestKeys greatest_;
+    std::vector<float> intensities_;  ///< One for each ShadingPoint.
+    std::vector<std::uint32_t> keys_; ///< One sort key for each polygon, made by sort_key.
+    LargestKeySelector largest_keys_;
     std::vector<std::uint8_t> smooth_;
     std::vector<std::uint8_t> next_; ///< The choice that is being made; swapped with smooth_.
-    RememberedLook look_;
+    ViewAndLight last_view_;
     int smooth_count_ = 0;
-    bool chosen_ = false;
+    bool has_choice_ = false;
 };
 
 } // namespace octant::visuals::shading

@@ -34,12 +34,12 @@ struct Lanes {
 /// For d from 0 on the value |d - 2 half|, and for each row which columns lie in a diamond on its
 /// corner.
 template <int half>
-struct Tables {
+struct DistanceTables {
     static constexpr auto edge = static_cast<std::size_t>(2 * half);
     std::array<float, 2 * edge + 1> distance{};
     std::array<std::array<float, edge>, edge / 2> inside{};
 
-    constexpr Tables() {
+    constexpr DistanceTables() {
         for (std::size_t d = 0; d < distance.size(); ++d) {
             distance[d] = static_cast<float>(d < edge ? edge - d : d - edge);
         }
@@ -52,7 +52,7 @@ struct Tables {
 };
 
 template <int half>
-constexpr Tables<half> tables{};
+constexpr DistanceTables<half> distance_tables{};
 
 /// The height over one row of samples: start + slope * x + bend * |x - ...|, where the absolute
 /// value comes from a table.
@@ -66,7 +66,7 @@ struct RowPlane {
 
 /// Raises `largest` to the deviations of one row of samples from a plane, lane by lane.
 template <int half, int width>
-OCTANT_INLINE void raise_by_row(
+OCTANT_INLINE void raise_to_row_error(
     const std::int16_t* numbers, const RowPlane& plane, typename Lanes<width>::Floats& largest) {
     using L = Lanes<width>;
     for (int x = 0; x < 2 * half; x += width) {
@@ -115,8 +115,8 @@ OCTANT_INLINE float error_of_node(const std::int16_t* corner, std::ptrdiff_t pit
     const float start = rising ? south_west : south_east - east * edge;
     typename Lanes<width>::Floats largest = {};
     for (int y = 1; y < edge; ++y) {
-        const float* const distance = tables<half>.distance.data() + (rising ? edge - y : y);
-        raise_by_row<half, width>(
+        const float* const distance = distance_tables<half>.distance.data() + (rising ? edge - y : y);
+        raise_to_row_error<half, width>(
             corner + y * pitch,
             {start + north * static_cast<float>(y), east, rising ? bend : -bend, distance, nullptr},
             largest);
@@ -143,13 +143,13 @@ error_of_diamond(const std::int16_t* middle, std::ptrdiff_t pitch, bool upright)
         const auto away = static_cast<std::size_t>(std::abs(y));
         const float start = level - slope * half + climb * static_cast<float>(y) +
                             bend_y * static_cast<float>(away);
-        raise_by_row<half, width>(
+        raise_to_row_error<half, width>(
             middle - half + y * pitch,
             {start,
              slope,
              bend_x,
-             tables<half>.distance.data() + half,
-             tables<half>.inside[away].data()},
+             distance_tables<half>.distance.data() + half,
+             distance_tables<half>.inside[away].data()},
             largest);
     }
     return largest_of<width>(largest);
@@ -208,23 +208,23 @@ OCTANT_INLINE void errors_of(const DiamondRow& row, Diamond first, bool alternat
 
 using Kernel = void (*)(const DiamondRow&, Diamond, bool, float*);
 
-void four_wide(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
+void errors_width_4(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     errors_of<4>(row, first, alternate, errors);
 }
 
 #ifdef __x86_64__
 __attribute__((target("avx2"))) void
-eight_wide(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
+errors_width_8(const DiamondRow& row, Diamond first, bool alternate, float* errors) {
     errors_of<8>(row, first, alternate, errors);
 }
 
 /// The widest kernel that this processor can run.
 Kernel best_kernel() {
-    return __builtin_cpu_supports("avx2") != 0 ? eight_wide : four_wide;
+    return __builtin_cpu_supports("avx2") != 0 ? errors_width_8 : errors_width_4;
 }
 #else
 Kernel best_kernel() {
-    return four_wide;
+    return errors_width_4;
 }
 #endif
 
@@ -234,21 +234,21 @@ void run_kernel(const DiamondRow& row, Diamond first, bool alternate, float* err
 }
 
 /// A corner of a triangle in samples, with its height.
-struct Corner {
+struct TriangleVertex {
     std::int64_t x;
     std::int64_t y;
     double height;
 };
 
-std::int64_t twice_area(const Corner& a, const Corner& b, std::int64_t x, std::int64_t y) {
+std::int64_t signed_area2(const TriangleVertex& a, const TriangleVertex& b, std::int64_t x, std::int64_t y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
 /// The height of a triangle's plane.
-double plane_at(const std::array<Corner, 3>& at, std::int64_t x, std::int64_t y) {
-    const std::int64_t area = twice_area(at[0], at[1], at[2].x, at[2].y);
-    const std::int64_t a = twice_area(at[1], at[2], x, y);
-    const std::int64_t b = twice_area(at[2], at[0], x, y);
+double plane_at(const std::array<TriangleVertex, 3>& at, std::int64_t x, std::int64_t y) {
+    const std::int64_t area = signed_area2(at[0], at[1], at[2].x, at[2].y);
+    const std::int64_t a = signed_area2(at[1], at[2], x, y);
+    const std::int64_t b = signed_area2(at[2], at[0], x, y);
     return (static_cast<double>(a) * at[0].height + static_cast<double>(b) * at[1].height +
             static_cast<double>(area - a - b) * at[2].height) /
            static_cast<double>(area);
@@ -256,8 +256,8 @@ double plane_at(const std::array<Corner, 3>& at, std::int64_t x, std::int64_t y)
 
 /// The largest deviation of the lattice's samples in one triangle, edges included, as far as the
 /// field or a lattice cell with a part of it reaches.
-double error_of_triangle(const StoredHeights& heights, std::array<Corner, 3> at, int stride) {
-    std::int64_t area = twice_area(at[0], at[1], at[2].x, at[2].y);
+double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex, 3> at, int stride) {
+    std::int64_t area = signed_area2(at[0], at[1], at[2].x, at[2].y);
     if (area < 0) {
         std::swap(at[1], at[2]);
         area = -area;
@@ -273,8 +273,8 @@ double error_of_triangle(const StoredHeights& heights, std::array<Corner, 3> at,
     double largest = 0.0;
     for (std::int64_t y = on_lattice(south); y <= last_y; y += stride) {
         for (std::int64_t x = on_lattice(west); x <= last_x; x += stride) {
-            const std::int64_t a = twice_area(at[1], at[2], x, y);
-            const std::int64_t b = twice_area(at[2], at[0], x, y);
+            const std::int64_t a = signed_area2(at[1], at[2], x, y);
+            const std::int64_t b = signed_area2(at[2], at[0], x, y);
             const std::int64_t c = area - a - b;
             if (a < 0 || b < 0 || c < 0) {
                 continue;
@@ -297,7 +297,7 @@ void node_errors(const DiamondRow& row, Diamond first, float* errors) {
     run_kernel(row, first, true, errors);
 }
 
-float padded_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond) {
+float padded_error(const StoredHeights& heights, const DiamondPosition& place, Diamond diamond) {
     using Step = std::array<int, 2>;
     // For each kind of diamond the directions from the middle to both ends of the hypotenuse and
     // then to both apexes.
@@ -311,11 +311,11 @@ float padded_error(const StoredHeights& heights, const DiamondPlace& place, Diam
         const Step& step = steps[static_cast<std::size_t>(diamond)][index];
         const int x = place.column + step[0] * place.half;
         const int y = place.row + step[1] * place.half;
-        return Corner{x, y, x < 0 || y < 0 ? 0.0 : heights.padded_number(x, y)};
+        return TriangleVertex{x, y, x < 0 || y < 0 ? 0.0 : heights.padded_number(x, y)};
     };
     double largest = 0.0;
     for (const std::size_t apex : {std::size_t{2}, std::size_t{3}}) {
-        const std::array<Corner, 3> triangle = {corner(0), corner(1), corner(apex)};
+        const std::array<TriangleVertex, 3> triangle = {corner(0), corner(1), corner(apex)};
         if (triangle[2].x >= 0 && triangle[2].y >= 0) {
             largest = std::max(largest, error_of_triangle(heights, triangle, place.stride));
         }

@@ -37,7 +37,7 @@ void node_errors(const DiamondRow& row, Diamond first, float* errors);
 
 /// The middle of a diamond anywhere in a field, in samples. Only samples `stride` apart are looked
 /// at.
-struct DiamondPlace {
+struct DiamondPosition {
     int column = 0;
     int row = 0;
     int half = 1;
@@ -47,6 +47,6 @@ struct DiamondPlace {
 /// The same for a single diamond anywhere in the padded square (StoredHeights::padded_number), legs
 /// included: what lies beyond the field does not count, but for the next samples `stride` apart.
 /// Triangles beyond the field's south and west sides do not count.
-float padded_error(const StoredHeights& heights, const DiamondPlace& place, Diamond diamond);
+float padded_error(const StoredHeights& heights, const DiamondPosition& place, Diamond diamond);
 
 } // namespace octant::visuals::terrain

@@ -7,7 +7,7 @@
 // those of open edges.
 #include "visuals/terrain/conformity.h"
 
-#include "sim/base/flat_area.h"
+#include "sim/base/geometry2d.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -23,7 +23,7 @@ namespace octant::visuals::terrain {
 namespace {
 
 /// Vertices are snapped to this fraction of a sample, which floats far from the eye still resolve.
-constexpr double grid_parts = 256.0;
+constexpr double snap_steps_per_sample = 256.0;
 
 constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15ULL;
 
@@ -62,10 +62,10 @@ std::string Conformity::text() const {
         "{} open edges, {} corners on edges, {} crowded edges, {} turned triangles, {} doubled "
         "vertices",
         open_edges,
-        corners_on_edges,
-        crowded_edges,
-        turned_triangles,
-        doubled_vertices);
+        t_junctions,
+        overlapping_edges,
+        inverted_triangles,
+        duplicate_vertices);
 }
 
 ConformityCheck::ConformityCheck(const GroundSamples& ground)
@@ -75,14 +75,14 @@ ConformityCheck::ConformityCheck(const GroundSamples& ground)
 
 Conformity ConformityCheck::check(const GroundMesh& mesh, const MeshView& view) {
     Conformity found;
-    place_vertices(mesh, view);
+    locate_vertices(mesh, view);
     match_edges(mesh, found);
     open_.clear();
     for (const Edge& edge : edges_) {
         if (edge.mesh != mesh_) {
             continue;
         }
-        found.crowded_edges += edge.forward > 1 || edge.back > 1 ? 1 : 0;
+        found.overlapping_edges += edge.forward > 1 || edge.back > 1 ? 1 : 0;
         if (edge.forward + edge.back != 1 || on_border(places_[edge.low], places_[edge.high])) {
             continue;
         }
@@ -93,18 +93,18 @@ Conformity ConformityCheck::check(const GroundMesh& mesh, const MeshView& view) 
             view);
         found.open_edges += seen ? 1 : 0;
     }
-    found.corners_on_edges = corners_on_open_edges();
-    found.doubled_vertices = doubled_vertices();
+    found.t_junctions = count_t_junctions();
+    found.duplicate_vertices = duplicate_vertices();
     return found;
 }
 
 /// Snaps all vertices to the grid.
-void ConformityCheck::place_vertices(const GroundMesh& mesh, const MeshView& view) {
+void ConformityCheck::locate_vertices(const GroundMesh& mesh, const MeshView& view) {
     places_.clear();
     for (const models::ColourVertex& vertex : mesh.vertices) {
         const glm::dvec2 world_m = glm::dvec2(vertex.position_m) + glm::dvec2(view.eye_m);
         places_.push_back(
-            glm::round((world_m + half_extent_m_) * (grid_parts / spacing_m_)) / grid_parts);
+            glm::round((world_m + half_extent_m_) * (snap_steps_per_sample / spacing_m_)) / snap_steps_per_sample);
     }
 }
 
@@ -124,8 +124,8 @@ void ConformityCheck::match_edges(const GroundMesh& mesh, Conformity& found) {
         const std::uint32_t a = mesh.indices[k];
         const std::uint32_t b = mesh.indices[k + 1];
         const std::uint32_t c = mesh.indices[k + 2];
-        found.turned_triangles +=
-            octant::twice_area(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
+        found.inverted_triangles +=
+            octant::signed_area2(places_[a], places_[b], places_[c]) > 0.0 ? 0 : 1;
         add_edge(a, b);
         add_edge(b, c);
         add_edge(c, a);
@@ -155,7 +155,7 @@ bool ConformityCheck::on_border(const glm::dvec2& a, const glm::dvec2& b) const 
 }
 
 /// Counts used vertices at positions that another vertex has.
-int ConformityCheck::doubled_vertices() {
+int ConformityCheck::duplicate_vertices() {
     constexpr std::uint32_t free_slot = ~std::uint32_t{0};
     const std::size_t mask = std::bit_ceil(2 * places_.size() + 2) - 1;
     slots_.assign(mask + 1, free_slot);
@@ -164,7 +164,7 @@ int ConformityCheck::doubled_vertices() {
         if (used_[k] == 0) {
             continue;
         }
-        const glm::dvec2 part = places_[k] * grid_parts;
+        const glm::dvec2 part = places_[k] * snap_steps_per_sample;
         const auto east = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.x));
         const auto north = static_cast<std::uint64_t>(static_cast<std::int64_t>(part.y));
         auto slot = static_cast<std::size_t>((east << 32U ^ north) * hash_factor >> 32U) & mask;
@@ -178,7 +178,7 @@ int ConformityCheck::doubled_vertices() {
 }
 
 /// Counts vertices strictly inside open edges.
-int ConformityCheck::corners_on_open_edges() {
+int ConformityCheck::count_t_junctions() {
     sorted_.clear();
     for (const Edge& edge : open_) {
         sorted_.push_back(edge.low);
@@ -197,7 +197,7 @@ int ConformityCheck::corners_on_open_edges() {
         auto at = std::upper_bound(sorted_.begin(), sorted_.end(), first, by_place);
         for (; at != sorted_.end() && before(places_[*at], places_[end]); ++at) {
             corners +=
-                octant::twice_area(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
+                octant::signed_area2(places_[first], places_[end], places_[*at]) == 0.0 ? 1 : 0;
         }
     }
     return corners;

@@ -19,15 +19,15 @@ struct Conformity {
     /// goes on there.
     int open_edges = 0;
     /// Vertices inside an edge of a triangle that they do not belong to (T-junctions).
-    int corners_on_edges = 0;
-    int crowded_edges = 0; ///< Edges with more than one triangle on a side.
+    int t_junctions = 0;
+    int overlapping_edges = 0; ///< Edges with more than one triangle on a side.
     /// Triangles that are not counter-clockwise from above or have no area.
-    int turned_triangles = 0;
-    int doubled_vertices = 0; ///< Vertices at a position in plan that has another one.
+    int inverted_triangles = 0;
+    int duplicate_vertices = 0; ///< Vertices at a position in plan that has another one.
 
-    bool is_whole() const {
-        return open_edges + corners_on_edges + crowded_edges + turned_triangles +
-                   doubled_vertices ==
+    bool is_conforming() const {
+        return open_edges + t_junctions + overlapping_edges + inverted_triangles +
+                   duplicate_vertices ==
                0;
     }
 
@@ -54,12 +54,12 @@ private:
         std::uint16_t back = 0;
     };
 
-    void place_vertices(const GroundMesh& mesh, const MeshView& view);
+    void locate_vertices(const GroundMesh& mesh, const MeshView& view);
     void match_edges(const GroundMesh& mesh, Conformity& found);
     void add_edge(std::uint32_t from, std::uint32_t to);
     bool on_border(const glm::dvec2& a, const glm::dvec2& b) const;
-    int doubled_vertices();
-    int corners_on_open_edges();
+    int duplicate_vertices();
+    int count_t_junctions();
 
     double spacing_m_;
     glm::dvec2 half_extent_m_;

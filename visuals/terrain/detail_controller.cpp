@@ -42,10 +42,10 @@ triangles_per_resolution(const ControlSettings& settings, double resolution, dou
 }
 
 /// The state in which C stays as it is and the past is forgotten.
-DetailState held(const DetailState& state, double triangles) {
-    DetailState next = state;
+ControlState held(const ControlState& state, double triangles) {
+    ControlState next = state;
     next.last_triangles = triangles;
-    next.earlier.fill(state.resolution);
+    next.earlier_results.fill(state.resolution);
     return next;
 }
 
@@ -59,14 +59,14 @@ constexpr double max_change = 2.0;
 constexpr double smallest_exponent = 0.25; ///< The least exponent p that is believed then.
 
 /// `state` with the last mesh added to the points of its view.
-DetailState measured(DetailState state, double target, double triangles, bool same_view) {
+ControlState measured(ControlState state, double target, double triangles, bool same_view) {
     if (!same_view) {
-        state.standing_frames = 0;
+        state.still_frames = 0;
         state.below = {};
         state.above = {};
     }
-    ++state.standing_frames;
-    CountAt& nearest = triangles < target ? state.below : state.above;
+    ++state.still_frames;
+    CountSample& nearest = triangles < target ? state.below : state.above;
     const bool nearer = triangles < target ? state.resolution > nearest.resolution
                                            : state.resolution < nearest.resolution;
     if (nearest.resolution <= 0.0 || nearer) {
@@ -76,13 +76,13 @@ DetailState measured(DetailState state, double target, double triangles, bool sa
 }
 
 /// Whether there are points on both sides of the target.
-bool is_enclosed(const DetailState& state) {
+bool is_enclosed(const ControlState& state) {
     return state.below.resolution > 0.0 && state.above.resolution > state.below.resolution;
 }
 
 /// Whether the two points around the target are the ends of one step of N(C), or closer in C than
 /// `narrowest`, a factor.
-bool is_at_step(const DetailState& state, double narrowest) {
+bool is_at_step(const ControlState& state, double narrowest) {
     if (!is_enclosed(state)) {
         return false;
     }
@@ -93,14 +93,14 @@ bool is_at_step(const DetailState& state, double narrowest) {
 }
 
 /// The one of the two points whose N is nearer to the target.
-const CountAt& nearer_end(const DetailState& state, double target) {
+const CountSample& nearer_end(const ControlState& state, double target) {
     return target - state.below.triangles < state.above.triangles - target ? state.below
                                                                            : state.above;
 }
 
 /// Extrapolates C to the target from the only side that is known: along N ~ C^p, with p from the
 /// two points nearest last, but at most 1, so that the other side is soon met.
-double read_beyond(const CountAt& before, const CountAt& nearest, double target) {
+double read_beyond(const CountSample& before, const CountSample& nearest, double target) {
     double exponent = 1.0;
     if (before.resolution > 0.0 && before.resolution != nearest.resolution) {
         exponent = std::log(std::max(nearest.triangles, 1.0) / std::max(before.triangles, 1.0)) /
@@ -113,7 +113,7 @@ double read_beyond(const CountAt& before, const CountAt& nearest, double target)
 }
 
 /// p of N ~ C^p with what another mesh of the same view tells about it.
-double tuned_exponent(const DetailState& state, double triangles) {
+double tuned_exponent(const ControlState& state, double triangles) {
     constexpr double min_change = 1e-4; // of C; less tells of single steps only
     constexpr double trust = 0.3;
     const double change = std::log(state.resolution / state.last.resolution);
@@ -127,7 +127,7 @@ double tuned_exponent(const DetailState& state, double triangles) {
 /// The C of the mesh after this one, which Tuned wants nearer to the target: the nearer end of a
 /// step, else on the line through the two points around the target (at times in their middle), else
 /// by equation (4) with g = 1.
-double tuned_resolution(const DetailState& state, double target, double triangles) {
+double tuned_resolution(const ControlState& state, double target, double triangles) {
     constexpr double narrowest = 1.00001;
     if (is_at_step(state, narrowest)) {
         return nearer_end(state, target).resolution;
@@ -137,7 +137,7 @@ double tuned_resolution(const DetailState& state, double target, double triangle
         return state.resolution * std::clamp(ratio, 1.0 / max_change, max_change);
     }
     const double rise = std::log(state.above.triangles / std::max(state.below.triangles, 1.0));
-    const double share = state.standing_frames % tuned_meshes == 0 || rise <= 0.0
+    const double share = state.still_frames % max_tuned_meshes == 0 || rise <= 0.0
                              ? 0.5
                              : std::log(target / std::max(state.below.triangles, 1.0)) / rise;
     return state.below.resolution *
@@ -147,9 +147,9 @@ double tuned_resolution(const DetailState& state, double target, double triangle
 /// The C at which the points of the view promise the target: between two points on the line through
 /// their logarithms, and in every other frame in the middle, so that they always close in. `before`
 /// is the state without the last point.
-double read_off(const DetailState& before, const DetailState& state, double target) {
-    const CountAt& below = state.below;
-    const CountAt& above = state.above;
+double read_off(const ControlState& before, const ControlState& state, double target) {
+    const CountSample& below = state.below;
+    const CountSample& above = state.above;
     if (is_at_step(state, step_width)) {
         return nearer_end(state, target).resolution;
     }
@@ -158,7 +158,7 @@ double read_off(const DetailState& before, const DetailState& state, double targ
                                       : read_beyond(before.below, below, target);
     }
     const double rise = std::log(above.triangles / std::max(below.triangles, 1.0));
-    const double share = state.standing_frames % 2 == 0 || rise <= 0.0
+    const double share = state.still_frames % 2 == 0 || rise <= 0.0
                              ? 0.5
                              : std::log(target / std::max(below.triangles, 1.0)) / rise;
     return below.resolution *
@@ -166,13 +166,13 @@ double read_off(const DetailState& before, const DetailState& state, double targ
 }
 
 /// Equation (5): the mean of `newest` and the earlier results, weighted r+1, ..., 2, 1.
-double weighted_mean(double newest, const DetailState& state, int remembered_frames) {
-    double weight = remembered_frames + 1.0;
+double weighted_mean(double newest, const ControlState& state, int averaged_frames) {
+    double weight = averaged_frames + 1.0;
     double sum = newest * weight;
     double weights = weight;
-    for (int k = 0; k < remembered_frames; ++k) {
+    for (int k = 0; k < averaged_frames; ++k) {
         weight -= 1.0;
-        sum += weight * state.earlier[static_cast<std::size_t>(k)];
+        sum += weight * state.earlier_results[static_cast<std::size_t>(k)];
         weights += weight;
     }
     return sum / weights;
@@ -180,20 +180,20 @@ double weighted_mean(double newest, const DetailState& state, int remembered_fra
 
 } // namespace
 
-DetailState starting_at(double resolution, const ControlSettings& settings) {
-    DetailState state;
+ControlState initial_state(double resolution, const ControlSettings& settings) {
+    ControlState state;
     state.resolution = std::clamp(resolution, settings.min_resolution, settings.max_resolution);
     return held(state, 0.0);
 }
 
-DetailState next_state(
-    const DetailState& state, const ControlSettings& settings, double triangles, bool same_view) {
+ControlState next_state(
+    const ControlState& state, const ControlSettings& settings, double triangles, bool same_view) {
     const double target = settings.target_triangles;
     assert(target > 0.0 && triangles >= 0.0);
     assert(settings.loop_gain > 0.0 && settings.growth_exponent > 0.0);
-    assert(settings.remembered_frames >= 0 && settings.remembered_frames <= max_remembered_frames);
+    assert(settings.averaged_frames >= 0 && settings.averaged_frames <= max_averaged_frames);
     const double missing = target - triangles;
-    DetailState next = measured(state, target, triangles, same_view);
+    ControlState next = measured(state, target, triangles, same_view);
     next.last = {state.resolution, triangles};
     const bool settles = settings.method == ControlMethod::Damped && settings.dead_band > 0.0;
     if (settles && std::abs(missing) <= settings.dead_band * target) {
@@ -209,26 +209,26 @@ DetailState next_state(
         }
         return held(next, triangles);
     }
-    if (settles && same_view && next.standing_frames > settings.remembered_frames) {
+    if (settles && same_view && next.still_frames > settings.averaged_frames) {
         next.resolution = limited(read_off(state, next, target));
         return held(next, triangles);
     }
     const double change =
-        settings.method == ControlMethod::Literal ? state.last_triangles - triangles : missing;
+        settings.method == ControlMethod::Printed ? state.last_triangles - triangles : missing;
     const double candidate = limited(
         state.resolution +
         change / triangles_per_resolution(settings, state.resolution, triangles));
     next.last_triangles = triangles;
     next.resolution = settings.method == ControlMethod::Damped
-                          ? weighted_mean(candidate, state, settings.remembered_frames)
+                          ? weighted_mean(candidate, state, settings.averaged_frames)
                           : candidate;
-    std::shift_right(next.earlier.begin(), next.earlier.end(), 1);
-    next.earlier[0] = candidate;
+    std::shift_right(next.earlier_results.begin(), next.earlier_results.end(), 1);
+    next.earlier_results[0] = candidate;
     return next;
 }
 
-bool wants_another(const DetailState& state, const ControlSettings& settings, int meshes) {
-    return settings.method == ControlMethod::Tuned && meshes < tuned_meshes &&
+bool needs_another_mesh(const ControlState& state, const ControlSettings& settings, int meshes) {
+    return settings.method == ControlMethod::Tuned && meshes < max_tuned_meshes &&
            state.resolution != state.last.resolution;
 }
 

@@ -8,12 +8,12 @@ namespace octant::visuals::terrain {
 /// What is measured as the roughness d2 of a node, equation (2): (1/d) max |dh_i|, i = 1..6, over
 /// the four sides and two diagonals of a node with edge length d.
 enum class Roughness {
-    Literal, ///< As printed: dh is the height difference between the two ends of a line.
+    Printed, ///< As printed: dh is the height difference between the two ends of a line.
     Midpoint ///< Roettger: dh is the true height at a line's middle minus the mean of its ends.
 };
 
 /// How a rough node makes its ancestors rough.
-enum class Propagation {
+enum class RoughnessPropagation {
     /// d2 = max(own, K d2(child)) in the parent and in the two parents beyond the child's outer
     /// edges, so that neighbouring leaves differ by one level at most.
     CrackFree,
@@ -30,7 +30,7 @@ enum class FanKind {
 /// What is fixed when a quadtree is built.
 struct QuadtreeOptions {
     Roughness roughness = Roughness::Midpoint;
-    Propagation propagation = Propagation::CrackFree;
+    RoughnessPropagation propagation = RoughnessPropagation::CrackFree;
     /// C_min, the smallest resolution with which the tree may be meshed, at least 1.6 (below that
     /// even flat ground cracks). It sets K = 0.5 + sqrt(2.5) / (2 C_min): a smaller one makes the
     /// ancestors rougher. The paper has none.
@@ -38,7 +38,7 @@ struct QuadtreeOptions {
 };
 
 /// What may change from frame to frame.
-struct Detail {
+struct QuadtreeDetail {
     /// C of equations (1) and (3): flat nodes split when they are nearer than C times their edge
     /// length. The number of triangles grows at most with its square. Raised to C_min where it is
     /// below. Paper: controlled.
@@ -58,7 +58,7 @@ enum class ControlMethod {
     /// Equation (4) with the a that makes g = 1, which is found out while flying: several meshes of
     /// a frame tell it. No a, r or g is to be chosen.
     Tuned,
-    Literal ///< Figure 6: C - (N - N of the frame before) / a. It holds no target.
+    Printed ///< Figure 6: C - (N - N of the frame before) / a. It holds no target.
 };
 
 /// How the number of triangles N is held near a target. Only the loop gain g = (dN/dC) / a decides
@@ -78,23 +78,23 @@ struct ControlSettings {
     /// too high, the loop only gets calmer. Paper: none.
     double growth_exponent = 2.0;
     /// r of equation (5): how many earlier frames are averaged, with weights r+1, ..., 2, 1 over
-    /// their sum, newest first. Even, so that up and down cancel; 0 to max_remembered_frames.
+    /// their sum, newest first. Even, so that up and down cancel; 0 to max_averaged_frames.
     /// Paper: 4.
-    int remembered_frames = 4;
+    int averaged_frames = 4;
     /// For Damped: the share of the target by which N may miss it without C being changed, or one
     /// step of N(C) where that is higher (without this C creeps over the same step for ever). At a
     /// standing view it is reached within 15 frames and kept, for any gain up to 5. From 0 to about
     /// 0.05; 0 is equation (5) as printed. Paper: none.
     double dead_band = 0.005;
-    /// For Tuned: a frame's mesh is made again, up to tuned_meshes in all, while N misses the
+    /// For Tuned: a frame's mesh is made again, up to max_tuned_meshes in all, while N misses the
     /// target by more than this share of it and C can still bring it nearer.
     double tuned_band = 0.0004;
     double min_resolution = 2.0;    ///< C is kept at or above it; it is the quadtree's C_min.
     double max_resolution = 1000.0; ///< C is kept at or below it.
 };
 
-inline constexpr int max_remembered_frames = 8;
-inline constexpr int tuned_meshes = 4;
+inline constexpr int max_averaged_frames = 8;
+inline constexpr int max_tuned_meshes = 4;
 
 /// How many triangles a mesh may have. The paper has no budget; it steers by the meshes of earlier
 /// frames.

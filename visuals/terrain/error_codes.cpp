@@ -8,7 +8,7 @@
 
 namespace octant::visuals::terrain {
 
-ErrorCodes ErrorCodes::fixed() {
+ErrorCodes ErrorCodes::legacy() {
     constexpr double smallest_m = 0.01;
     constexpr double ratio = 1.0567; // the 254 steps reach 12,100 m
     ErrorCodes codes;
@@ -20,7 +20,7 @@ ErrorCodes ErrorCodes::fixed() {
     return codes;
 }
 
-ErrorCodes ErrorCodes::of_unit(double height_unit_m) {
+ErrorCodes ErrorCodes::for_height_unit(double height_unit_m) {
     // Numbers, not roots: a file means the same wherever it is read.
     constexpr double wide = 1.148698355;   // 20 steps to 16 times
     constexpr double narrow = 1.036271381; // 214 steps to 2048 times

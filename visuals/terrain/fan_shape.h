@@ -54,7 +54,7 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> inner_edges = {
     {{0, 1, 1, 0}, {0, 0, 1, 1}, {1, 1, 0, 0}, {1, 0, 0, 1}}};
 
 /// A sample of the field.
-struct Sample {
+struct GridSample {
     int column;
     int row;
 };
@@ -78,26 +78,26 @@ public:
         return west_ + 2 * half_ > last_column_ || south_ + 2 * half_ > last_row_;
     }
 
-    Sample at(int half_edges_east, int half_edges_north) const {
+    GridSample at(int half_edges_east, int half_edges_north) const {
         return {
             std::min(west_ + half_edges_east * half_, last_column_),
             std::min(south_ + half_edges_north * half_, last_row_)};
     }
 
-    Sample padded(int half_edges_east, int half_edges_north) const {
+    GridSample padded(int half_edges_east, int half_edges_north) const {
         return {west_ + half_edges_east * half_, south_ + half_edges_north * half_};
     }
 
     /// padded() of a place of fan_ring or of the centre.
-    Sample padded_ring(std::size_t place) const {
+    GridSample padded_ring(std::size_t place) const {
         return place == centre_of_ring ? padded(1, 1)
                                        : padded(fan_ring[place].east, fan_ring[place].north);
     }
 
-    Sample last() const { return {last_column_, last_row_}; }
+    GridSample last() const { return {last_column_, last_row_}; }
 
     /// Of a place of fan_ring or of the centre.
-    Sample ring(std::size_t place) const {
+    GridSample ring(std::size_t place) const {
         return place == centre_of_ring ? at(1, 1) : at(fan_ring[place].east, fan_ring[place].north);
     }
 
@@ -107,15 +107,15 @@ public:
     /// Whether the middle row was moved onto the northern one.
     bool rows_coincide() const { return south_ + half_ >= last_row_; }
 
-    Sample corner_a(const FanEdge& edge) const {
+    GridSample corner_a(const FanEdge& edge) const {
         return at(edge.corner_a_east, edge.corner_a_north);
     }
 
-    Sample corner_b(const FanEdge& edge) const {
+    GridSample corner_b(const FanEdge& edge) const {
         return at(edge.corner_b_east, edge.corner_b_north);
     }
 
-    Sample middle(const FanEdge& edge) const {
+    GridSample middle(const FanEdge& edge) const {
         return at(
             (edge.corner_a_east + edge.corner_b_east) / 2,
             (edge.corner_a_north + edge.corner_b_north) / 2);
@@ -129,7 +129,7 @@ private:
     int south_;
 };
 
-inline bool has_area(Sample a, Sample b, Sample c) {
+inline bool has_area(GridSample a, GridSample b, GridSample c) {
     return (b.column - a.column) * (c.row - a.row) != (b.row - a.row) * (c.column - a.column);
 }
 

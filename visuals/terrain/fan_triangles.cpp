@@ -9,30 +9,30 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-int along(const Sample& at, bool rows) {
+int along(const GridSample& at, bool rows) {
     return rows ? at.row : at.column;
 }
 
 /// Where an edge crosses the last column or row.
-BorderCorner crossing(const BorderCorner& a, const BorderCorner& b, int last, bool rows) {
+ClipVertex crossing(const ClipVertex& a, const ClipVertex& b, int last, bool rows) {
     // From the western or southern end, so that both triangles beside an edge get the same height.
     const bool in_order = along(a.at, rows) < along(b.at, rows);
-    const BorderCorner& from = in_order ? a : b;
-    const BorderCorner& to = in_order ? b : a;
+    const ClipVertex& from = in_order ? a : b;
+    const ClipVertex& to = in_order ? b : a;
     const int way = along(to.at, rows) - along(from.at, rows);
     const int part = last - along(from.at, rows);
     const float share = static_cast<float>(part) / static_cast<float>(way);
-    const Sample at{
+    const GridSample at{
         from.at.column + (to.at.column - from.at.column) / way * part,
         from.at.row + (to.at.row - from.at.row) / way * part};
-    return {at, from.height + share * (to.height - from.height), BorderCorner::no_vertex};
+    return {at, from.height + share * (to.height - from.height), ClipVertex::no_vertex};
 }
 
-BorderPolygon up_to(const BorderPolygon& whole, int last, bool rows) {
-    BorderPolygon cut;
+ClippedPolygon up_to(const ClippedPolygon& whole, int last, bool rows) {
+    ClippedPolygon cut;
     for (unsigned k = 0; k < whole.count; ++k) {
-        const BorderCorner& own = whole.corner[k];
-        const BorderCorner& next = whole.corner[k + 1 == whole.count ? 0 : k + 1];
+        const ClipVertex& own = whole.corner[k];
+        const ClipVertex& next = whole.corner[k + 1 == whole.count ? 0 : k + 1];
         const int beyond = along(own.at, rows) - last;
         const int next_beyond = along(next.at, rows) - last;
         if (beyond <= 0) {
@@ -47,24 +47,24 @@ BorderPolygon up_to(const BorderPolygon& whole, int last, bool rows) {
 
 } // namespace
 
-BorderPolygon within_border(const std::array<BorderCorner, 3>& triangle, const Sample& last) {
-    BorderPolygon whole;
+ClippedPolygon clip_to_border(const std::array<ClipVertex, 3>& triangle, const GridSample& last) {
+    ClippedPolygon whole;
     std::copy(triangle.begin(), triangle.end(), whole.corner.begin());
     whole.count = 3;
     return up_to(up_to(whole, last.column, false), last.row, true);
 }
 
 FanTriangles triangles_within_border(const FanSamples& samples) {
-    const auto count = [&](const Sample& a, const Sample& b) {
-        return within_border({{{samples.padded(1, 1)}, {a}, {b}}}, samples.last()).triangles();
+    const auto count = [&](const GridSample& a, const GridSample& b) {
+        return clip_to_border({{{samples.padded(1, 1)}, {a}, {b}}}, samples.last()).triangles();
     };
     FanTriangles triangles;
     triangles.of_quadrant = {};
     for (std::size_t k = 0; k < 4; ++k) {
         const FanEdge& edge = fan_edges[k];
-        const Sample a = samples.padded_ring(2 * k);
-        const Sample middle = samples.padded_ring(2 * k + 1);
-        const Sample b = samples.padded_ring((2 * k + 2) % 8);
+        const GridSample a = samples.padded_ring(2 * k);
+        const GridSample middle = samples.padded_ring(2 * k + 1);
+        const GridSample b = samples.padded_ring((2 * k + 2) % 8);
         triangles.whole[k] = count(a, b);
         triangles.a[k] = count(a, middle);
         triangles.b[k] = count(middle, b);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/terrain/fan_shape.h"
-#include "visuals/terrain/step_count.h"
+#include "visuals/terrain/step_function.h"
 
 #include <array>
 #include <cstddef>
@@ -19,18 +19,18 @@ struct FanTriangles {
 };
 
 /// The triangles of a node that the field's end does not cut.
-inline constexpr FanTriangles all_triangles;
+inline constexpr FanTriangles uncut_fan_triangles;
 
 /// The triangles of a node at the field's north or east end whose samples are moved onto it.
 inline FanTriangles triangles_with_area(const FanSamples& samples) {
     FanTriangles triangles;
     triangles.of_quadrant = {};
-    const Sample centre = samples.at(1, 1);
+    const GridSample centre = samples.at(1, 1);
     for (std::size_t k = 0; k < 4; ++k) {
         const FanEdge& edge = fan_edges[k];
-        const Sample a = samples.corner_a(edge);
-        const Sample b = samples.corner_b(edge);
-        const Sample middle = samples.middle(edge);
+        const GridSample a = samples.corner_a(edge);
+        const GridSample b = samples.corner_b(edge);
+        const GridSample middle = samples.middle(edge);
         triangles.whole[k] = has_area(centre, a, b) ? 1 : 0;
         triangles.a[k] = has_area(centre, a, middle) ? 1 : 0;
         triangles.b[k] = has_area(centre, middle, b) ? 1 : 0;
@@ -41,8 +41,8 @@ inline FanTriangles triangles_with_area(const FanSamples& samples) {
 }
 
 /// A corner of a triangle of the padded square, or of what the field's border leaves of one.
-struct BorderCorner {
-    Sample at{};
+struct ClipVertex {
+    GridSample at{};
     float height = 0.0F;
     /// The vertex at this corner; nothing where the border crosses an edge.
     std::uint32_t vertex = no_vertex;
@@ -52,8 +52,8 @@ struct BorderCorner {
 
 /// The part of a triangle within the field, counter-clockwise as the triangle; it has no area where
 /// there are fewer than three corners.
-struct BorderPolygon {
-    std::array<BorderCorner, 5> corner{};
+struct ClippedPolygon {
+    std::array<ClipVertex, 5> corner{};
     unsigned count = 0;
 
     int triangles() const { return count < 3 ? 0 : static_cast<int>(count) - 2; }
@@ -62,14 +62,14 @@ struct BorderPolygon {
 /// The part of a bisection's triangle up to the field's last column and row. Edges are level,
 /// upright or diagonal, so that the border crosses them at samples, and at the same height from
 /// either side.
-BorderPolygon within_border(const std::array<BorderCorner, 3>& triangle, const Sample& last);
+ClippedPolygon clip_to_border(const std::array<ClipVertex, 3>& triangle, const GridSample& last);
 
 /// The triangles of a node at the field's north or east end that are left within the field.
 FanTriangles triangles_within_border(const FanSamples& samples);
 
 /// From which limits on the parts of a fan are in the mesh.
 struct FanLimits {
-    float on = 0.0F;                    ///< The fan itself.
+    float node_limit = 0.0F;                    ///< The fan itself.
     const std::array<float, 4>& middle; ///< The mid-points of fan_edges.
     unsigned hidden = 0;                ///< The quadrants without triangles.
     int replaced = 0;                   ///< How many triangles of its parent it replaces.
@@ -79,7 +79,7 @@ struct FanLimits {
 /// The step of a quadrant that splits is counted with the child. Returns whether there are steps
 /// above.
 inline bool
-count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepCount& steps) {
+count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepFunction& steps) {
     const auto unless_hidden = [&](unsigned quadrant, int some) {
         return (fan.hidden >> quadrant & 1U) == 0 ? some : 0;
     };
@@ -89,7 +89,7 @@ count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepC
         const FanEdge& edge = fan_edges[k];
         const int with_middle = unless_hidden(edge.quadrant_a, triangles.a[k]) +
                                 unless_hidden(edge.quadrant_b, triangles.b[k]);
-        if (fan.middle[k] <= fan.on) {
+        if (fan.middle[k] <= fan.node_limit) {
             first += with_middle;
             continue;
         }
@@ -100,7 +100,7 @@ count_fan(const FanLimits& fan, const FanTriangles& triangles, float high, StepC
             more_above = true;
         }
     }
-    steps.add(fan.on, first);
+    steps.add(fan.node_limit, first);
     return more_above;
 }
 

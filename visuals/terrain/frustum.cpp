@@ -16,7 +16,7 @@ constexpr double cull_margin_m = 1e-3;
 
 } // namespace
 
-unsigned planes_of(const std::array<glm::dvec3, 4>& normals) {
+unsigned active_planes(const std::array<glm::dvec3, 4>& normals) {
     unsigned planes = 0;
     for (std::size_t k = 0; k < normals.size(); ++k) {
         planes |= normals[k] == glm::dvec3(0.0) ? 0U : 1U << k;
@@ -24,7 +24,7 @@ unsigned planes_of(const std::array<glm::dvec3, 4>& normals) {
     return planes;
 }
 
-unsigned planes_cutting(
+unsigned crossed_planes(
     const std::array<glm::dvec3, 4>& normals,
     unsigned planes,
     const glm::dvec3& centre_m,

@@ -1,10 +1,10 @@
 // Builds a ground in memory from a height field that is in memory: for made ground and small files.
 // Large files are imported into a mapped file instead (ground_import.cpp), by the same
-// GroundAssembly.
+// GroundAssembler.
 #include "visuals/terrain/ground_builder.h"
 
-#include "sim/base/worker_team.h"
-#include "visuals/terrain/ground_assembly.h"
+#include "sim/base/parallel_for.h"
+#include "visuals/terrain/ground_assembler.h"
 
 #include <cstring>
 #include <memory>
@@ -18,7 +18,7 @@ std::vector<std::int16_t>
 numbers_of(const models::heights::HeightField& field, const GroundShape& shape, int threads) {
     const auto columns = static_cast<std::size_t>(shape.columns);
     std::vector<std::int16_t> numbers(columns * static_cast<std::size_t>(shape.rows));
-    share_out(
+    parallel_for(
         static_cast<std::size_t>(shape.rows), threads, [&](std::size_t row, std::size_t /*w*/) {
             for (std::size_t column = 0; column < columns; ++column) {
                 const float height_m =
@@ -31,7 +31,7 @@ numbers_of(const models::heights::HeightField& field, const GroundShape& shape, 
 
 } // namespace
 
-GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
+GroundTiles make_ground_tiles(const models::heights::HeightField& field, int threads) {
     const GroundShape shape = shape_of(
         field.columns(),
         field.rows(),
@@ -44,8 +44,8 @@ GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
     const std::shared_ptr<std::byte[]> memory(new std::byte[layout.total_bytes()]);
     std::memset(memory.get(), 0, layout.first_tile());
     const std::span<std::byte> bytes(memory.get(), layout.total_bytes());
-    GroundAssembly assembly(shape, layout, heights, bytes, threads);
-    const HeightFigures figures = assembly.put_outline();
+    GroundAssembler assembly(shape, layout, heights, bytes, threads);
+    const HeightStatistics figures = assembly.write_overview();
     const auto put =
         [&bytes](std::size_t /*index*/, std::size_t offset, std::span<const std::byte> tile) {
             std::memcpy(bytes.data() + offset, tile.data(), tile.size());
@@ -53,7 +53,7 @@ GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
     for (std::size_t tile = 0; tile < assembly.tiles();) {
         tile = assembly.build(tile, assembly.tiles(), put);
     }
-    const GroundFacts facts{
+    const GroundMetadata metadata{
         field.name,
         field.place,
         field.system,
@@ -61,7 +61,7 @@ GroundTiles ground_of(const models::heights::HeightField& field, int threads) {
         figures.lowest_m,
         figures.highest_m,
         figures.mean_m};
-    return {shape, facts, bytes, memory};
+    return {shape, metadata, bytes, memory};
 }
 
 } // namespace octant::visuals::terrain

@@ -24,11 +24,11 @@ int rounded_up_quotient(int dividend, int divisor) {
 } // namespace
 
 ErrorCodes codes_of(const GroundShape& shape) {
-    return shape.has_own_codes ? ErrorCodes::of_unit(shape.height_unit_m) : ErrorCodes::fixed();
+    return shape.has_unit_codes ? ErrorCodes::for_height_unit(shape.height_unit_m) : ErrorCodes::legacy();
 }
 
-GroundLayout::GroundLayout(int columns, int rows, bool has_both_rooms)
-    : has_both_rooms_(has_both_rooms) {
+GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins)
+    : has_both_margins_(has_both_margins) {
     assert(columns >= 2 && rows >= 2 && columns <= 65536 && rows <= 65536);
     const int longest = std::max({columns, rows, 3}) - 1;
     const int count = static_cast<int>(std::bit_width(static_cast<unsigned>(longest - 1)));
@@ -58,9 +58,9 @@ GroundLayout::GroundLayout(int columns, int rows, bool has_both_rooms)
         level.north_heights = end;
         level.east_heights = level.north_heights + 2 * across;
         end = level.east_heights + 2 * up;
-        for (std::size_t room = 0; room < (has_both_rooms ? 2 : 1); ++room) {
-            std::fill(level.north_errors.begin() + room, level.north_errors.end(), end);
-            std::fill(level.east_errors.begin() + room, level.east_errors.end(), end + across);
+        for (std::size_t morph_margin = 0; morph_margin < (has_both_margins ? 2 : 1); ++morph_margin) {
+            std::fill(level.north_errors.begin() + morph_margin, level.north_errors.end(), end);
+            std::fill(level.east_errors.begin() + morph_margin, level.east_errors.end(), end + across);
             end += across + up;
         }
         end = rounded_up(end, 2);
@@ -83,7 +83,7 @@ void GroundLayout::place_errors(Level& level, bool finest) const {
     for (std::size_t part = 0; part < parts_of_node; ++part) {
         const bool is_needing = part == static_cast<std::size_t>(NodePart::Centre) || !finest;
         level.errors[1][part] =
-            has_both_rooms_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
+            has_both_margins_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
     }
     level.tile_bytes = rounded_up(planes * level.tile_nodes, 2);
 }

@@ -19,7 +19,7 @@ enum class NodePart : std::uint8_t {
 
 /// Which of a sample's two errors: with the room that a vertex needs to move slowly while the
 /// wanted error changes from frame to frame, or without any (tile_builder_errors.cpp).
-enum class Room : std::uint8_t { Full, None };
+enum class MorphMargin : std::uint8_t { Full, None };
 
 /// The size of a ground and what its numbers mean.
 struct GroundShape {
@@ -29,9 +29,9 @@ struct GroundShape {
     double height_base_m = 0.0; ///< The height of the stored number 0.
     double height_unit_m = 0.0; ///< The height of one unit; a power of two.
     /// Whether errors are stored without room, too; else those with full room stand for both.
-    bool has_both_rooms = true;
+    bool has_both_margins = true;
     /// Whether the steps between error codes suit the unit; else they are those of all grounds.
-    bool has_own_codes = true;
+    bool has_unit_codes = true;
 };
 
 /// The lowest and highest stored height of a node's samples.
@@ -92,13 +92,13 @@ public:
         std::size_t ranges = 0;
     };
 
-    /// The layout of a field of so many samples; for `has_both_rooms` see GroundShape.
-    GroundLayout(int columns, int rows, bool has_both_rooms = true);
+    /// The layout of a field of so many samples; for `has_both_margins` see GroundShape.
+    GroundLayout(int columns, int rows, bool has_both_margins = true);
 
     explicit GroundLayout(const GroundShape& shape)
-        : GroundLayout(shape.columns, shape.rows, shape.has_both_rooms) {}
+        : GroundLayout(shape.columns, shape.rows, shape.has_both_margins) {}
 
-    bool has_both_rooms() const { return has_both_rooms_; }
+    bool has_both_margins() const { return has_both_margins_; }
 
     int levels() const { return static_cast<int>(levels_.size()); }
 
@@ -119,7 +119,7 @@ public:
 private:
     void place_errors(Level& level, bool finest) const;
 
-    bool has_both_rooms_;
+    bool has_both_margins_;
     std::vector<Level> levels_;
     int range_level_ = 0;
     std::size_t total_bytes_ = 0;

@@ -59,13 +59,13 @@ struct CountedMesh {
 };
 
 /// Where the vertex of a mesh with geomorphs comes from. 16 bytes.
-struct VertexOrigin {
+struct VertexMorph {
     std::uint16_t column = 0; ///< The sample that it belongs to.
     std::uint16_t row = 0;
     /// The two vertices in the middle of which it appears, both of which come before it in the
     /// mesh; the vertex itself if it is always there.
-    std::uint32_t end_a = 0;
-    std::uint32_t end_b = 0;
+    std::uint32_t parent_a = 0;
+    std::uint32_t parent_b = 0;
     /// How far it has moved: 0 = wholly at the middle of its ends, 1 = wholly at its sample.
     float weight = 1.0F;
 };
@@ -80,7 +80,7 @@ struct GroundMesh {
     double resolution = 0.0; ///< C it was made with, before magnification.
     /// How far any sample in the picture may lie from the triangles, in pixels; 0 where C decides.
     double error_px = 0.0;
-    std::span<const VertexOrigin> origins; ///< One for each vertex; empty where C decides.
+    std::span<const VertexMorph> morphs; ///< One for each vertex; empty where C decides.
 };
 
 /// A node that is in the mesh. Its centre is a vertex unless all four quadrants are split. Sets of
@@ -92,7 +92,7 @@ struct GroundFan {
     std::uint8_t level = 0;
     std::uint8_t split = 0;  ///< Quadrants that are left to a child's own fan, drawn unless hidden.
     std::uint8_t hidden = 0; ///< Quadrants outside the frustum or the field.
-    bool at_frustum = false; ///< It is not known to be wholly inside the frustum.
+    bool crosses_frustum = false; ///< It is not known to be wholly inside the frustum.
 };
 
 } // namespace octant::visuals::terrain

@@ -23,7 +23,7 @@ void advise(std::span<const std::byte> bytes, int what) {
 
 GroundPrefetcher::GroundPrefetcher(const GroundTiles& ground)
     : ground_(ground)
-    , asked_(static_cast<std::size_t>(ground.levels()))
+    , requested_windows_(static_cast<std::size_t>(ground.levels()))
     , thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 GroundPrefetcher::~GroundPrefetcher() {
@@ -31,10 +31,10 @@ GroundPrefetcher::~GroundPrefetcher() {
     thread_.join();
 }
 
-void GroundPrefetcher::go_to(glm::dvec2 place_m) {
+void GroundPrefetcher::prefetch_around(glm::dvec2 place_m) {
     {
         const std::scoped_lock lock(mutex_);
-        wanted_m_ = place_m;
+        requested_m_ = place_m;
     }
     wake_.notify_one();
 }
@@ -44,11 +44,11 @@ void GroundPrefetcher::run(const std::stop_token& stop) {
         glm::dvec2 place_m;
         {
             std::unique_lock lock(mutex_);
-            if (!wake_.wait(lock, stop, [this] { return wanted_m_.has_value(); })) {
+            if (!wake_.wait(lock, stop, [this] { return requested_m_.has_value(); })) {
                 return;
             }
-            place_m = *wanted_m_;
-            wanted_m_.reset();
+            place_m = *requested_m_;
+            requested_m_.reset();
         }
         fetch(place_m, stop);
     }
@@ -57,15 +57,15 @@ void GroundPrefetcher::run(const std::stop_token& stop) {
 void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
     for (int level = 0; level < ground_.levels(); ++level) {
         const GroundLayout::Level& at = ground_.layout().level(level);
-        Window& known = asked_[static_cast<std::size_t>(level)];
-        const Window window = window_about(at, place_m);
+        Window& known = requested_windows_[static_cast<std::size_t>(level)];
+        const Window window = window_around(at, place_m);
         for_new_tiles(at, window, known, [](std::size_t /*tile*/, std::span<const std::byte> b) {
             advise(b, MADV_WILLNEED);
         });
         for_new_tiles(at, window, known, [&](std::size_t tile, std::span<const std::byte> bytes) {
             if (!stop.stop_requested()) {
                 advise(bytes, MADV_POPULATE_READ); // before the guard, which makes others wait
-                ground_.guard().require(level, tile);
+                ground_.validator().ensure_valid(level, tile);
             }
         });
         known = window;
@@ -74,7 +74,7 @@ void GroundPrefetcher::fetch(glm::dvec2 place_m, const std::stop_token& stop) {
 
 /// The tiles of a level around a place.
 GroundPrefetcher::Window
-GroundPrefetcher::window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const {
+GroundPrefetcher::window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const {
     const double node_m = at.edge * ground_.spacing_m();
     const glm::dvec2 half_m = ground_.half_extent_m();
     const auto tile_of = [&at](double node, int tiles) {

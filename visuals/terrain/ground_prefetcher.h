@@ -30,7 +30,7 @@ public:
     /// Tells where tiles are wanted next, in world axes, within the field or not. Returns at once;
     /// an earlier place that was not dealt with yet is forgotten. Tiles that were asked for at the
     /// last place are not asked for again.
-    void go_to(glm::dvec2 place_m);
+    void prefetch_around(glm::dvec2 place_m);
 
 private:
     /// A rectangle of tiles of a level; east and north are one past the last.
@@ -43,7 +43,7 @@ private:
 
     void run(const std::stop_token& stop);
     void fetch(glm::dvec2 place_m, const std::stop_token& stop);
-    Window window_about(const GroundLayout::Level& at, glm::dvec2 place_m) const;
+    Window window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const;
     /// Calls visit(tile, bytes) for the tiles of a window that are not in `known`.
     template <class Visit>
     void for_new_tiles(
@@ -53,10 +53,10 @@ private:
         const Visit& visit) const;
 
     const GroundTiles& ground_;
-    std::vector<Window> asked_; ///< For each level what was asked for last.
+    std::vector<Window> requested_windows_; ///< For each level what was asked for last.
     std::mutex mutex_;
     std::condition_variable_any wake_;
-    std::optional<glm::dvec2> wanted_m_;
+    std::optional<glm::dvec2> requested_m_;
     std::jthread thread_;
 };
 

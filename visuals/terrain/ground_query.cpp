@@ -6,7 +6,7 @@
 #include "visuals/terrain/ground_query.h"
 
 #include "models/heights/bilinear.h"
-#include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/curvature_drop.h"
 
 #include <glm/geometric.hpp>
 
@@ -19,45 +19,45 @@ namespace octant::visuals::terrain {
 namespace {
 
 /// A line that is at least this far below the ground is below it.
-constexpr double touch_m = 1e-6;
+constexpr double clearance_tolerance_m = 1e-6;
 
 /// A cell of the grid and a position in it, 0 to 1.
-struct CellPlace {
+struct CellPosition {
     int column;
     int row;
     double east;
     double north;
 };
 
-CellPlace cell_at(const GroundSamples& ground, const glm::dvec2& grid) {
+CellPosition cell_at(const GroundSamples& ground, const glm::dvec2& grid) {
     const int column = std::clamp(static_cast<int>(std::floor(grid.x)), 0, ground.columns() - 2);
     const int row = std::clamp(static_cast<int>(std::floor(grid.y)), 0, ground.rows() - 2);
     return {column, row, grid.x - column, grid.y - row};
 }
 
 /// A part of a line, in shares of its length.
-struct Part {
+struct LineInterval {
     double first = 0.0;
     double last = 1.0;
 };
 
 /// Cuts a part to where one coordinate lies between two bounds.
-void cut(Part& part, double start, double way, double least, double most) {
-    if (way == 0.0) {
+void clip_interval(LineInterval& part, double start, double delta, double least, double most) {
+    if (delta == 0.0) {
         if (start < least || start > most) {
             part.last = -1.0;
         }
         return;
     }
-    const double a = (least - start) / way;
-    const double b = (most - start) / way;
+    const double a = (least - start) / delta;
+    const double b = (most - start) / delta;
     part.first = std::max(part.first, std::min(a, b));
     part.last = std::min(part.last, std::max(a, b));
 }
 
 /// The height of a line above the ground over one cell: constant + linear t + square t^2, with t
 /// from 0.
-struct Gap {
+struct ClearanceCurve {
     double constant;
     double linear;
     double square;
@@ -65,7 +65,7 @@ struct Gap {
     double at(double t) const { return constant + t * (linear + t * square); }
 
     /// The t in 0 to `last` at which the gap is least.
-    double lowest(double last) const {
+    double argmin(double last) const {
         const double turn = square > 0.0 ? std::clamp(-linear / (2.0 * square), 0.0, last) : 0.0;
         const double ends = at(last) < at(0.0) ? last : 0.0;
         return at(turn) < at(ends) ? turn : ends;
@@ -85,14 +85,14 @@ struct Gap {
 /// A line in grid coordinates and height, with the curvature as seen from its start.
 struct Line {
     glm::dvec2 start;
-    glm::dvec2 way;
+    glm::dvec2 delta;
     double start_m;
     double climb_m;
     double drop_m; ///< At its end.
 };
 
 /// The gap over a cell, from the point at `share` of the line on.
-Gap gap_over(const GroundSamples& ground, const Line& line, const CellPlace& cell, double share) {
+ClearanceCurve clearance_over(const GroundSamples& ground, const Line& line, const CellPosition& cell, double share) {
     const double south_west_m = ground.height_m(cell.column, cell.row);
     const double east_m = ground.height_m(cell.column + 1, cell.row) - south_west_m;
     const double north_m = ground.height_m(cell.column, cell.row + 1) - south_west_m;
@@ -105,32 +105,32 @@ Gap gap_over(const GroundSamples& ground, const Line& line, const CellPlace& cel
         line_m + share * share * line.drop_m -
             (south_west_m + u * east_m + v * north_m + u * v * twist_m),
         line.climb_m + 2.0 * share * line.drop_m -
-            (line.way.x * (east_m + v * twist_m) + line.way.y * (north_m + u * twist_m)),
-        line.drop_m - line.way.x * line.way.y * twist_m};
+            (line.delta.x * (east_m + v * twist_m) + line.delta.y * (north_m + u * twist_m)),
+        line.drop_m - line.delta.x * line.delta.y * twist_m};
 }
 
 /// Calls visit(gap, share, length) for the cells below a part of the line, in order, until it
 /// returns true.
 template <class Visit>
-void walk(const GroundSamples& ground, const Line& line, const Part& part, const Visit& visit) {
+void for_each_cell(const GroundSamples& ground, const Line& line, const LineInterval& part, const Visit& visit) {
     double share = part.first;
-    const auto next_line = [](double at, double way) {
-        if (way == 0.0) {
+    const auto next_line = [](double at, double delta) {
+        if (delta == 0.0) {
             return std::numeric_limits<double>::infinity();
         }
-        const double whole = way > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
-        return (whole - at) / way;
+        const double whole = delta > 0.0 ? std::floor(at) + 1.0 : std::ceil(at) - 1.0;
+        return (whole - at) / delta;
     };
     constexpr double min_step = 1e-12;
     while (share < part.last) {
-        const glm::dvec2 at = line.start + line.way * share;
+        const glm::dvec2 at = line.start + line.delta * share;
         const double step = std::max(
-            std::min(next_line(at.x, line.way.x), next_line(at.y, line.way.y)), min_step);
+            std::min(next_line(at.x, line.delta.x), next_line(at.y, line.delta.y)), min_step);
         const double length = std::min(step, part.last - share);
-        CellPlace cell = cell_at(ground, at + line.way * (0.5 * length));
+        CellPosition cell = cell_at(ground, at + line.delta * (0.5 * length));
         cell.east = at.x - cell.column;
         cell.north = at.y - cell.row;
-        if (visit(gap_over(ground, line, cell, share), share, length)) {
+        if (visit(clearance_over(ground, line, cell, share), share, length)) {
             return;
         }
         share += length;
@@ -138,10 +138,10 @@ void walk(const GroundSamples& ground, const Line& line, const Part& part, const
 }
 
 /// The part of a line that has ground below it.
-Part over_ground(const GroundSamples& ground, const Line& line) {
-    Part part;
-    cut(part, line.start.x, line.way.x, 0.0, ground.columns() - 1);
-    cut(part, line.start.y, line.way.y, 0.0, ground.rows() - 1);
+LineInterval interval_over_ground(const GroundSamples& ground, const Line& line) {
+    LineInterval part;
+    clip_interval(part, line.start.x, line.delta.x, 0.0, ground.columns() - 1);
+    clip_interval(part, line.start.y, line.delta.y, 0.0, ground.rows() - 1);
     return part;
 }
 
@@ -168,7 +168,7 @@ Line line_between(
         level_m / ground.spacing_m(),
         from_m.z,
         to_m.z - from_m.z,
-        earth_drop_m(glm::dot(level_m, level_m), radius_m)};
+        curvature_drop_m(glm::dot(level_m, level_m), radius_m)};
 }
 
 } // namespace
@@ -177,37 +177,37 @@ std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, d
     return models::heights::bilinear_height_m(ground, x_m, y_m);
 }
 
-SightLine sight_between(
+LineOfSight line_of_sight(
     const GroundSamples& ground,
     const glm::dvec3& from_m,
     const glm::dvec3& to_m,
     double radius_m) {
     glm::dvec3 lowered_m = to_m;
     const glm::dvec2 level_m = glm::dvec2(to_m) - glm::dvec2(from_m);
-    lowered_m.z -= earth_drop_m(glm::dot(level_m, level_m), radius_m);
+    lowered_m.z -= curvature_drop_m(glm::dot(level_m, level_m), radius_m);
     const Line line = line_between(ground, from_m, lowered_m, radius_m);
-    SightLine sight;
+    LineOfSight sight;
     sight.clearance_m = std::numeric_limits<double>::infinity();
-    double lowest = 0.0;
-    walk(ground, line, over_ground(ground, line), [&](const Gap& gap, double share, double length) {
-        const double t = gap.lowest(length);
+    double argmin = 0.0;
+    for_each_cell(ground, line, interval_over_ground(ground, line), [&](const ClearanceCurve& gap, double share, double length) {
+        const double t = gap.argmin(length);
         if (gap.at(t) < sight.clearance_m) {
             sight.clearance_m = gap.at(t);
-            lowest = share + t;
+            argmin = share + t;
         }
-        if (gap.at(t) < -touch_m && !sight.hidden_at_m) {
+        if (gap.at(t) < -clearance_tolerance_m && !sight.blocked_at_m) {
             sight.visible = false;
-            sight.hidden_at_m = ground_point(ground, from_m, to_m, share + gap.first_zero(length));
+            sight.blocked_at_m = ground_point(ground, from_m, to_m, share + gap.first_zero(length));
         }
         return false;
     });
     if (std::isfinite(sight.clearance_m)) {
-        sight.lowest_at_m = ground_point(ground, from_m, to_m, lowest);
+        sight.min_clearance_at_m = ground_point(ground, from_m, to_m, argmin);
     }
     return sight;
 }
 
-std::optional<glm::dvec3> first_ground(
+std::optional<glm::dvec3> intersect_ground(
     const GroundSamples& ground,
     const glm::dvec3& from_m,
     const glm::dvec3& direction,
@@ -215,16 +215,16 @@ std::optional<glm::dvec3> first_ground(
     double radius_m) {
     const glm::dvec3 to_m = from_m + direction * reach_m;
     const Line line = line_between(ground, from_m, to_m, radius_m);
-    Part part = over_ground(ground, line);
+    LineInterval part = interval_over_ground(ground, line);
     // Above the highest sample there is nothing to meet, because curvature only lowers the ground.
-    cut(part,
+    clip_interval(part,
         line.start_m,
         line.climb_m,
         -std::numeric_limits<double>::infinity(),
         ground.highest_m());
     std::optional<glm::dvec3> hit_m;
-    walk(ground, line, part, [&](const Gap& gap, double share, double length) {
-        if (gap.at(gap.lowest(length)) >= -touch_m) {
+    for_each_cell(ground, line, part, [&](const ClearanceCurve& gap, double share, double length) {
+        if (gap.at(gap.argmin(length)) >= -clearance_tolerance_m) {
             return false;
         }
         hit_m = ground_point(ground, from_m, to_m, share + gap.first_zero(length));

@@ -16,24 +16,24 @@ namespace octant::visuals::terrain {
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m);
 
 /// What lies between two points.
-struct SightLine {
+struct LineOfSight {
     bool visible = true; ///< The line is nowhere more than a micrometre below the ground.
     /// The first point of the ground that hides, in world axes.
-    std::optional<glm::dvec3> hidden_at_m;
+    std::optional<glm::dvec3> blocked_at_m;
     /// The height of the line above the ground where that is least; infinite where there is no
     /// ground below the line.
     double clearance_m = 0.0;
-    glm::dvec3 lowest_at_m{0.0}; ///< The point of the ground at which the clearance is least.
+    glm::dvec3 min_clearance_at_m{0.0}; ///< The point of the ground at which the clearance is least.
 };
 
 /// Whether `to_m` is seen from `from_m`, both in world axes.
-SightLine sight_between(
+LineOfSight line_of_sight(
     const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m);
 
 /// The first point at which a ray meets the ground; nothing if it does not within `reach_m`. The
 /// direction is a unit vector. The ray is straight and the ground is lowered by curvature; what is
 /// returned is the ground point at its own height.
-std::optional<glm::dvec3> first_ground(
+std::optional<glm::dvec3> intersect_ground(
     const GroundSamples& ground,
     const glm::dvec3& from_m,
     const glm::dvec3& direction,

@@ -19,7 +19,7 @@ public:
 
     explicit GroundSamples(const GroundTiles& tiles)
         : GroundSamples(
-              tiles, tiles.facts().highest_m, [](const void* ground, int column, int row) {
+              tiles, tiles.metadata().highest_m, [](const void* ground, int column, int row) {
                   return static_cast<const GroundTiles*>(ground)->height_m(column, row);
               }) {}
 

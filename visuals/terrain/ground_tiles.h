@@ -3,7 +3,7 @@
 #include "models/heights/height_field.h"
 #include "visuals/terrain/error_codes.h"
 #include "visuals/terrain/ground_layout.h"
-#include "visuals/terrain/tile_guard.h"
+#include "visuals/terrain/tile_validator.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,16 +19,16 @@
 namespace octant::visuals::terrain {
 
 /// What is known of a ground besides its numbers.
-struct GroundFacts {
+struct GroundMetadata {
     std::string name;
-    std::optional<GeoPlace> place;                    ///< Nothing for made ground.
-    std::optional<models::heights::MapSystem> system; ///< As HeightField::system.
+    std::optional<GeoPosition> place;                    ///< Nothing for made ground.
+    std::optional<models::heights::CoordinateSystem> system; ///< As HeightField::system.
     std::int64_t filled_voids = 0;                    ///< Samples without data that were filled.
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
     float mean_m = 0.0F;
     /// From the files that it was imported from; nothing where it was not measured.
-    std::optional<models::heights::Deviation> deviation = {};
+    std::optional<models::heights::HeightDeviation> deviation = {};
 };
 
 /// The heights of a ground and, for each sample that a mesh may leave out, the error of leaving it
@@ -47,24 +47,24 @@ struct GroundFacts {
 class GroundTiles {
 public:
     /// `memory` is laid out as GroundLayout(shape) says (its size is asserted) and kept alive by
-    /// `owner`. A tile is read after `guard` has let it; null trusts all tiles.
+    /// `owner`. A tile is read after `validator` has let it; null trusts all tiles.
     GroundTiles(
         const GroundShape& shape,
-        GroundFacts facts,
+        GroundMetadata metadata,
         std::span<const std::byte> memory,
         std::shared_ptr<const void> owner,
-        std::shared_ptr<const TileGuard> guard = nullptr);
+        std::shared_ptr<const TileValidator> validator = nullptr);
 
     const GroundShape& shape() const { return shape_; }
 
-    const GroundFacts& facts() const { return facts_; }
+    const GroundMetadata& metadata() const { return metadata_; }
 
     const GroundLayout& layout() const { return layout_; }
 
-    /// What lies in tiles may be read once guard() has let them.
+    /// What lies in tiles may be read once validator() has let them.
     std::span<const std::byte> memory() const { return memory_; }
 
-    const TileGuard& guard() const { return *guard_; }
+    const TileValidator& validator() const { return *validator_; }
 
     int levels() const { return layout_.levels(); }
 
@@ -88,8 +88,8 @@ public:
     /// The code of a sample's error by its node, as for height_m; codes() make it metres. It is 0
     /// only where the error is 0.
     std::uint8_t
-    error_code(int level, NodePart part, int column, int row, Room room = Room::Full) const {
-        return *stored_error(level, part, column, row, room);
+    error_code(int level, NodePart part, int column, int row, MorphMargin morph_margin = MorphMargin::Full) const {
+        return *stored_error(level, part, column, row, morph_margin);
     }
 
     const ErrorCodes& codes() const { return codes_; }
@@ -114,7 +114,7 @@ public:
         if (column == at.columns) {
             return heights_at(at.east_heights)[row];
         }
-        const TilePlace place = place_of(level, column, row);
+        const NodeOffset place = place_of(level, column, row);
         return heights_at(place.tile)[static_cast<std::size_t>(part) * at.tile_nodes + place.node];
     }
 
@@ -144,45 +144,45 @@ private:
     }
 
     /// The offset of a node's tile, and the place of the node in it.
-    struct TilePlace {
+    struct NodeOffset {
         std::size_t tile;
         std::size_t node;
     };
 
-    TilePlace place_of(int level, int column, int row) const {
+    NodeOffset place_of(int level, int column, int row) const {
         const GroundLayout::Level& at = layout_.level(level);
         const int mask = (1 << at.tile_shift) - 1;
         const auto tile = static_cast<std::size_t>(
             (row >> at.tile_shift) * at.tiles_across + (column >> at.tile_shift));
-        guard_->require(level, tile);
+        validator_->ensure_valid(level, tile);
         return {
             at.first_tile + tile * at.tile_bytes,
             static_cast<std::size_t>(((row & mask) << at.tile_shift) + (column & mask))};
     }
 
     const std::uint8_t*
-    stored_error(int level, NodePart part, int column, int row, Room room) const {
+    stored_error(int level, NodePart part, int column, int row, MorphMargin morph_margin) const {
         const GroundLayout::Level& at = layout_.level(level);
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(memory_.data());
         if (row == at.rows) {
-            return bytes + at.north_errors[static_cast<std::size_t>(room)] + column;
+            return bytes + at.north_errors[static_cast<std::size_t>(morph_margin)] + column;
         }
         if (column == at.columns) {
-            return bytes + at.east_errors[static_cast<std::size_t>(room)] + row;
+            return bytes + at.east_errors[static_cast<std::size_t>(morph_margin)] + row;
         }
-        const TilePlace place = place_of(level, column, row);
+        const NodeOffset place = place_of(level, column, row);
         return bytes + place.tile +
-               at.errors[static_cast<std::size_t>(room)][static_cast<std::size_t>(part)] +
+               at.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)] +
                place.node;
     }
 
     GroundShape shape_;
-    GroundFacts facts_;
+    GroundMetadata metadata_;
     GroundLayout layout_;
     ErrorCodes codes_;
     std::span<const std::byte> memory_;
     std::shared_ptr<const void> owner_;
-    std::shared_ptr<const TileGuard> guard_;
+    std::shared_ptr<const TileValidator> validator_;
     double base_m_;
     double unit_m_;
 };

@@ -17,7 +17,7 @@
 #include "visuals/terrain/horizon_error.h"
 
 #include "sim/base/units.h"
-#include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/tile_builder.h"
 
 #include <glm/geometric.hpp>
@@ -46,7 +46,7 @@ constexpr double highest_band_rad = rad_from_deg(15.0);
 constexpr double wide_view_rad = rad_from_deg(20.0);
 constexpr double min_widening = 0.1;
 /// How far vertices may move in a turn, as a share of how far that moves the picture.
-constexpr double vertex_share_of_turn = 0.056;
+constexpr double max_vertex_motion_share = 0.056;
 
 /// The angle from the view's middle to the frustum's border in a direction square to `ahead`.
 double angle_to_border(const MeshView& view, const glm::dvec3& towards) {
@@ -125,7 +125,7 @@ double min_reach_m(const MeshView& view, const glm::dvec2& half_m) {
 
 } // namespace
 
-std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& band) {
+std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band) {
     const glm::dvec3 level_axis = glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0));
     const double level = glm::length(level_axis);
     if (level < 1e-6) {
@@ -157,31 +157,31 @@ std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& b
 HorizonError::HorizonError(const GroundTiles& ground)
     : rule_(ground)
     , survey_(rule_)
-    , share_of_turn_(
-          vertex_share_of_turn /
-          static_cast<double>(far_move_on(ground.facts().highest_m - ground.facts().lowest_m))) {}
+    , motion_share_(
+          max_vertex_motion_share /
+          static_cast<double>(far_morph_rate_on(ground.metadata().highest_m - ground.metadata().lowest_m))) {}
 
-ErrorTarget HorizonError::eased(const MeshView& view, const ErrorTarget& target) {
+ErrorTarget HorizonError::raise_to_horizon_error(const MeshView& view, const ErrorTarget& target) {
     if (!target.geomorphs || target.max_triangles >= any_triangles) {
         return target;
     }
-    const auto there = turned_to(view, far_ground(view));
+    const auto there = turned_to_band(view, far_ground(view));
     if (!there) {
         return target;
     }
-    rule_.look_from(there->view);
+    rule_.set_view(there->view);
     const double there_px = rule_.error_px_of(survey_.limit_for(target));
     const double moved_px = view.focal_px * there->turned_rad;
-    ErrorTarget eased = target;
-    eased.error_px = std::max(target.error_px, there_px - share_of_turn_ * moved_px);
-    return eased;
+    ErrorTarget raise_to_horizon_error = target;
+    raise_to_horizon_error.error_px = std::max(target.error_px, there_px - motion_share_ * moved_px);
+    return raise_to_horizon_error;
 }
 
 /// Between which elevations ground at the map's end may be seen.
 ElevationBand HorizonError::far_ground(const MeshView& view) const {
     const GroundTiles& ground = rule_.ground();
     const double away_m = std::max(min_reach_m(view, ground.half_extent_m()), ground.spacing_m());
-    const double lowered_m = earth_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
+    const double lowered_m = curvature_drop_m(away_m * away_m, view.earth_radius_m) + view.eye_m.z;
     const auto elevation_rad = [&](float height_m) {
         return std::clamp(
             std::atan2(static_cast<double>(height_m) - lowered_m, away_m),
@@ -189,8 +189,8 @@ ElevationBand HorizonError::far_ground(const MeshView& view) const {
             highest_band_rad);
     };
     // A degree more, because the picture's corners may show ends that are nearer.
-    const double low_rad = std::min(elevation_rad(ground.facts().lowest_m), 0.0) - border_rad;
-    return {low_rad, std::max(elevation_rad(ground.facts().highest_m), low_rad + border_rad)};
+    const double low_rad = std::min(elevation_rad(ground.metadata().lowest_m), 0.0) - border_rad;
+    return {low_rad, std::max(elevation_rad(ground.metadata().highest_m), low_rad + border_rad)};
 }
 
 } // namespace octant::visuals::terrain

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/terrain/error_rule.h"
-#include "visuals/terrain/error_survey.h"
+#include "visuals/terrain/bisection_criterion.h"
+#include "visuals/terrain/bisection_selection.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
 
@@ -25,7 +25,7 @@ struct TurnedView {
 /// band on the way of the turn. Looking above the band, what lies 4 degrees below it belongs to it.
 /// A view whose border is in the band is only widened. Nothing where the band is in the picture
 /// already, and where the view has no direction or frustum or looks straight up or down.
-std::optional<TurnedView> turned_to(const MeshView& view, const ElevationBand& band);
+std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
 
 /// Finds the error below which a mesh within a budget is not to be refined, so that vertices do not
 /// jump when the view turns to the horizon (horizon_error.cpp).
@@ -41,14 +41,14 @@ public:
 
     /// The target with its error raised to that one, whatever was asked before; unchanged without
     /// geomorphs or a budget, and where the horizon is in the picture.
-    ErrorTarget eased(const MeshView& view, const ErrorTarget& target);
+    ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
 
 private:
     ElevationBand far_ground(const MeshView& view) const;
 
-    ErrorRule rule_;
-    ErrorSurvey survey_;
-    double share_of_turn_; ///< How much the error may change in a turn, in pixels that it moves.
+    BisectionCriterion rule_;
+    BisectionSelection survey_;
+    double motion_share_; ///< How much the error may change in a turn, in pixels that it moves.
 };
 
 } // namespace octant::visuals::terrain

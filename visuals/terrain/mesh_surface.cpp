@@ -2,7 +2,7 @@
 // triangle is entered at the level of its own size.
 #include "visuals/terrain/mesh_surface.h"
 
-#include "sim/base/flat_area.h"
+#include "sim/base/geometry2d.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ glm::ivec2 cell_of(const glm::dvec2& place_m, double cell_m) {
 
 } // namespace
 
-void MeshSurface::take(const GroundMesh& mesh, const glm::dvec3& eye_m) {
+void MeshSurface::set_mesh(const GroundMesh& mesh, const glm::dvec3& eye_m) {
     eye_m_ = eye_m;
     indices_.assign(mesh.indices.begin(), mesh.indices.end());
     vertices_m_.clear();
@@ -73,9 +73,9 @@ void MeshSurface::add(std::uint32_t triangle) {
     const glm::ivec2 last = cell_of(most + margin_m, cell_m);
     for (int row = first.y; row <= last.y; ++row) {
         for (int column = first.x; column <= last.x; ++column) {
-            const auto level_number = static_cast<std::uint32_t>(level);
-            std::uint32_t& slot = slots_[slot_of(level_number, column, row)];
-            entries_.push_back({level_number, column, row, triangle, slot});
+            const auto meadow_code = static_cast<std::uint32_t>(level);
+            std::uint32_t& slot = slots_[slot_of(meadow_code, column, row)];
+            entries_.push_back({meadow_code, column, row, triangle, slot});
             slot = static_cast<std::uint32_t>(entries_.size() - 1);
         }
     }
@@ -86,9 +86,9 @@ bool MeshSurface::covers(std::uint32_t triangle, const glm::dvec2& place_m) cons
     const glm::dvec2 p(a);
     const glm::dvec2 q(b);
     const glm::dvec2 r(c);
-    const double least = -edge_share * octant::twice_area(p, q, r);
-    return octant::twice_area(p, q, place_m) >= least &&
-           octant::twice_area(q, r, place_m) >= least && octant::twice_area(r, p, place_m) >= least;
+    const double least = -edge_share * octant::signed_area2(p, q, r);
+    return octant::signed_area2(p, q, place_m) >= least &&
+           octant::signed_area2(q, r, place_m) >= least && octant::signed_area2(r, p, place_m) >= least;
 }
 
 std::optional<std::uint32_t> MeshSurface::triangle_at(double x_m, double y_m) const {
@@ -116,12 +116,12 @@ std::optional<double> MeshSurface::height_at(double x_m, double y_m) const {
     }
     const auto [a, b, c] = corners_of(*triangle);
     const glm::dvec2 place_m = glm::dvec2(x_m, y_m) - glm::dvec2(eye_m_);
-    const double whole = octant::twice_area(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
+    const double whole = octant::signed_area2(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
     if (whole == 0.0) {
         return eye_m_.z + a.z;
     }
-    const double of_b = octant::twice_area(glm::dvec2(a), place_m, glm::dvec2(c)) / whole;
-    const double of_c = octant::twice_area(glm::dvec2(a), glm::dvec2(b), place_m) / whole;
+    const double of_b = octant::signed_area2(glm::dvec2(a), place_m, glm::dvec2(c)) / whole;
+    const double of_c = octant::signed_area2(glm::dvec2(a), glm::dvec2(b), place_m) / whole;
     return eye_m_.z + a.z + of_b * (b.z - a.z) + of_c * (c.z - a.z);
 }
 

@@ -13,11 +13,11 @@
 namespace octant::visuals::terrain {
 
 /// The surface that a mesh draws, to be asked by position in plan. Its memory is reused from mesh
-/// to mesh; the mesh itself is not needed after take().
+/// to mesh; the mesh itself is not needed after set_mesh().
 class MeshSurface {
 public:
     /// Takes a mesh whose positions are relative to `eye_m`.
-    void take(const GroundMesh& mesh, const glm::dvec3& eye_m);
+    void set_mesh(const GroundMesh& mesh, const glm::dvec3& eye_m);
 
     /// The number of the triangle above or below a position, one of them at an edge; nothing where
     /// there is no mesh.

@@ -20,7 +20,7 @@ constexpr unsigned wedges = 8;
 /// When a part is painted as seen from wedge `eye`: first the opposite wedge, then its two chains
 /// one after the other, then the wedge with the eye. A part over two wedges comes with the first of
 /// them, but last if one of them is the eye's.
-constexpr unsigned turn_of(unsigned part, unsigned eye) {
+constexpr unsigned paint_rank(unsigned part, unsigned eye) {
     constexpr std::array<unsigned, wedges> turn_from_opposite = {0, 1, 2, 3, 7, 6, 5, 4};
     unsigned first = wedges;
     for (unsigned wedge = part_sides[part].from; wedge != part_sides[part].to;
@@ -35,7 +35,7 @@ constexpr unsigned turn_of(unsigned part, unsigned eye) {
 }
 
 /// An order with its sets of places filled in.
-constexpr PartOrder with_places(const std::array<std::uint8_t, fan_parts>& parts) {
+constexpr PartOrder with_position_sets(const std::array<std::uint8_t, fan_parts>& parts) {
     constexpr std::array<unsigned, wedges> quadrant_of_wedge = {0, 1, 1, 3, 3, 2, 2, 0};
     PartOrder order;
     order.part = parts;
@@ -61,12 +61,12 @@ constexpr PartOrder with_places(const std::array<std::uint8_t, fan_parts>& parts
 }
 
 /// The order for an eye in a given wedge.
-constexpr PartOrder order_seen_from(unsigned eye, PaintOrder order) {
+constexpr PartOrder order_for_wedge(unsigned eye, PaintOrder order) {
     std::array<std::uint8_t, fan_parts> parts{};
     std::size_t count = 0;
     for (unsigned turn = 0; turn < wedges; ++turn) {
         for (unsigned part = 0; part < fan_parts; ++part) {
-            if (turn_of(part, eye) == turn) {
+            if (paint_rank(part, eye) == turn) {
                 parts[count++] = static_cast<std::uint8_t>(part);
             }
         }
@@ -74,13 +74,13 @@ constexpr PartOrder order_seen_from(unsigned eye, PaintOrder order) {
     if (order == PaintOrder::FrontToBack) {
         std::reverse(parts.begin(), parts.end());
     }
-    return with_places(parts);
+    return with_position_sets(parts);
 }
 
-constexpr std::array<PartOrder, wedges> orders_seen_from_all(PaintOrder order) {
+constexpr std::array<PartOrder, wedges> orders_for_all_wedges(PaintOrder order) {
     std::array<PartOrder, wedges> orders;
     for (unsigned eye = 0; eye < wedges; ++eye) {
-        orders[eye] = order_seen_from(eye, order);
+        orders[eye] = order_for_wedge(eye, order);
     }
     return orders;
 }
@@ -91,13 +91,13 @@ constexpr PartOrder parts_by_number() {
     for (std::size_t part = 0; part < fan_parts; ++part) {
         parts[part] = static_cast<std::uint8_t>(part);
     }
-    return with_places(parts);
+    return with_position_sets(parts);
 }
 
 constexpr std::array<PartOrder, wedges> back_to_front =
-    orders_seen_from_all(PaintOrder::BackToFront);
+    orders_for_all_wedges(PaintOrder::BackToFront);
 constexpr std::array<PartOrder, wedges> front_to_back =
-    orders_seen_from_all(PaintOrder::FrontToBack);
+    orders_for_all_wedges(PaintOrder::FrontToBack);
 constexpr PartOrder by_number = parts_by_number();
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -117,7 +117,7 @@ struct CutPart {
 
 /// The wedge from `from` counter-clockwise to `to`, which are less than half a turn apart.
 CutPart
-cut_part(unsigned part, const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& eye) {
+classify_cut_part(unsigned part, const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& eye) {
     CutPart made{CutPart::Eye, from + to, static_cast<std::uint8_t>(part)};
     const double after_from = cross(from, eye);
     const double before_to = cross(eye, to);
@@ -149,19 +149,19 @@ unsigned parts_of(unsigned middles, unsigned covered, unsigned children) {
     return by_number.triangles(middles, covered) | by_number.children[children];
 }
 
-PartRow parts_of_cut_fan(
+PartList parts_of_cut_fan(
     const FanSamples& samples, unsigned parts, const glm::dvec2& eye, PaintOrder order) {
-    const Sample centre = samples.at(1, 1);
-    const auto direction_to = [&](const Sample& sample) {
+    const GridSample centre = samples.at(1, 1);
+    const auto direction_to = [&](const GridSample& sample) {
         return glm::dvec2(sample.column - centre.column, sample.row - centre.row);
     };
     std::array<CutPart, fan_parts> row;
     unsigned count = 0;
     for (unsigned part = 0; part < fan_parts; ++part) {
-        const Sample from = samples.ring(part_sides[part].from);
-        const Sample to = samples.ring(part_sides[part].to);
+        const GridSample from = samples.ring(part_sides[part].from);
+        const GridSample to = samples.ring(part_sides[part].to);
         if ((parts >> part & 1U) != 0 && has_area(centre, from, to)) {
-            row[count++] = cut_part(part, direction_to(from), direction_to(to), eye);
+            row[count++] = classify_cut_part(part, direction_to(from), direction_to(to), eye);
         }
     }
     // Insertion sort, because there are at most eight parts.
@@ -170,7 +170,7 @@ PartRow parts_of_cut_fan(
             std::swap(row[j], row[j - 1]);
         }
     }
-    PartRow sorted;
+    PartList sorted;
     sorted.count = count;
     for (unsigned k = 0; k < count; ++k) {
         sorted.part[order == PaintOrder::BackToFront ? k : count - 1 - k] = row[k].part;

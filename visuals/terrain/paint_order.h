@@ -22,12 +22,12 @@ inline constexpr unsigned first_child_part = 12;
 inline constexpr std::size_t fan_parts = 16;
 
 /// The samples of fan_ring between which a part lies, counter-clockwise.
-struct PartSides {
+struct PartBounds {
     std::uint8_t from;
     std::uint8_t to;
 };
 
-inline constexpr std::array<PartSides, fan_parts> part_sides = {
+inline constexpr std::array<PartBounds, fan_parts> part_sides = {
     {{0, 1},
      {1, 2},
      {2, 3},
@@ -63,7 +63,7 @@ struct PartOrder {
 
 /// The wedge between the samples k and k + 1 of fan_ring that contains a point, seen from the
 /// centre of a fan that is not cut; either one for a point on the line between two wedges.
-inline unsigned wedge_towards(double east, double north) {
+inline unsigned wedge_containing(double east, double north) {
     constexpr std::array<std::uint8_t, 8> wedges = {0, 1, 5, 4, 7, 2, 6, 3};
     const unsigned which = (east >= 0.0 ? 1U : 0U) | (north >= 0.0 ? 2U : 0U) |
                            (std::abs(east) >= std::abs(north) ? 4U : 0U);
@@ -77,14 +77,14 @@ const std::array<PartOrder, 8>& painting_orders(PaintOrder order);
 unsigned parts_of(unsigned middles, unsigned covered, unsigned children);
 
 /// Some parts in painting order.
-struct PartRow {
+struct PartList {
     std::array<std::uint8_t, fan_parts> part{};
     unsigned count = 0;
 };
 
 /// Those of a set of parts that have an area although the field's border cuts the fan, in painting
 /// order. `eye` is in samples east and north of the fan's centre.
-PartRow parts_of_cut_fan(
+PartList parts_of_cut_fan(
     const FanSamples& samples, unsigned parts, const glm::dvec2& eye, PaintOrder order);
 
 } // namespace octant::visuals::terrain

@@ -7,8 +7,8 @@
 #include "visuals/terrain/projected_error.h"
 
 #include "sim/base/nearest_rank.h"
-#include "sim/base/worker_team.h"
-#include "visuals/terrain/earth_drop.h"
+#include "sim/base/parallel_for.h"
+#include "visuals/terrain/curvature_drop.h"
 
 #include <glm/common.hpp>
 
@@ -21,13 +21,13 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr int rows_of_band = 64;
+constexpr int rows_per_band = 64;
 
 /// Vertices are snapped to this fraction of a sample, which floats far from the eye still resolve.
-constexpr double grid_parts = 256.0;
+constexpr double snap_steps_per_sample = 256.0;
 
 /// Wider than rounding, and far narrower than that fraction.
-constexpr double border = 1e-7;
+constexpr double row_tolerance = 1e-7;
 
 /// The slopes of a triangle, metres for a sample east and north.
 struct Slope {
@@ -36,23 +36,23 @@ struct Slope {
 };
 
 Slope slope_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (twice_area == 0.0) {
+    const double signed_area2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (signed_area2 == 0.0) {
         return {};
     }
     return {
-        ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / twice_area,
-        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / twice_area};
+        ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / signed_area2,
+        ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / signed_area2};
 }
 
 /// The part of a row of samples that lies within a triangle in plan.
-struct RowPart {
+struct RowInterval {
     double first;
     double last;
 };
 
-RowPart part_of_row(const std::array<glm::dvec3, 3>& corner, double row) {
-    RowPart part{1e30, -1e30};
+RowInterval row_interval(const std::array<glm::dvec3, 3>& corner, double row) {
+    RowInterval part{1e30, -1e30};
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3& a = corner[k];
         const glm::dvec3& b = corner[(k + 1) % 3];
@@ -67,7 +67,7 @@ RowPart part_of_row(const std::array<glm::dvec3, 3>& corner, double row) {
 }
 
 /// Whether a triangle in view axes is not wholly outside one plane of the frustum.
-bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PictureView& view) {
+bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PerspectiveView& view) {
     const double wide = view.half_width_px / view.focal_px;
     const double tall = view.half_height_px / view.focal_px;
     const auto all = [&](const auto& outside) {
@@ -80,7 +80,7 @@ bool touches_frustum(const std::array<glm::dvec3, 3>& seen, const PictureView& v
            !all([&](const glm::dvec3& p) { return -p.y > tall * p.z; });
 }
 
-int triangles_in_view(const GroundMesh& mesh, const PictureView& view) {
+int triangles_in_view(const GroundMesh& mesh, const PerspectiveView& view) {
     int count = 0;
     for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
         std::array<glm::dvec3, 3> seen{};
@@ -124,8 +124,8 @@ void summarise(std::vector<float>& errors_px, ProjectedError& error) {
 } // namespace
 
 /// What is the same for all samples of a picture.
-struct ErrorMeter::Picture {
-    const PictureView& view;
+struct ProjectedErrorMeter::Picture {
+    const PerspectiveView& view;
     double earth_radius_m;
     glm::dvec2 first_m; ///< The first sample's position relative to the eye.
 
@@ -137,32 +137,32 @@ struct ErrorMeter::Picture {
             x,
             y,
             ground.height_m(column, row) - view.eye_m.z -
-                earth_drop_m(x * x + y * y, earth_radius_m)};
+                curvature_drop_m(x * x + y * y, earth_radius_m)};
     }
 };
 
-ErrorMeter::ErrorMeter(GroundSamples ground, int threads)
+ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads)
     : ground_(ground)
     , threads_(threads)
-    , words_of_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
+    , words_per_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
     assert(threads >= 1);
-    for (int row = 0; row < ground.rows(); row += rows_of_band) {
+    for (int row = 0; row < ground.rows(); row += rows_per_band) {
         Band& band = bands_.emplace_back();
         band.first_row = row;
-        band.end_row = std::min(row + rows_of_band, ground.rows());
+        band.end_row = std::min(row + rows_per_band, ground.rows());
     }
 }
 
 ProjectedError
-ErrorMeter::measure(const GroundMesh& mesh, const PictureView& view, double earth_radius_m) {
+ProjectedErrorMeter::measure(const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m) {
     const Picture picture{view, earth_radius_m, -ground_.half_extent_m() - glm::dvec2(view.eye_m)};
-    corners_.clear();
+    grid_vertices_.clear();
     for (const models::ColourVertex& vertex : mesh.vertices) {
         const glm::dvec3 from_eye_m(vertex.position_m);
         const glm::dvec2 grid = (glm::dvec2(from_eye_m) - picture.first_m) / ground_.spacing_m();
-        corners_.emplace_back(glm::round(grid * grid_parts) / grid_parts, from_eye_m.z);
+        grid_vertices_.emplace_back(glm::round(grid * snap_steps_per_sample) / snap_steps_per_sample, from_eye_m.z);
     }
-    share_out(bands_.size(), threads_, [&](std::size_t band, std::size_t /*worker*/) {
+    parallel_for(bands_.size(), threads_, [&](std::size_t band, std::size_t /*worker*/) {
         measure_band(bands_[band], mesh.indices, picture);
     });
     ProjectedError error;
@@ -176,14 +176,14 @@ ErrorMeter::measure(const GroundMesh& mesh, const PictureView& view, double eart
     return error;
 }
 
-void ErrorMeter::measure_band(
+void ProjectedErrorMeter::measure_band(
     Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
-    band.met.assign(words_of_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
+    band.covered.assign(words_per_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
     band.errors_px.clear();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
-        const glm::dvec3& a = corners_[indices[k]];
-        const glm::dvec3& b = corners_[indices[k + 1]];
-        const glm::dvec3& c = corners_[indices[k + 2]];
+        const glm::dvec3& a = grid_vertices_[indices[k]];
+        const glm::dvec3& b = grid_vertices_[indices[k + 1]];
+        const glm::dvec3& c = grid_vertices_[indices[k + 2]];
         if (std::max({a.y, b.y, c.y}) >= band.first_row &&
             std::min({a.y, b.y, c.y}) <= band.end_row - 1) {
             measure_triangle(band, {a, b, c}, picture);
@@ -192,7 +192,7 @@ void ErrorMeter::measure_band(
     count_uncovered(band, picture);
 }
 
-void ErrorMeter::measure_triangle(
+void ProjectedErrorMeter::measure_triangle(
     Band& band, const Corners& corners, const Picture& picture) const {
     const auto& [a, b, c] = corners;
     const Slope slope = slope_of(a, b, c);
@@ -200,21 +200,21 @@ void ErrorMeter::measure_triangle(
         std::max(band.first_row, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
     const int last_row =
         std::min(band.end_row - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
-    const PictureView& view = picture.view;
+    const PerspectiveView& view = picture.view;
     for (int row = first_row; row <= last_row; ++row) {
-        const RowPart part = part_of_row(corners, row);
-        const int first = std::max(0, static_cast<int>(std::ceil(part.first - border)));
+        const RowInterval part = row_interval(corners, row);
+        const int first = std::max(0, static_cast<int>(std::ceil(part.first - row_tolerance)));
         const int last =
-            std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + border)));
-        std::uint64_t* const met =
-            band.met.data() + static_cast<std::size_t>(row - band.first_row) * words_of_row_;
+            std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + row_tolerance)));
+        std::uint64_t* const covered =
+            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
         for (int column = first; column <= last; ++column) {
             const auto at = static_cast<std::size_t>(column);
             const std::uint64_t bit = std::uint64_t{1} << (at % 64);
-            if ((met[at / 64] & bit) != 0) {
+            if ((covered[at / 64] & bit) != 0) {
                 continue;
             }
-            met[at / 64] |= bit;
+            covered[at / 64] |= bit;
             const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
             const glm::dvec3 seen = view.seen_m(sample_m);
             if (!view.shows(seen)) {
@@ -229,14 +229,14 @@ void ErrorMeter::measure_triangle(
     }
 }
 
-void ErrorMeter::count_uncovered(Band& band, const Picture& picture) const {
+void ProjectedErrorMeter::count_uncovered(Band& band, const Picture& picture) const {
     band.uncovered = 0;
     for (int row = band.first_row; row < band.end_row; ++row) {
-        const std::uint64_t* const met =
-            band.met.data() + static_cast<std::size_t>(row - band.first_row) * words_of_row_;
+        const std::uint64_t* const covered =
+            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
         for (int column = 0; column < ground_.columns(); ++column) {
             const auto at = static_cast<std::size_t>(column);
-            if ((met[at / 64] >> (at % 64) & 1U) == 0) {
+            if ((covered[at / 64] >> (at % 64) & 1U) == 0) {
                 const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
                 band.uncovered += picture.view.shows(picture.view.seen_m(sample_m)) ? 1 : 0;
             }

@@ -2,7 +2,7 @@
 
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_samples.h"
-#include "visuals/terrain/picture_view.h"
+#include "visuals/terrain/perspective_view.h"
 
 #include <array>
 #include <cstddef>
@@ -28,10 +28,10 @@ struct ProjectedError {
 };
 
 /// Measures meshes against a ground. Its memory is reused from mesh to mesh.
-class ErrorMeter {
+class ProjectedErrorMeter {
 public:
     /// `threads` is at least 1; the figures do not depend on it.
-    explicit ErrorMeter(GroundSamples ground, int threads = 2);
+    explicit ProjectedErrorMeter(GroundSamples ground, int threads = 2);
 
     /// Every sample of the ground inside the frustum (the near plane included) counts once: its
     /// error is the distance on the screen between it and the mesh's surface at the same x, y. A
@@ -39,7 +39,7 @@ public:
     /// relative to `view.eye_m` and lowered by d^2 / (2 `earth_radius_m`), and so are the samples;
     /// 0 = flat earth.
     ProjectedError
-    measure(const GroundMesh& mesh, const PictureView& view, double earth_radius_m = 0.0);
+    measure(const GroundMesh& mesh, const PerspectiveView& view, double earth_radius_m = 0.0);
 
 private:
     struct Picture;
@@ -48,7 +48,7 @@ private:
     struct Band {
         int first_row = 0;
         int end_row = 0;
-        std::vector<std::uint64_t> met; ///< One bit for each sample, rows of whole words.
+        std::vector<std::uint64_t> covered; ///< One bit for each sample, rows of whole words.
         std::vector<float> errors_px;
         std::int64_t uncovered = 0;
     };
@@ -61,11 +61,11 @@ private:
 
     GroundSamples ground_;
     int threads_;
-    std::size_t words_of_row_;
+    std::size_t words_per_row_;
     std::vector<Band> bands_;
     std::vector<float> errors_px_;
     /// The vertices of the mesh: samples east and north, and metres above the eye.
-    std::vector<glm::dvec3> corners_;
+    std::vector<glm::dvec3> grid_vertices_;
 };
 
 } // namespace octant::visuals::terrain

@@ -138,9 +138,9 @@ Quadtree::Quadtree(const models::heights::HeightField& field, const QuadtreeOpti
     for (int level = 0; level < levels(); ++level) {
         measure(level);
     }
-    bound_last_level();
+    measure_last_bounds();
     for (int level = levels() - 2; level >= 0; --level) {
-        take_from_children(level);
+        propagate_from_children(level);
     }
 }
 
@@ -155,7 +155,7 @@ void Quadtree::measure(int level) {
             const bool cut = cut_north || (column + 1) * edge >= field_->columns();
             const NineSamples nine = nine_samples(*field_, column * edge, row * edge, edge);
             const float difference_m =
-                options_.roughness == Roughness::Literal
+                options_.roughness == Roughness::Printed
                     ? corner_range_m(nine)
                     : (cut ? cut_middle_deviation_m(nine) : middle_deviation_m(nine));
             node->roughness = packed_roughness(difference_m * per_edge);
@@ -164,7 +164,7 @@ void Quadtree::measure(int level) {
 }
 
 /// Finds the height bounds of the last level's nodes.
-void Quadtree::bound_last_level() {
+void Quadtree::measure_last_bounds() {
     const int level = levels() - 1;
     const double per_step = step_m_ > 0.0 ? 1.0 / step_m_ : 0.0;
     const auto steps = [&](float height_m) {
@@ -187,7 +187,7 @@ void Quadtree::bound_last_level() {
 }
 
 /// Finds a node's height bounds from those of its existing children.
-void Quadtree::bound_by_children(int level, int column, int row) {
+void Quadtree::merge_child_bounds(int level, int column, int row) {
     QuadtreeNode& node = nodes_[index_of(level, column, row)];
     node.lowest = 255;
     node.highest = 0;
@@ -203,9 +203,9 @@ void Quadtree::bound_by_children(int level, int column, int row) {
 
 /// The largest d2 of those nodes one level down whose splitting needs this node: its own four and,
 /// with crack-free propagation, the eight beyond its edges.
-float Quadtree::roughest_child(int level, int column, int row) const {
+float Quadtree::max_child_roughness(int level, int column, int row) const {
     const int below = level + 1;
-    const int reach = options_.propagation == Propagation::CrackFree ? 1 : 0;
+    const int reach = options_.propagation == RoughnessPropagation::CrackFree ? 1 : 0;
     std::uint16_t roughest = 0;
     for (int j = -reach; j < 2 + reach; ++j) {
         const int child_row = 2 * row + j;
@@ -226,14 +226,14 @@ float Quadtree::roughest_child(int level, int column, int row) const {
 }
 
 /// Takes the height bounds and the propagated roughness of a level from the one below.
-void Quadtree::take_from_children(int level) {
-    const double share = options_.propagation == Propagation::CrackFree
+void Quadtree::propagate_from_children(int level) {
+    const double share = options_.propagation == RoughnessPropagation::CrackFree
                              ? 0.5 + std::sqrt(2.5) / (2.0 * options_.min_resolution)
                              : 1.0;
     for (int row = 0; row < rows(level); ++row) {
         for (int column = 0; column < columns(level); ++column) {
-            bound_by_children(level, column, row);
-            const float propagated = static_cast<float>(share) * roughest_child(level, column, row);
+            merge_child_bounds(level, column, row);
+            const float propagated = static_cast<float>(share) * max_child_roughness(level, column, row);
             QuadtreeNode& node = nodes_[index_of(level, column, row)];
             node.roughness = std::max(node.roughness, packed_roughness(propagated));
         }

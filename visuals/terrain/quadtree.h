@@ -80,10 +80,10 @@ private:
     };
 
     void measure(int level);
-    void bound_last_level();
-    void bound_by_children(int level, int column, int row);
-    void take_from_children(int level);
-    float roughest_child(int level, int column, int row) const;
+    void measure_last_bounds();
+    void merge_child_bounds(int level, int column, int row);
+    void propagate_from_children(int level);
+    float max_child_roughness(int level, int column, int row) const;
 
     const models::heights::HeightField* field_;
     QuadtreeOptions options_;

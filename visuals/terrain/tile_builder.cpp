@@ -21,27 +21,27 @@ std::size_t index_of(int column, int row, int columns) {
 TileBuilder::TileBuilder(
     const GroundLayout& layout,
     const StoredHeights& heights,
-    const ErrorCoder& coder,
+    const ErrorEncoder& coder,
     std::span<std::byte> memory)
     : layout_(layout)
     , heights_(heights)
     , coder_(coder)
     , memory_(memory)
-    , unseen_((most + 2) * (most + 2))
-    , own_codes_(most + 1)
-    , below_codes_(most + 1)
-    , errors_(most + 1) {
+    , lattice_errors_((tile_edge_nodes + 2) * (tile_edge_nodes + 2))
+    , unsaturated_codes_(tile_edge_nodes + 1)
+    , dependent_codes_(tile_edge_nodes + 1)
+    , errors_(tile_edge_nodes + 1) {
     for (Codes& codes : codes_) {
         codes.children.resize(children_edge * children_edge);
-        codes.souths.resize((most + 1) * most);
-        codes.wests.resize((most + 1) * most);
-        codes.centres.resize(most * most);
+        codes.souths.resize((tile_edge_nodes + 1) * tile_edge_nodes);
+        codes.wests.resize((tile_edge_nodes + 1) * tile_edge_nodes);
+        codes.centres.resize(tile_edge_nodes * tile_edge_nodes);
     }
 }
 
-std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
+std::span<const std::byte> TileBuilder::build(const TileIndex& place) {
     level_ = place.level;
-    Extent& e = extent_;
+    TileExtent& e = extent_;
     e.at = layout_.level(place.level);
     e.first_column = place.column << e.at.tile_shift;
     e.first_row = place.row << e.at.tile_shift;
@@ -50,25 +50,25 @@ std::span<const std::byte> TileBuilder::build(const TilePlace& place) {
     e.half = e.at.edge / 2;
     e.stride = std::max(1, e.half / widest_half);
     choose_lattice();
-    fetch_children(Room::Full);
-    fetch_children(Room::None);
-    fetch_unseen();
+    fetch_children(MorphMargin::Full);
+    fetch_children(MorphMargin::None);
+    fetch_lattice_errors();
     measure_relief();
     measure_souths();
     measure_wests();
     measure_centres();
     tile_.assign(e.at.tile_bytes, std::byte{0});
-    put_heights();
+    write_heights();
     // Where both rooms share a place, errors with full room are written last.
-    put_errors(Room::None);
-    put_errors(Room::Full);
-    put_strips();
+    write_errors(MorphMargin::None);
+    write_errors(MorphMargin::Full);
+    write_strips();
     return tile_;
 }
 
 /// Sets the lattice of samples to look at: the field itself, or a copy of every stride-th sample.
 void TileBuilder::choose_lattice() {
-    const Extent& e = extent_;
+    const TileExtent& e = extent_;
     if (e.stride == 1) {
         lattice_ = heights_.numbers.data();
         pitch_ = heights_.columns;
@@ -82,13 +82,13 @@ void TileBuilder::choose_lattice() {
         std::min(heights_.columns - 1, (e.first_column + e.columns) * e.at.edge + e.half);
     const int north = std::min(heights_.rows - 1, (e.first_row + e.rows) * e.at.edge + e.half);
     pitch_ = (east - lattice_column_) / e.stride + 1;
-    copied_.clear();
+    lattice_copy_.clear();
     for (int row = lattice_row_; row <= north; row += e.stride) {
         for (int column = lattice_column_; column <= east; column += e.stride) {
-            copied_.push_back(heights_.number(column, row));
+            lattice_copy_.push_back(heights_.number(column, row));
         }
     }
-    lattice_ = copied_.data();
+    lattice_ = lattice_copy_.data();
 }
 
 /// A row of diamonds on the lattice, given by the sample of the first middle.
@@ -99,13 +99,13 @@ DiamondRow TileBuilder::lattice_row(int column, int row, int count) const {
 }
 
 /// Copies the codes of the centres one level finer from finished tiles.
-void TileBuilder::fetch_children(Room room) {
+void TileBuilder::fetch_children(MorphMargin morph_margin) {
     if (level_ + 1 == layout_.levels()) {
         return;
     }
     const GroundLayout::Level& finer = layout_.level(level_ + 1);
     const int tile_nodes_edge = 1 << finer.tile_shift;
-    std::vector<std::uint8_t>& children = codes_with(room).children;
+    std::vector<std::uint8_t>& children = codes_with(morph_margin).children;
     std::fill(children.begin(), children.end(), std::uint8_t{0});
     const int west = std::max(0, 2 * extent_.first_column - 1);
     const int east = std::min(finer.columns, 2 * (extent_.first_column + extent_.columns) + 1);
@@ -121,7 +121,7 @@ void TileBuilder::fetch_children(Room room) {
                 index_of(in_tile, row & (tile_nodes_edge - 1), tile_nodes_edge);
             const std::byte* const codes = memory_.data() + finer.first_tile +
                                            tile * finer.tile_bytes +
-                                           finer.errors[static_cast<std::size_t>(room)][0];
+                                           finer.errors[static_cast<std::size_t>(morph_margin)][0];
             std::memcpy(
                 &children[index_of(
                     column - 2 * extent_.first_column + 1,
@@ -140,8 +140,8 @@ std::int16_t TileBuilder::height(int column, int row) const {
     return heights_.stored(heights_.padded_number(column * extent_.half, row * extent_.half));
 }
 
-void TileBuilder::put_heights() {
-    const Extent& e = extent_;
+void TileBuilder::write_heights() {
+    const TileExtent& e = extent_;
     auto* const tile = reinterpret_cast<std::int16_t*>(tile_.data());
     const auto part = [&](std::size_t which, int from_west, int from_south) {
         for (int row = 0; row < e.rows; ++row) {
@@ -166,11 +166,11 @@ void TileBuilder::put_heights() {
     part(static_cast<std::size_t>(2), 0, 1);
 }
 
-void TileBuilder::put_errors(Room room) {
-    const Extent& e = extent_;
-    const Codes& own = codes_with(room);
+void TileBuilder::write_errors(MorphMargin morph_margin) {
+    const TileExtent& e = extent_;
+    const Codes& own = codes_with(morph_margin);
     const auto part = [&](std::size_t which, const std::vector<std::uint8_t>& codes, int pitch) {
-        std::byte* const out = tile_.data() + e.at.errors[static_cast<std::size_t>(room)][which];
+        std::byte* const out = tile_.data() + e.at.errors[static_cast<std::size_t>(morph_margin)][which];
         for (int row = 0; row < e.rows; ++row) {
             std::memcpy(
                 out + index_of(0, row, 1 << e.at.tile_shift),
@@ -184,17 +184,17 @@ void TileBuilder::put_errors(Room room) {
 }
 
 /// Writes the strips beyond the last row and column of nodes, where this tile is beside them.
-void TileBuilder::put_strips() {
-    const Extent& e = extent_;
+void TileBuilder::write_strips() {
+    const TileExtent& e = extent_;
     if (e.first_row + e.rows == e.at.rows) {
         auto* const out = reinterpret_cast<std::int16_t*>(memory_.data() + e.at.north_heights);
         for (int column = e.first_column; column < e.first_column + e.columns; ++column) {
             out[column] = height(2 * column + 1, 2 * e.at.rows);
         }
-        for (const std::size_t room : {1U, 0U}) {
+        for (const std::size_t morph_margin : {1U, 0U}) {
             std::memcpy(
-                memory_.data() + e.at.north_errors[room] + e.first_column,
-                &codes_[room].souths[index_of(0, e.rows, e.columns)],
+                memory_.data() + e.at.north_errors[morph_margin] + e.first_column,
+                &codes_[morph_margin].souths[index_of(0, e.rows, e.columns)],
                 static_cast<std::size_t>(e.columns));
         }
     }
@@ -202,9 +202,9 @@ void TileBuilder::put_strips() {
         auto* const out = reinterpret_cast<std::int16_t*>(memory_.data() + e.at.east_heights);
         for (int row = 0; row < e.rows; ++row) {
             out[e.first_row + row] = height(2 * e.at.columns, 2 * (e.first_row + row) + 1);
-            for (const std::size_t room : {1U, 0U}) {
-                memory_[e.at.east_errors[room] + static_cast<std::size_t>(e.first_row + row)] =
-                    std::byte{codes_[room].wests[index_of(e.columns, row, e.columns + 1)]};
+            for (const std::size_t morph_margin : {1U, 0U}) {
+                memory_[e.at.east_errors[morph_margin] + static_cast<std::size_t>(e.first_row + row)] =
+                    std::byte{codes_[morph_margin].wests[index_of(e.columns, row, e.columns + 1)]};
             }
         }
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/terrain/bisection_error.h"
-#include "visuals/terrain/error_coder.h"
+#include "visuals/terrain/error_encoder.h"
 #include "visuals/terrain/ground_layout.h"
 #include "visuals/terrain/stored_heights.h"
 
@@ -14,7 +14,7 @@
 namespace octant::visuals::terrain {
 
 /// A tile by its level and its place among the level's tiles.
-struct TilePlace {
+struct TileIndex {
     int level = 0;
     int column = 0;
     int row = 0;
@@ -22,7 +22,7 @@ struct TilePlace {
 
 /// How far a vertex may move at most, in wanted errors, while the wanted error changes by a small
 /// share of itself, divided by that share: S of ground with this relief (tile_builder_errors.cpp).
-float far_move_on(float relief_m);
+float far_morph_rate_on(float relief_m);
 
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer
 /// level around it. There is one builder for each thread; it reuses its memory, at most 10 MB.
@@ -33,16 +33,16 @@ public:
     TileBuilder(
         const GroundLayout& layout,
         const StoredHeights& heights,
-        const ErrorCoder& coder,
+        const ErrorEncoder& coder,
         std::span<std::byte> memory);
 
     /// The bytes of a tile, valid until the next call. Also writes those parts of the strips that
     /// lie beside it.
-    std::span<const std::byte> build(const TilePlace& place);
+    std::span<const std::byte> build(const TileIndex& place);
 
 private:
     /// The nodes of a tile, and what they have in common.
-    struct Extent {
+    struct TileExtent {
         GroundLayout::Level at;
         int first_column = 0;
         int first_row = 0;
@@ -52,11 +52,11 @@ private:
         int stride = 1; ///< The distance in samples between those that are looked at.
     };
 
-    static constexpr int most = GroundLayout::tile_edge;
-    static constexpr int children_edge = 2 * most + 2;
+    static constexpr int tile_edge_nodes = GroundLayout::tile_edge;
+    static constexpr int children_edge = 2 * tile_edge_nodes + 2;
 
     /// A row of samples, each the middle of two triangles' longest edge, in samples of the field.
-    struct HalvedRow {
+    struct SplitEdgeRow {
         int column = 0; ///< Of the first.
         int row = 0;
         int step = 0;                ///< From one to the next.
@@ -73,55 +73,55 @@ private:
     };
 
     using RowOfCodes = std::span<const std::uint8_t>;
-    using RoomRows = std::array<std::uint8_t*, 2>; ///< By Room.
+    using MarginRows = std::array<std::uint8_t*, 2>; ///< By Room.
 
-    Codes& codes_with(Room room) { return codes_[static_cast<std::size_t>(room)]; }
+    Codes& codes_with(MorphMargin morph_margin) { return codes_[static_cast<std::size_t>(morph_margin)]; }
 
     void choose_lattice();
     DiamondRow lattice_row(int column, int row, int count) const;
-    void fetch_children(Room room);
-    void fetch_unseen();
+    void fetch_children(MorphMargin morph_margin);
+    void fetch_lattice_errors();
     std::uint8_t largest_code(int level, int column, int row) const;
-    float unseen(int column, int row) const;
-    float unseen_by(int index, int row, Diamond diamond) const;
+    float lattice_error(int column, int row) const;
+    float lattice_error_by(int index, int row, Diamond diamond) const;
     void fetch_middles(const Codes& codes, int row, std::span<std::uint8_t> largest) const;
     void measure_relief();
     void measure_souths();
     void measure_wests();
     void measure_centres();
     void measure(int row, Diamond diamond, std::span<std::uint8_t> codes);
-    std::uint8_t with_room(std::uint8_t below, int twice) const;
-    void raise_to_room(const HalvedRow& edges, RowOfCodes below, std::uint8_t* codes) const;
+    std::uint8_t with_margin(std::uint8_t below, int twice) const;
+    void raise_to_margin(const SplitEdgeRow& edges, RowOfCodes below, std::uint8_t* codes) const;
     void saturate_middles(
-        const HalvedRow& edges, std::size_t children, const RowOfCodes& own, const RoomRows& out);
+        const SplitEdgeRow& edges, std::size_t children, const RowOfCodes& own, const MarginRows& out);
     std::int16_t height(int column, int row) const;
-    void put_heights();
-    void put_errors(Room room);
-    void put_strips();
+    void write_heights();
+    void write_errors(MorphMargin morph_margin);
+    void write_strips();
 
     const GroundLayout& layout_;
     const StoredHeights& heights_;
-    const ErrorCoder& coder_;
+    const ErrorEncoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
     /// S (tile_builder_errors.cpp) beside the eye, and the most it may be far off.
-    float near_move_ = 0.0F;
-    float far_move_ = 0.0F;
-    float slowest_share_ = 0.0F; ///< 1 / far_move_
+    float near_morph_rate_ = 0.0F;
+    float far_morph_rate_ = 0.0F;
+    float inverse_far_morph_rate_ = 0.0F; ///< 1 / far_morph_rate_
     /// S over the error in numbers, between the two.
-    float move_by_error_ = 0.0F;
-    Extent extent_;
-    std::vector<std::int16_t> copied_; ///< Every stride-th sample around the tile.
+    float morph_rate_by_error_ = 0.0F;
+    TileExtent extent_;
+    std::vector<std::int16_t> lattice_copy_; ///< Every stride-th sample around the tile.
     const std::int16_t* lattice_ = nullptr;
     std::ptrdiff_t pitch_ = 0;
     int lattice_column_ = 0; ///< The column of lattice_[0] in samples.
     int lattice_row_ = 0;
     /// For each node, and for one more on each side of the tile, the error that samples beside the
     /// lattice may have in a mesh of the lattice, in units of the numbers.
-    std::vector<float> unseen_;
+    std::vector<float> lattice_errors_;
     std::array<Codes, 2> codes_;            ///< By Room.
-    std::vector<std::uint8_t> own_codes_;   ///< Those of a row, not saturated.
-    std::vector<std::uint8_t> below_codes_; ///< The largest of those that need the row's samples.
+    std::vector<std::uint8_t> unsaturated_codes_;   ///< Those of a row, not saturated.
+    std::vector<std::uint8_t> dependent_codes_; ///< The largest of those that need the row's samples.
     std::vector<float> errors_;
     std::vector<std::byte> tile_;
 };

@@ -22,7 +22,7 @@
 // - Errors are stored with this room and without any. Where the wanted error E stays as it is from
 //   frame to frame, vertices may move farther in wanted errors the smaller E is, up to S E0 pixels:
 //   d E / (S E0) is enough, and errors between the two stored ones are nested as they are
-//   (full_room_px in error_survey.h).
+//   (full_margin_px in error_survey.h).
 #include "visuals/terrain/tile_builder.h"
 
 #include <algorithm>
@@ -33,14 +33,14 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-constexpr int levels_unseen = 5; ///< Nodes so far below have an edge of one lattice step.
+constexpr int lattice_levels = 5; ///< Nodes so far below have an edge of one lattice step.
 
 /// S on rugged ground, for vertices that move beside the eye and for those far off.
-constexpr float near_move = 1.2F;
-constexpr float far_move = 4.7F;
+constexpr float rugged_near_morph_rate = 1.2F;
+constexpr float rugged_far_morph_rate = 4.7F;
 /// The least relief of rugged ground, and how many times larger S is on flat ground at most.
 constexpr float rugged_m = 1200.0F;
-constexpr float max_ease = 1.8F;
+constexpr float max_flatness_factor = 1.8F;
 /// The largest error that moves beside the eye, as a share of the ground's relief.
 constexpr float near_error = 0.6F / 512.0F;
 
@@ -50,8 +50,8 @@ std::size_t index_of(int column, int row, int columns) {
 }
 
 /// How many times larger S is than on rugged ground.
-float ease_of(float relief_m) {
-    return std::clamp(rugged_m / relief_m, 1.0F, max_ease);
+float flatness_factor(float relief_m) {
+    return std::clamp(rugged_m / relief_m, 1.0F, max_flatness_factor);
 }
 
 /// Raises a row of codes to others.
@@ -63,22 +63,22 @@ void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
 
 } // namespace
 
-float far_move_on(float relief_m) {
-    return far_move * ease_of(relief_m);
+float far_morph_rate_on(float relief_m) {
+    return rugged_far_morph_rate * flatness_factor(relief_m);
 }
 
 /// Finds out what a lattice of more than one sample's step does not see.
-void TileBuilder::fetch_unseen() {
-    const Extent& e = extent_;
-    std::fill(unseen_.begin(), unseen_.end(), 0.0F);
+void TileBuilder::fetch_lattice_errors() {
+    const TileExtent& e = extent_;
+    std::fill(lattice_errors_.begin(), lattice_errors_.end(), 0.0F);
     if (e.stride == 1) {
         return;
     }
     for (int row = -1; row <= e.rows; ++row) {
         for (int column = -1; column <= e.columns; ++column) {
             const std::uint8_t code =
-                largest_code(level_ + levels_unseen, e.first_column + column, e.first_row + row);
-            unseen_[index_of(column + 1, row + 1, most + 2)] = coder_.steps_of(code);
+                largest_code(level_ + lattice_levels, e.first_column + column, e.first_row + row);
+            lattice_errors_[index_of(column + 1, row + 1, tile_edge_nodes + 2)] = coder_.steps_of(code);
         }
     }
 }
@@ -98,7 +98,7 @@ std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
                 index_of(x >> finer.tile_shift, y >> finer.tile_shift, finer.tiles_across);
             const std::byte* const codes = memory_.data() + finer.first_tile +
                                            tile * finer.tile_bytes +
-                                           finer.errors[static_cast<std::size_t>(Room::None)][0];
+                                           finer.errors[static_cast<std::size_t>(MorphMargin::None)][0];
             largest = std::max(
                 largest, static_cast<std::uint8_t>(codes[index_of(x & mask, y & mask, mask + 1)]));
         }
@@ -107,8 +107,8 @@ std::uint8_t TileBuilder::largest_code(int level, int column, int row) const {
 }
 
 /// The same for a node by its place in the tile, which may be one beside it.
-float TileBuilder::unseen(int column, int row) const {
-    return unseen_[index_of(column + 1, row + 1, most + 2)];
+float TileBuilder::lattice_error(int column, int row) const {
+    return lattice_errors_[index_of(column + 1, row + 1, tile_edge_nodes + 2)];
 }
 
 /// Takes the ground's relief from the ranges in memory, and S from that.
@@ -118,36 +118,36 @@ void TileBuilder::measure_relief() {
     const int stored = whole.highest - whole.lowest;
     const float relief = static_cast<float>(stored) / static_cast<float>(heights_.multiplier);
     const float relief_m = relief * static_cast<float>(heights_.number_unit_m);
-    near_move_ = near_move * ease_of(relief_m);
-    far_move_ = far_move_on(relief_m);
-    slowest_share_ = 1.0F / far_move_;
-    move_by_error_ = near_move_ / (near_error * relief);
+    near_morph_rate_ = rugged_near_morph_rate * flatness_factor(relief_m);
+    far_morph_rate_ = far_morph_rate_on(relief_m);
+    inverse_far_morph_rate_ = 1.0F / far_morph_rate_;
+    morph_rate_by_error_ = near_morph_rate_ / (near_error * relief);
 }
 
 /// The least error of a sample with room to move, given the largest code of those that need it and
 /// twice what the ground moves by without it.
-inline std::uint8_t TileBuilder::with_room(std::uint8_t below, int twice) const {
+inline std::uint8_t TileBuilder::with_margin(std::uint8_t below, int twice) const {
     if (below == 0 || twice == 0) {
         return below;
     }
     const float error = coder_.steps_of(below);
     const float move = 0.5F * static_cast<float>(std::abs(twice));
-    const float least = error + move * slowest_share_;
-    const float fastest_move = std::clamp(move_by_error_ * least, near_move_, far_move_);
+    const float least = error + move * inverse_far_morph_rate_;
+    const float fastest_move = std::clamp(morph_rate_by_error_ * least, near_morph_rate_, far_morph_rate_);
     return std::max(below, coder_.code_of(error + move / fastest_move));
 }
 
 /// Raises the codes of a row of samples to the least errors with room to move, given the largest
 /// codes of those that need them.
-void TileBuilder::raise_to_room(
-    const HalvedRow& edges, std::span<const std::uint8_t> below, std::uint8_t* codes) const {
+void TileBuilder::raise_to_margin(
+    const SplitEdgeRow& edges, std::span<const std::uint8_t> below, std::uint8_t* codes) const {
     const int across = std::abs(edges.to_end[0]);
     const int up = edges.to_end[1];
     const int count = static_cast<int>(below.size());
     // So many have both ends within the field.
-    const int room = heights_.columns - 1 - across - edges.column;
+    const int morph_margin = heights_.columns - 1 - across - edges.column;
     const bool low = edges.row + up < heights_.rows;
-    const int inside = low && room >= 0 ? std::min(count, room / edges.step + 1) : 0;
+    const int inside = low && morph_margin >= 0 ? std::min(count, morph_margin / edges.step + 1) : 0;
     const std::int16_t* middle =
         inside > 0 ? &heights_.numbers[index_of(edges.column, edges.row, heights_.columns)]
                    : nullptr;
@@ -157,7 +157,7 @@ void TileBuilder::raise_to_room(
         const std::ptrdiff_t end = climb + (turned ? -edges.to_end[0] : edges.to_end[0]);
         const auto at = static_cast<std::size_t>(i);
         const int twice = 2 * middle[0] - middle[end] - middle[-end];
-        codes[at] = std::max(codes[at], with_room(below[at], twice));
+        codes[at] = std::max(codes[at], with_margin(below[at], twice));
         middle += edges.step;
     }
     const auto number = [this](int column, int row) {
@@ -170,14 +170,14 @@ void TileBuilder::raise_to_room(
         const auto at = static_cast<std::size_t>(i);
         const int twice = 2 * number(column, edges.row) - number(column + aside, edges.row + up) -
                           number(column - aside, edges.row - up);
-        codes[at] = std::max(codes[at], with_room(below[at], twice));
+        codes[at] = std::max(codes[at], with_margin(below[at], twice));
     }
 }
 
 /// Measures the own errors of a row of samples: the middles of nodes, of their south edges or of
 /// their west edges.
 void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> codes) {
-    const Extent& e = extent_;
+    const TileExtent& e = extent_;
     const int count = static_cast<int>(codes.size());
     const int from_edge = diamond == Diamond::Upright ? 0 : e.half;
     const int first = e.first_column * e.at.edge + from_edge;
@@ -205,47 +205,47 @@ void TileBuilder::measure(int row, Diamond diamond, std::span<std::uint8_t> code
     for (int i = 0; i < count; ++i) {
         float& error = errors_[static_cast<std::size_t>(i)];
         if (i < begin || i >= end) {
-            const DiamondPlace place{first + i * e.at.edge, row, e.half, e.stride};
+            const DiamondPosition place{first + i * e.at.edge, row, e.half, e.stride};
             error = padded_error(heights_, place, turned(i));
         }
-        codes[static_cast<std::size_t>(i)] = coder_.code_of(error + unseen_by(i, row, diamond));
+        codes[static_cast<std::size_t>(i)] = coder_.code_of(error + lattice_error_by(i, row, diamond));
     }
 }
 
 /// What the lattice does not see of the diamond of a row of samples, as measure() counts them.
-float TileBuilder::unseen_by(int index, int row, Diamond diamond) const {
+float TileBuilder::lattice_error_by(int index, int row, Diamond diamond) const {
     const int node_row = row / extent_.at.edge - extent_.first_row;
     switch (diamond) {
     case Diamond::Lying:
-        return std::max(unseen(index, node_row - 1), unseen(index, node_row));
+        return std::max(lattice_error(index, node_row - 1), lattice_error(index, node_row));
     case Diamond::Upright:
-        return std::max(unseen(index - 1, node_row), unseen(index, node_row));
+        return std::max(lattice_error(index - 1, node_row), lattice_error(index, node_row));
     default:
-        return unseen(index, node_row);
+        return lattice_error(index, node_row);
     }
 }
 
 /// Saturates the own errors of a row of middles of edges, given where the first of the four centres
 /// around each lie among the children.
 void TileBuilder::saturate_middles(
-    const HalvedRow& edges, std::size_t children, const RowOfCodes& own, const RoomRows& out) {
-    for (const Room room : {Room::Full, Room::None}) {
-        std::copy(own.begin(), own.end(), out[static_cast<std::size_t>(room)]);
+    const SplitEdgeRow& edges, std::size_t children, const RowOfCodes& own, const MarginRows& out) {
+    for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
+        std::copy(own.begin(), own.end(), out[static_cast<std::size_t>(morph_margin)]);
     }
     if (level_ + 1 == layout_.levels()) {
         return;
     }
-    const std::span below = std::span(below_codes_).first(own.size());
-    for (const Room room : {Room::Full, Room::None}) {
-        const std::uint8_t* const south = &codes_with(room).children[children];
+    const std::span below = std::span(dependent_codes_).first(own.size());
+    for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
+        const std::uint8_t* const south = &codes_with(morph_margin).children[children];
         const std::uint8_t* const north = south + children_edge;
         for (std::size_t i = 0; i < below.size(); ++i) {
             below[i] = std::max(
                 std::max(south[2 * i], south[2 * i + 1]), std::max(north[2 * i], north[2 * i + 1]));
         }
-        std::uint8_t* const codes = out[static_cast<std::size_t>(room)];
-        if (room == Room::Full) {
-            raise_to_room(edges, below, codes);
+        std::uint8_t* const codes = out[static_cast<std::size_t>(morph_margin)];
+        if (morph_margin == MorphMargin::Full) {
+            raise_to_margin(edges, below, codes);
         } else {
             raise(below, codes);
         }
@@ -254,8 +254,8 @@ void TileBuilder::saturate_middles(
 
 /// The stored errors of the middles of south edges.
 void TileBuilder::measure_souths() {
-    const Extent& e = extent_;
-    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
+    const TileExtent& e = extent_;
+    const std::span own = std::span(unsaturated_codes_).first(static_cast<std::size_t>(e.columns));
     const int column = e.first_column * e.at.edge + e.half;
     for (int y = 0; y <= e.rows; ++y) {
         const int row = (e.first_row + y) * e.at.edge;
@@ -265,14 +265,14 @@ void TileBuilder::measure_souths() {
             {column, row, e.at.edge, {e.half, 0}, false},
             index_of(1, 2 * y, children_edge),
             own,
-            {&codes_with(Room::Full).souths[to], &codes_with(Room::None).souths[to]});
+            {&codes_with(MorphMargin::Full).souths[to], &codes_with(MorphMargin::None).souths[to]});
     }
 }
 
 /// The stored errors of the middles of west edges.
 void TileBuilder::measure_wests() {
-    const Extent& e = extent_;
-    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns) + 1);
+    const TileExtent& e = extent_;
+    const std::span own = std::span(unsaturated_codes_).first(static_cast<std::size_t>(e.columns) + 1);
     const int column = e.first_column * e.at.edge;
     for (int y = 0; y < e.rows; ++y) {
         const int row = (e.first_row + y) * e.at.edge + e.half;
@@ -282,31 +282,31 @@ void TileBuilder::measure_wests() {
             {column, row, e.at.edge, {0, e.half}, false},
             index_of(0, 2 * y + 1, children_edge),
             own,
-            {&codes_with(Room::Full).wests[to], &codes_with(Room::None).wests[to]});
+            {&codes_with(MorphMargin::Full).wests[to], &codes_with(MorphMargin::None).wests[to]});
     }
 }
 
 /// The stored errors of the centres, which come last because they need those of the edges.
 void TileBuilder::measure_centres() {
-    const Extent& e = extent_;
-    const std::span own = std::span(own_codes_).first(static_cast<std::size_t>(e.columns));
-    const std::span below = std::span(below_codes_).first(own.size());
+    const TileExtent& e = extent_;
+    const std::span own = std::span(unsaturated_codes_).first(static_cast<std::size_t>(e.columns));
+    const std::span below = std::span(dependent_codes_).first(own.size());
     for (int y = 0; y < e.rows; ++y) {
         const bool falling = ((e.first_row + y + e.first_column) & 1) != 0;
-        const HalvedRow edges{
+        const SplitEdgeRow edges{
             e.first_column * e.at.edge + e.half,
             (e.first_row + y) * e.at.edge + e.half,
             e.at.edge,
             {falling ? -e.half : e.half, e.half},
             true};
         measure(edges.row, falling ? Diamond::Falling : Diamond::Rising, own);
-        for (const Room room : {Room::Full, Room::None}) {
-            Codes& codes = codes_with(room);
+        for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
+            Codes& codes = codes_with(morph_margin);
             fetch_middles(codes, y, below);
             std::uint8_t* const out = &codes.centres[index_of(0, y, e.columns)];
             std::copy(own.begin(), own.end(), out);
-            if (room == Room::Full) {
-                raise_to_room(edges, below, out);
+            if (morph_margin == MorphMargin::Full) {
+                raise_to_margin(edges, below, out);
             } else {
                 raise(below, out);
             }

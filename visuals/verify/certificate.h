@@ -22,12 +22,12 @@ struct WrittenPlane {
 };
 
 /// A line about which polygons turn.
-struct Axis {
+struct TurnAxis {
     Vector point{};
-    Vector along{};
+    Vector direction{};
 };
 
-struct Polygon {
+struct CertificatePolygon {
     std::uint32_t source = 0; ///< The polygon of the model's file of which it is a piece.
     WrittenPlane plane;       ///< It is seen from the front of it.
     std::vector<std::uint32_t> corners;
@@ -36,81 +36,81 @@ struct Polygon {
 };
 
 /// A part of the tree, as visuals/draworder has them.
-struct Node {
-    enum class Kind { Choice, Parting, Sequence };
+struct OrderNode {
+    enum class Kind { ViewSplit, PolygonSplit, Sequence };
 
     /// A child where nothing is painted; else a child >= 0 is a node, one < 0 the list ~child.
     static constexpr int nothing = std::numeric_limits<int>::min();
     /// A side of a choice of whose eyes nothing is said.
-    static constexpr int unclaimed = nothing + 1;
+    static constexpr int not_covered = nothing + 1;
 
     /// Whether a child is neither a node nor a list.
-    static bool is_empty(int child) { return child == nothing || child == unclaimed; }
+    static bool is_empty(int child) { return child == nothing || child == not_covered; }
 
-    Kind kind = Kind::Choice;
+    Kind kind = Kind::ViewSplit;
     WrittenPlane plane; ///< Not of a sequence.
     int front = nothing;
     int back = nothing;
-    int along = nothing;
-    int against = nothing;
+    int coplanar_front = nothing;
+    int coplanar_back = nothing;
     int line = 0;
 };
 
-struct List {
+struct OrderList {
     std::vector<std::uint32_t> polygons; ///< First painted first.
     int line = 0;
 };
 
 /// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of
 /// the constant 1, and of each wall of the region, the root's first.
-struct Factors {
+struct StatedFactors {
     double earlier = 0.0;
     double later = 0.0;
     double one = 0.0;
-    std::vector<double> walls;
+    std::vector<double> region_planes;
 };
 
 /// Two polygons, of which one may be painted earlier and one later.
-struct Pair {
+struct PolygonPair {
     std::uint32_t earlier = 0;
     std::uint32_t later = 0;
 };
 
 /// How several pairs in a row are decided that have the later polygon in common: by the plane of
 /// the earlier one, by that of the later one, or somewhere else.
-struct Run {
+struct DeciderRun {
     enum class By { Earlier, Later, Elsewhere };
     By by = By::Elsewhere;
     std::uint32_t count = 0;
 };
 
 /// Pairs of one later polygon.
-struct Row {
+struct PairRow {
     std::uint32_t later = 0;
-    std::vector<Run> runs;
+    std::vector<DeciderRun> runs;
     int line = 0;
 };
 
 /// A pair decided by factors, or not at all.
-struct PairClaim {
+struct PairStatement {
     enum class Kind { Sum, Never, Unproved };
     Kind kind = Kind::Unproved;
-    Pair pair;
-    Factors factors;
+    PolygonPair pair;
+    StatedFactors factors;
     int line = 0;
 };
 
 /// A polygon that is not painted because it faces away from all eyes.
-struct AwayClaim {
-    Factors factors;
+struct BackFacingStatement {
+    StatedFactors factors;
     int line = 0;
 };
 
 /// What is claimed for the eyes of a node or a list; README.md says what that means.
-struct Claims {
-    std::vector<Row> rows;
-    std::vector<PairClaim> pairs;
-    std::map<std::uint32_t, AwayClaim> away;
+struct Statements {
+    std::vector<PairRow> rows;
+    std::vector<PairStatement> pairs;
+    std::map<std::uint32_t, BackFacingStatement> away;
     /// Polygons that are not proved to lie where they should, or to face away, and the line.
     std::map<std::uint32_t, int> unproved;
 };
@@ -121,18 +121,18 @@ struct Certificate {
     std::filesystem::path path;
     double tolerance = 0.0; ///< Lengths up to this are taken for none.
     std::vector<Vector> vertices;
-    std::vector<Axis> axes;
-    std::vector<Polygon> polygons;
-    std::vector<Node> nodes; ///< Node 0 is the root; without nodes list 0 is.
-    std::vector<List> lists;
-    std::vector<Claims> of_nodes;
-    std::vector<Claims> of_lists;
+    std::vector<TurnAxis> axes;
+    std::vector<CertificatePolygon> polygons;
+    std::vector<OrderNode> nodes; ///< Node 0 is the root; without nodes list 0 is.
+    std::vector<OrderList> lists;
+    std::vector<Statements> by_node;
+    std::vector<Statements> by_list;
     std::size_t unproved = 0;          ///< How many lines say so.
     std::optional<int> first_unproved; ///< The first of them.
 
-    const Claims& claims_of(int child) const {
-        return child < 0 ? of_lists[static_cast<std::size_t>(~child)]
-                         : of_nodes[static_cast<std::size_t>(child)];
+    const Statements& statements_of(int child) const {
+        return child < 0 ? by_list[static_cast<std::size_t>(~child)]
+                         : by_node[static_cast<std::size_t>(child)];
     }
 
     int line_of(int child) const {

@@ -4,10 +4,10 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "visuals/verify/certificate_words.h"
-#include "visuals/verify/claim_reader.h"
+#include "visuals/verify/certificate_tokens.h"
+#include "visuals/verify/statement_reader.h"
 #include "visuals/verify/structure_reader.h"
-#include "visuals/verify/wall_counts.h"
+#include "visuals/verify/region_plane_counts.h"
 
 #include <optional>
 #include <string_view>
@@ -19,21 +19,21 @@ namespace {
 
 constexpr std::size_t largest_bytes = std::size_t{2} << 30;
 
-class Reading {
+class CertificateParser {
 public:
-    explicit Reading(const std::filesystem::path& path)
+    explicit CertificateParser(const std::filesystem::path& path)
         : words_(path) {
         made_.path = path;
     }
 
     Certificate read(std::string_view text) {
         for (const std::string_view line : split_lines(text)) {
-            if (words_.take_line(line)) {
+            if (words_.set_line(line)) {
                 take();
             }
         }
         if (!has_header_) {
-            error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file");
+            throw_error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file");
         }
         finish_structure();
         return std::move(made_);
@@ -46,9 +46,9 @@ private:
                 words_.refuse("'octant-certificate 1' first");
             }
             has_header_ = true;
-        } else if (const auto claim = claim_begun(words_)) {
+        } else if (const auto statement = read_statement_kind(words_)) {
             finish_structure();
-            claims_->take(*claim);
+            claims_->take(*statement);
         } else {
             take_structure();
         }
@@ -61,7 +61,7 @@ private:
                           "sum, never, away or unproved");
         }
         if (claims_) {
-            error_at(
+            throw_error_at(
                 made_.path,
                 words_.line(),
                 "expected pairs, sum, never, away or unproved after the first of them, got "
@@ -72,16 +72,16 @@ private:
     /// Once all nodes and lists are read: sees that they are one tree, of which claims may follow.
     void finish_structure() {
         if (!claims_) {
-            claims_.emplace(words_, made_, count_walls(made_));
-            made_.of_nodes.resize(made_.nodes.size());
-            made_.of_lists.resize(made_.lists.size());
+            claims_.emplace(words_, made_, count_region_planes(made_));
+            made_.by_node.resize(made_.nodes.size());
+            made_.by_list.resize(made_.lists.size());
         }
     }
 
-    CertificateWords words_;
+    CertificateTokens words_;
     Certificate made_;
     StructureReader structure_{words_, made_};
-    std::optional<ClaimReader> claims_; ///< Nothing until the structure is read.
+    std::optional<StatementReader> claims_; ///< Nothing until the structure is read.
     bool has_header_ = false;
 };
 
@@ -92,7 +92,7 @@ Certificate read_certificate(const std::filesystem::path& path) {
 }
 
 Certificate certificate_of(std::string_view text, const std::filesystem::path& name) {
-    return Reading(name).read(text);
+    return CertificateParser(name).read(text);
 }
 
 } // namespace octant::visuals::verify

@@ -97,8 +97,8 @@ bool is_behind(const ExactPlane& plane, const ExactVector& point, const Rational
 // r * |part of the normal across the axis| more. Squares are compared, as both roots are
 // irrational.
 bool is_circle_behind(
-    const ExactPlane& plane, const Axis& axis, const Vector& point, const Rational& tolerance) {
-    const ExactVector along = exact(axis.along);
+    const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance) {
+    const ExactVector along = exact(axis.direction);
     const ExactVector from = exact(axis.point);
     const ExactVector away = difference(exact(point), from);
     const Rational square = dot(along, along);
@@ -111,8 +111,8 @@ bool is_circle_behind(
     return room >= 0 && radius_square * across_square <= room * room;
 }
 
-bool is_across(const WrittenPlane& plane, const Axis& axis) {
-    return largest(cross(exact(plane.normal), exact(axis.along))) == 0;
+bool is_across(const WrittenPlane& plane, const TurnAxis& axis) {
+    return largest(cross(exact(plane.normal), exact(axis.direction))) == 0;
 }
 
 } // namespace octant::visuals::verify

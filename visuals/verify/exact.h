@@ -47,9 +47,9 @@ bool is_behind(const ExactPlane& plane, const ExactVector& point, const Rational
 /// Whether that is so, exactly, for every point of the circle on which a point travels about an
 /// axis.
 bool is_circle_behind(
-    const ExactPlane& plane, const Axis& axis, const Vector& point, const Rational& tolerance);
+    const ExactPlane& plane, const TurnAxis& axis, const Vector& point, const Rational& tolerance);
 
 /// Whether a plane stays where it is when it turns about an axis.
-bool is_across(const WrittenPlane& plane, const Axis& axis);
+bool is_across(const WrittenPlane& plane, const TurnAxis& axis);
 
 } // namespace octant::visuals::verify

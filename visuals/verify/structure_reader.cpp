@@ -6,17 +6,17 @@
 namespace octant::visuals::verify {
 
 bool StructureReader::take() {
-    return words_.skip("tolerance") ? take_tolerance()
-           : words_.skip("about")   ? take_about()
-           : words_.skip("vertex")  ? take_vertex()
-           : words_.skip("axis")    ? take_axis()
-           : words_.skip("polygon") ? take_polygon(false)
-           : words_.skip("turning") ? take_polygon(true)
-           : words_.skip("list")    ? take_list()
-                                    : words_.skip("node") && take_node();
+    return words_.skip("tolerance") ? read_tolerance()
+           : words_.skip("about")   ? read_reference()
+           : words_.skip("vertex")  ? read_vertex()
+           : words_.skip("axis")    ? read_axis()
+           : words_.skip("polygon") ? read_polygon(false)
+           : words_.skip("turning") ? read_polygon(true)
+           : words_.skip("list")    ? read_list()
+                                    : words_.skip("node") && read_node();
 }
 
-bool StructureReader::take_tolerance() {
+bool StructureReader::read_tolerance() {
     if (made_.tolerance > 0.0) {
         words_.refuse("one tolerance");
     }
@@ -25,7 +25,7 @@ bool StructureReader::take_tolerance() {
 }
 
 /// Where the certificate measures from changes nothing of what it proves.
-bool StructureReader::take_about() {
+bool StructureReader::read_reference() {
     if (!made_.vertices.empty() || !made_.axes.empty()) {
         words_.refuse("'about' before all places");
     }
@@ -33,19 +33,19 @@ bool StructureReader::take_about() {
     return true;
 }
 
-bool StructureReader::take_vertex() {
+bool StructureReader::read_vertex() {
     words_.add(made_.vertices, words_.vector("a coordinate"));
     return true;
 }
 
-bool StructureReader::take_axis() {
+bool StructureReader::read_axis() {
     const Vector point = words_.vector("a coordinate");
     words_.add(made_.axes, {point, words_.unit_vector("a direction")});
     return true;
 }
 
-bool StructureReader::take_polygon(bool turning) {
-    Polygon polygon;
+bool StructureReader::read_polygon(bool turning) {
+    CertificatePolygon polygon;
     polygon.line = words_.line();
     if (turning) {
         polygon.axis = words_.index("an axis", made_.axes.size());
@@ -59,15 +59,15 @@ bool StructureReader::take_polygon(bool turning) {
     return true;
 }
 
-bool StructureReader::take_list() {
-    List list;
+bool StructureReader::read_list() {
+    OrderList list;
     list.line = words_.line();
     std::vector<bool>& used = used_;
     used.resize(made_.polygons.size());
     while (!words_.done()) {
         const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
         if (used[polygon]) {
-            words_.refuse_last("each polygon once");
+            words_.fail_at_last("each polygon once");
         }
         used[polygon] = true;
         list.polygons.push_back(polygon);
@@ -79,30 +79,30 @@ bool StructureReader::take_list() {
     return true;
 }
 
-bool StructureReader::take_node() {
-    Node node;
+bool StructureReader::read_node() {
+    OrderNode node;
     node.line = words_.line();
     const bool sequence = words_.skip("sequence");
     const bool parting = !sequence && words_.skip("parting");
     if (!sequence && !parting && !words_.skip("choice")) {
         words_.refuse("choice, parting or sequence");
     }
-    node.kind = sequence  ? Node::Kind::Sequence
-                : parting ? Node::Kind::Parting
-                          : Node::Kind::Choice;
+    node.kind = sequence  ? OrderNode::Kind::Sequence
+                : parting ? OrderNode::Kind::PolygonSplit
+                          : OrderNode::Kind::ViewSplit;
     if (!sequence) {
         node.plane = words_.plane();
     }
     const auto side = [&] {
         return sequence || parting        ? child(true, true)
-               : words_.skip("unclaimed") ? Node::unclaimed
+               : words_.skip("unclaimed") ? OrderNode::not_covered
                                           : child(false, true);
     };
     node.front = side();
     node.back = side();
     if (parting) {
-        node.along = child(true, false);
-        node.against = child(true, false);
+        node.coplanar_front = child(true, false);
+        node.coplanar_back = child(true, false);
     }
     words_.add(made_.nodes, std::move(node));
     return true;
@@ -111,7 +111,7 @@ bool StructureReader::take_node() {
 /// A child; whether it is there is known only when all are read.
 int StructureReader::child(bool may_be_nothing, bool may_be_node) {
     if (may_be_nothing && words_.skip("nothing")) {
-        return Node::nothing;
+        return OrderNode::nothing;
     }
     if (words_.skip("list")) {
         return ~static_cast<int>(words_.index("a list", max_entries));
@@ -122,7 +122,7 @@ int StructureReader::child(bool may_be_nothing, bool may_be_node) {
     }
     const std::uint32_t number = words_.index("a node", max_entries);
     if (number <= made_.nodes.size()) {
-        words_.refuse_last("a later node");
+        words_.fail_at_last("a later node");
     }
     return static_cast<int>(number);
 }

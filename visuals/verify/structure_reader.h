@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/verify/certificate.h"
-#include "visuals/verify/certificate_words.h"
+#include "visuals/verify/certificate_tokens.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ namespace octant::visuals::verify {
 /// axis, polygon, turning, list and node.
 class StructureReader {
 public:
-    StructureReader(CertificateWords& words, Certificate& made)
+    StructureReader(CertificateTokens& words, Certificate& made)
         : words_(words)
         , made_(made) {}
 
@@ -20,16 +20,16 @@ public:
     bool take();
 
 private:
-    bool take_tolerance();
-    bool take_about();
-    bool take_vertex();
-    bool take_axis();
-    bool take_polygon(bool turning);
-    bool take_list();
-    bool take_node();
+    bool read_tolerance();
+    bool read_reference();
+    bool read_vertex();
+    bool read_axis();
+    bool read_polygon(bool turning);
+    bool read_list();
+    bool read_node();
     int child(bool may_be_nothing, bool may_be_node);
 
-    CertificateWords& words_;
+    CertificateTokens& words_;
     Certificate& made_;
     std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
 };

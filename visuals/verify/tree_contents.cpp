@@ -5,8 +5,8 @@
 namespace octant::visuals::verify {
 
 TreeContents::TreeContents(const Certificate& certificate)
-    : of_nodes_(certificate.nodes.size())
-    , of_lists_(certificate.lists.size()) {
+    : by_node_(certificate.nodes.size())
+    , by_list_(certificate.lists.size()) {
     /// A node or list, and whether all below it has been gone through.
     struct Visit {
         int child = 0;
@@ -17,37 +17,37 @@ TreeContents::TreeContents(const Certificate& certificate)
     while (!to_do.empty()) {
         const Visit visit = to_do.back();
         to_do.pop_back();
-        if (Node::is_empty(visit.child)) {
+        if (OrderNode::is_empty(visit.child)) {
             continue;
         }
         if (visit.child < 0) {
             const auto list = static_cast<std::size_t>(~visit.child);
             const auto& polygons = certificate.lists[list].polygons;
-            of_lists_[list].first = entries_.size();
+            by_list_[list].first = entries_.size();
             entries_.insert(entries_.end(), polygons.begin(), polygons.end());
-            of_lists_[list].end = entries_.size();
+            by_list_[list].end = entries_.size();
             continue;
         }
         const auto number = static_cast<std::size_t>(visit.child);
         if (visit.leaves) {
-            of_nodes_[number].end = entries_.size();
+            by_node_[number].end = entries_.size();
             continue;
         }
-        of_nodes_[number].first = entries_.size();
-        const Node& node = certificate.nodes[number];
+        by_node_[number].first = entries_.size();
+        const OrderNode& node = certificate.nodes[number];
         to_do.push_back({visit.child, true});
-        for (const int child : {node.front, node.back, node.along, node.against}) {
+        for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
             to_do.push_back({child, false});
         }
     }
 }
 
 std::vector<std::uint32_t> TreeContents::of(int child) const {
-    if (Node::is_empty(child)) {
+    if (OrderNode::is_empty(child)) {
         return {};
     }
-    const Range range = child < 0 ? of_lists_[static_cast<std::size_t>(~child)]
-                                  : of_nodes_[static_cast<std::size_t>(child)];
+    const Range range = child < 0 ? by_list_[static_cast<std::size_t>(~child)]
+                                  : by_node_[static_cast<std::size_t>(child)];
     std::vector<std::uint32_t> polygons(
         entries_.begin() + static_cast<std::ptrdiff_t>(range.first),
         entries_.begin() + static_cast<std::ptrdiff_t>(range.end));

@@ -23,8 +23,8 @@ private:
     };
 
     std::vector<std::uint32_t> entries_; ///< All lists, those of each node side by side.
-    std::vector<Range> of_nodes_;
-    std::vector<Range> of_lists_;
+    std::vector<Range> by_node_;
+    std::vector<Range> by_list_;
 };
 
 } // namespace octant::visuals::verify

@@ -3,11 +3,11 @@
 #include "visuals/verify/verify.h"
 
 #include "sim/base/error.h"
-#include "visuals/verify/claim_check.h"
-#include "visuals/verify/facts.h"
+#include "visuals/verify/statement_check.h"
+#include "visuals/verify/proved_pairs.h"
 #include "visuals/verify/painted_check.h"
 #include "visuals/verify/pair_check.h"
-#include "visuals/verify/sides.h"
+#include "visuals/verify/exact_sides.h"
 #include "visuals/verify/tree_contents.h"
 
 #include <algorithm>
@@ -26,9 +26,9 @@ constexpr double largest_tolerance_sizes = 1e-6;
 
 using Polygons = std::vector<std::uint32_t>;
 
-class Verifying {
+class Verifier {
 public:
-    Verifying(
+    Verifier(
         const Certificate& certificate,
         const std::function<void(std::size_t, std::size_t)>& progress)
         : certificate_(certificate)
@@ -39,7 +39,7 @@ public:
         , contents_(certificate) {
         const Rational most = sides_.size() * Rational(largest_tolerance_sizes);
         if (Rational(certificate.tolerance) > most) {
-            error_in(
+            throw_error_in(
                 certificate.path,
                 fmt::format(
                     "expected a tolerance of at most {:g} of the model's size, {:g}, got {:g}",
@@ -51,12 +51,12 @@ public:
         verdict_.unproved = certificate.unproved;
     }
 
-    Verdict verdict() {
+    VerificationResult result() {
         try {
             check_polygons();
             check_tree();
-        } catch (Refusal& refusal) {
-            verdict_.refused = std::move(refusal);
+        } catch (InvalidCertificate& refusal) {
+            verdict_.failure = std::move(refusal);
         }
         return verdict_;
     }
@@ -66,9 +66,9 @@ private:
     /// eye have to be painted there.
     struct Task {
         int child = 0;
-        Walls walls;
+        RegionPlanes region_planes;
         std::shared_ptr<const Polygons> expected;
-        std::shared_ptr<const Facts> known = nullptr; ///< What the choices above prove, if any are.
+        std::shared_ptr<const ProvedPairs> known = nullptr; ///< What the choices above prove, if any are.
         bool adds_wall = false; ///< Nothing has been made of the last wall yet.
         bool in_plane = false;  ///< A list of what lies in the plane of a parting.
     };
@@ -76,14 +76,14 @@ private:
     /// That each polygon lies in its plane and is seen from the front of it.
     void check_polygons() const {
         for (std::uint32_t i = 0; i < certificate_.polygons.size(); ++i) {
-            const Polygon& polygon = certificate_.polygons[i];
-            if (!sides_.is_behind(i, polygon.plane, Pose::Standing) ||
-                !sides_.is_before(i, polygon.plane, Pose::Standing)) {
-                throw Refusal{
+            const CertificatePolygon& polygon = certificate_.polygons[i];
+            if (!sides_.is_behind(i, polygon.plane, PartAngle::Standing) ||
+                !sides_.is_before(i, polygon.plane, PartAngle::Standing)) {
+                throw InvalidCertificate{
                     polygon.line, "expected all corners in the polygon's plane, got one beside it"};
             }
             if (!sides_.is_counter_clockwise(i)) {
-                throw Refusal{
+                throw InvalidCertificate{
                     polygon.line,
                     "expected corners counter-clockwise about the normal, got others"};
             }
@@ -96,7 +96,7 @@ private:
             all->push_back(i);
         }
         std::vector<Task> to_do{
-            {.child = certificate_.nodes.empty() ? ~0 : 0, .walls = {}, .expected = all}};
+            {.child = certificate_.nodes.empty() ? ~0 : 0, .region_planes = {}, .expected = all}};
         const std::size_t parts = certificate_.nodes.size() + certificate_.lists.size();
         for (std::size_t done = 0; !to_do.empty(); ++done) {
             const Task task = std::move(to_do.back());
@@ -109,110 +109,110 @@ private:
     }
 
     void check_list(const Task& task) {
-        const List& list = certificate_.lists[static_cast<std::size_t>(~task.child)];
+        const OrderList& list = certificate_.lists[static_cast<std::size_t>(~task.child)];
         const std::span<const std::uint32_t> polygons = list.polygons;
         verdict_.unlisted +=
-            painted_check_.expect_painted(task.child, *task.expected, polygons, task.walls);
-        painted_check_.expect_stacked(polygons, list.line);
+            painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
+        painted_check_.require_layer_order(polygons, list.line);
         const std::uint64_t pairs = pairs_among(polygons.size());
         verdict_.pairs += pairs;
         if (task.in_plane) {
-            verdict_.by_partings += pairs;
+            verdict_.by_node_planes += pairs;
             return;
         }
         std::unordered_map<std::uint32_t, std::size_t> place;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             place.emplace(polygons[i], i);
         }
-        Facts facts = facts_at(task);
-        check(task, facts, [&](std::uint32_t later) {
+        ProvedPairs proved_pairs = proved_pairs_at(task);
+        check(task, proved_pairs, [&](std::uint32_t later) {
             const auto found = place.find(later);
             return found == place.end() ? std::nullopt
                                         : std::optional(polygons.first(found->second));
         });
-        Bits painted(certificate_.polygons.size());
+        PolygonSet painted(certificate_.polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
-            expect_decided(facts, painted, polygons.first(i), polygons[i], list.line);
+            require_decided(proved_pairs, painted, polygons.first(i), polygons[i], list.line);
             painted.add(polygons[i]);
         }
     }
 
     void check_node(const Task& task, std::vector<Task>& to_do) {
-        const Node& node = certificate_.nodes[static_cast<std::size_t>(task.child)];
-        if (node.kind == Node::Kind::Choice) {
+        const OrderNode& node = certificate_.nodes[static_cast<std::size_t>(task.child)];
+        if (node.kind == OrderNode::Kind::ViewSplit) {
             check_choice(task, node, to_do);
             return;
         }
         const Polygons front = contents_.of(node.front);
         const Polygons back = contents_.of(node.back);
-        const Polygons along = contents_.of(node.along);
-        const Polygons against = contents_.of(node.against);
-        painted_check_.expect_apart(node.line, {front, back, along, against});
-        verdict_.unlisted += painted_check_.expect_painted(
-            task.child, *task.expected, contents_.of(task.child), task.walls);
+        const Polygons coplanar_front = contents_.of(node.coplanar_front);
+        const Polygons coplanar_back = contents_.of(node.coplanar_back);
+        painted_check_.require_disjoint(node.line, {front, back, coplanar_front, coplanar_back});
+        verdict_.unlisted += painted_check_.require_painted(
+            task.child, *task.expected, contents_.of(task.child), task.region_planes);
         const auto known = known_below(task);
-        if (node.kind == Node::Kind::Sequence) {
+        if (node.kind == OrderNode::Kind::Sequence) {
             check_sequence(task, front, back);
         } else {
             check_parting(
-                node, certificate_.claims_of(task.child), {front, back}, {along, against});
+                node, certificate_.statements_of(task.child), {front, back}, {coplanar_front, coplanar_back});
         }
         const auto add = [&](int child, const Polygons& polygons, bool in_plane) {
-            if (child != Node::nothing) {
+            if (child != OrderNode::nothing) {
                 const auto expected = std::make_shared<Polygons>(polygons);
-                to_do.push_back({child, task.walls, expected, known, false, in_plane});
+                to_do.push_back({child, task.region_planes, expected, known, false, in_plane});
             }
         };
         add(node.front, front, false);
         add(node.back, back, false);
-        add(node.along, along, true);
-        add(node.against, against, true);
+        add(node.coplanar_front, coplanar_front, true);
+        add(node.coplanar_back, coplanar_back, true);
     }
 
     /// Everything is expected on each side of a choice that is expected of the choice.
-    void check_choice(const Task& task, const Node& node, std::vector<Task>& to_do) {
+    void check_choice(const Task& task, const OrderNode& node, std::vector<Task>& to_do) {
         const Polygons below = contents_.of(task.child);
-        const auto facts = std::make_shared<Facts>(facts_at(task));
-        check(task, *facts, [&](std::uint32_t) { return std::optional(std::span(below)); });
+        const auto proved_pairs = std::make_shared<ProvedPairs>(proved_pairs_at(task));
+        check(task, *proved_pairs, [&](std::uint32_t) { return std::optional(std::span(below)); });
         for (const bool in_front : {true, false}) {
-            Walls walls = task.walls;
-            walls.push_back(in_front ? node.plane : reversed(node.plane));
+            RegionPlanes region_planes = task.region_planes;
+            region_planes.push_back(in_front ? node.plane : reversed(node.plane));
             const int child = in_front ? node.front : node.back;
-            if (child == Node::unclaimed) {
-                verdict_.every_eye = false;
+            if (child == OrderNode::not_covered) {
+                verdict_.covers_every_eye = false;
                 continue;
             }
-            to_do.push_back({child, std::move(walls), task.expected, facts, true, false});
+            to_do.push_back({child, std::move(region_planes), task.expected, proved_pairs, true, false});
         }
     }
 
     /// That nothing of the first part hides anything of the second.
     void check_sequence(const Task& task, const Polygons& front, const Polygons& back) {
-        Facts facts = facts_at(task);
+        ProvedPairs proved_pairs = proved_pairs_at(task);
         const int line = certificate_.line_of(task.child);
-        check(task, facts, [&](std::uint32_t later) {
+        check(task, proved_pairs, [&](std::uint32_t later) {
             return std::ranges::binary_search(back, later) ? std::optional(std::span(front))
                                                            : std::nullopt;
         });
-        painted_check_.expect_stacked(front, back, line);
-        Bits painted(certificate_.polygons.size());
+        painted_check_.require_layer_order(front, back, line);
+        PolygonSet painted(certificate_.polygons.size());
         for (const std::uint32_t polygon : front) {
             painted.add(polygon);
         }
         for (const std::uint32_t later : back) {
-            expect_decided(facts, painted, front, later, line);
+            require_decided(proved_pairs, painted, front, later, line);
         }
         verdict_.pairs += front.size() * back.size();
     }
 
     /// Checks what is claimed about pairs.
-    void check(const Task& task, Facts& facts, const EarlierOf& earlier_of) {
-        check_claims(
+    void check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
+        check_statements(
             pair_check_,
-            certificate_.claims_of(task.child),
-            task.walls,
+            certificate_.statements_of(task.child),
+            task.region_planes,
             earlier_of,
-            facts,
+            proved_pairs,
             verdict_.claims);
     }
 
@@ -221,31 +221,31 @@ private:
     }
 
     /// What the nodes above and the last wall prove for the eyes of a part.
-    Facts facts_at(const Task& task) const {
-        Facts facts = task.known ? *task.known : Facts(certificate_.polygons.size());
+    ProvedPairs proved_pairs_at(const Task& task) const {
+        ProvedPairs proved_pairs = task.known ? *task.known : ProvedPairs(certificate_.polygons.size());
         if (task.adds_wall) {
-            facts.add_wall(task.walls.back(), certificate_, sides_);
+            proved_pairs.add_region_plane(task.region_planes.back(), certificate_, sides_);
         }
-        return facts;
+        return proved_pairs;
     }
 
     /// The same for what is below a node that is no choice; null where nothing is known.
-    std::shared_ptr<const Facts> known_below(const Task& task) const {
-        return task.adds_wall ? std::make_shared<const Facts>(facts_at(task)) : task.known;
+    std::shared_ptr<const ProvedPairs> known_below(const Task& task) const {
+        return task.adds_wall ? std::make_shared<const ProvedPairs>(proved_pairs_at(task)) : task.known;
     }
 
-    void expect_decided(
-        const Facts& facts,
-        const Bits& painted,
+    void require_decided(
+        const ProvedPairs& proved_pairs,
+        const PolygonSet& painted,
         std::span<const std::uint32_t> earlier,
         std::uint32_t later,
         int line) const {
-        if (!earlier.empty() && !facts.decide(painted, later)) {
-            throw Refusal{
+        if (!earlier.empty() && !proved_pairs.decide(painted, later)) {
+            throw InvalidCertificate{
                 line,
                 fmt::format(
                     "expected a proof that polygon {} hides nothing of polygon {}, got none",
-                    facts.first_open(earlier, later),
+                    proved_pairs.first_open(earlier, later),
                     later)};
         }
     }
@@ -255,12 +255,12 @@ private:
 
     /// That the plane of a parting parts, and that what lies in it faces as it should.
     void check_parting(
-        const Node& node, const Claims& claims, const TwoParts& beside, const TwoParts& within) {
+        const OrderNode& node, const Statements& claims, const TwoParts& beside, const TwoParts& is_subset_of) {
         const auto& [front, back] = beside;
-        const auto& [along, against] = within;
+        const auto& [coplanar_front, coplanar_back] = is_subset_of;
         const auto expect = [&](std::uint32_t polygon, bool good, const char* expected) {
             if (!good && !claims.unproved.contains(polygon)) {
-                throw Refusal{
+                throw InvalidCertificate{
                     node.line,
                     fmt::format(
                         "expected polygon {} {} the plane, got a corner elsewhere",
@@ -270,16 +270,16 @@ private:
         };
         const WrittenPlane back_of = reversed(node.plane);
         for (const std::uint32_t polygon : front) {
-            expect(polygon, sides_.is_behind(polygon, back_of, Pose::Turning), "before");
+            expect(polygon, sides_.is_behind(polygon, back_of, PartAngle::Turning), "before");
         }
         for (const std::uint32_t polygon : back) {
-            expect(polygon, sides_.is_behind(polygon, node.plane, Pose::Turning), "behind");
+            expect(polygon, sides_.is_behind(polygon, node.plane, PartAngle::Turning), "behind");
         }
-        check_facing(along, against, node.plane, expect);
-        check_facing(against, along, back_of, expect);
+        check_facing(coplanar_front, coplanar_back, node.plane, expect);
+        check_facing(coplanar_back, coplanar_front, back_of, expect);
         const std::uint64_t pairs = front.size() * back.size() +
-                                    (front.size() + back.size()) * (along.size() + against.size());
-        verdict_.by_partings += pairs;
+                                    (front.size() + back.size()) * (coplanar_front.size() + coplanar_back.size());
+        verdict_.by_node_planes += pairs;
         verdict_.pairs += pairs;
     }
 
@@ -292,11 +292,11 @@ private:
         Expect expect) const {
         const ExactVector normal = exact(plane.normal);
         for (const std::uint32_t polygon : polygons) {
-            const bool lies_in = sides_.is_behind(polygon, plane, Pose::Turning) &&
-                                 sides_.is_before(polygon, plane, Pose::Turning);
+            const bool lies_in = sides_.is_behind(polygon, plane, PartAngle::Turning) &&
+                                 sides_.is_before(polygon, plane, PartAngle::Turning);
             expect(polygon, lies_in, "in");
             const bool on_both = std::ranges::binary_search(others, polygon);
-            const bool faces = sides_.has_front(polygon, Pose::Turning) &&
+            const bool faces = sides_.has_fixed_plane(polygon, PartAngle::Turning) &&
                                dot(exact(certificate_.polygons[polygon].plane.normal), normal) > 0;
             expect(polygon, on_both || faces, "facing as");
         }
@@ -304,18 +304,18 @@ private:
 
     const Certificate& certificate_;
     const std::function<void(std::size_t, std::size_t)>& progress_;
-    Sides sides_;
+    ExactSides sides_;
     PairCheck pair_check_;
     PaintedCheck painted_check_;
     TreeContents contents_;
-    Verdict verdict_;
+    VerificationResult verdict_;
 };
 
 } // namespace
 
-Verdict verify(
+VerificationResult verify(
     const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress) {
-    return Verifying(certificate, progress).verdict();
+    return Verifier(certificate, progress).result();
 }
 
 } // namespace octant::visuals::verify

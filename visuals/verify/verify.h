@@ -1,8 +1,8 @@
 #pragma once
 
 #include "visuals/verify/certificate.h"
-#include "visuals/verify/claim_counts.h"
-#include "visuals/verify/refusal.h"
+#include "visuals/verify/statement_counts.h"
+#include "visuals/verify/invalid_certificate.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,24 +12,24 @@
 namespace octant::visuals::verify {
 
 /// What a certificate proves.
-struct Verdict {
-    std::optional<Refusal> refused; ///< The first false claim; what follows is counted up to it.
+struct VerificationResult {
+    std::optional<InvalidCertificate> failure; ///< The first false claim; what follows is counted up to it.
     std::uint64_t pairs = 0;        ///< Polygons that some eyes paint one before the other.
-    std::uint64_t by_partings = 0;  ///< Of these, decided by a plane that parts many from many.
-    ClaimCounts claims;
+    std::uint64_t by_node_planes = 0;  ///< Of these, decided by a plane that parts many from many.
+    StatementCounts claims;
     std::uint64_t unlisted = 0;   ///< Polygons that face away from all eyes of a list or node.
     std::uint64_t unproved = 0;   ///< Claims that the file itself says are not proved.
-    bool every_eye = true;        ///< No choice leaves the eyes on one side of it unclaimed.
+    bool covers_every_eye = true;        ///< No choice leaves the eyes on one side of it unclaimed.
     double tolerance_sizes = 0.0; ///< The tolerance, in longest sides of the model's bounding box.
 
-    bool proved() const { return !refused && unproved == 0; }
+    bool proved() const { return !failure && unproved == 0; }
 };
 
 /// Proves without rounding that a painting order is right for every eye (README.md says what that
 /// means), or tells the first claim that is false. `progress(done, all)` counts nodes and lists.
 ///
 /// Throws Error for a tolerance of more than 1e-6 of the model's size: it would prove nothing.
-Verdict verify(
+VerificationResult verify(
     const Certificate& certificate,
     const std::function<void(std::size_t, std::size_t)>& progress = {});
 

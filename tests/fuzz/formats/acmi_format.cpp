@@ -1,4 +1,4 @@
-#include "flightpaths/acmi_tape.h"
+#include "flightpaths/acmi_recording.h"
 #include "sim/base/text_file.h"
 #include "tests/fuzz/formats/target.h"
 
@@ -11,11 +11,11 @@ namespace octant::tests::formats::acmi_format {
 namespace {
 
 void use(const std::filesystem::path& file) {
-    const flightpaths::AcmiTape tape = flightpaths::acmi_tape(read_text_file(file), file);
+    const flightpaths::AcmiRecording tape = flightpaths::parse_acmi(read_text_file(file), file);
     expect(!tape.aircraft.empty(), "an aircraft");
     expect(tape.aircraft.size() <= flightpaths::max_taped_aircraft, "no more than so many");
     expect(std::isfinite(tape.origin.latitude_deg), "an origin");
-    for (const flightpaths::TapedAircraft& aircraft : tape.aircraft) {
+    for (const flightpaths::RecordedAircraft& aircraft : tape.aircraft) {
         const auto samples = aircraft.trajectory.samples();
         expect(samples.size() >= 2, "two samples");
         for (const sim::AircraftState& state : samples) {

@@ -1,5 +1,5 @@
 #include "tests/fuzz/formats/target.h"
-#include "ui/terrain/terrain_answers.h"
+#include "ui/terrain/terrain_query.h"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ const Registered target({
     .file = "points.csv",
     .use =
         [](const auto& file) {
-            for (const ui::terrain::AskedPoint& point : ui::terrain::read_points(file)) {
+            for (const ui::terrain::QueryPoint& point : ui::terrain::read_points(file)) {
                 expect(std::isfinite(point.x_m) && std::isfinite(point.y_m), "a place");
             }
         },

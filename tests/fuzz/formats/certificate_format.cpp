@@ -11,7 +11,7 @@ namespace {
 
 std::vector<std::string> seeds() {
     std::vector<std::string> all;
-    for (const auto method : {visuals::draworder::Method::Tree, visuals::draworder::Method::Bsp}) {
+    for (const auto method : {visuals::draworder::OrderMethod::Tree, visuals::draworder::OrderMethod::Bsp}) {
         visuals::draworder::OrderOptions options;
         options.method = method;
         const auto ordered = visuals::draworder::ordered(small_model(), options);

@@ -34,7 +34,7 @@ std::string seed_of(int packets) {
 void use(const std::filesystem::path& file) {
     const std::string bytes = read_file(file);
     links::LiveTraffic traffic([](const auto& /*key*/, const links::Fix& fix) {
-        return links::WorldPlace{
+        return links::WorldPosition{
             .at_m = 111000.0 *
                     glm::dvec3(fix.longitude_deg, fix.latitude_deg, fix.altitude_m / 111000.0)};
     });

@@ -37,7 +37,7 @@ void use(const std::filesystem::path& file) {
 std::vector<std::string> seeds() {
     draworder::OrderOptions tree;
     draworder::OrderOptions bsp;
-    bsp.method = draworder::Method::Bsp;
+    bsp.method = draworder::OrderMethod::Bsp;
     return {
         "draworder 1\ncenter 1 2 3\nmetric l1\nfaces 7\ntwosided 0 1\nparents 0 0 1 2 3 4 5\n"
         "cell +-+/0/3 min 2 order 0 1 2\ncell cone 3 1 0 0 0 1 0 0 0 1 max 9 order 6 5 4\n"

@@ -24,7 +24,7 @@ std::string imported(int columns, int rows, bool placed) {
     }
     models::heights::HeightField field(columns, rows, 30.0, heights_m);
     if (placed) {
-        field.place = GeoPlace{49.3, -123.1};
+        field.place = GeoPosition{49.3, -123.1};
     }
     const std::filesystem::path map = input_folder() / "map.tif";
     models::heights::write_height_field(map, field);
@@ -44,7 +44,7 @@ void seal(std::string& bytes) {
     if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 &&
         header.rows <= 65536) {
         const terrain::GroundLayout layout(shape_of(header));
-        const groundfile::GroundFilePlan plan(layout);
+        const groundfile::GroundFileLayout plan(layout);
         header.layout = groundfile::hash_of(shape_of(header));
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
@@ -54,7 +54,7 @@ void seal(std::string& bytes) {
             header.checksums = checksum_of(all.subspan(plan.checksums));
         }
     }
-    const auto page = groundfile::page_of(header);
+    const auto page = groundfile::header_page(header);
     std::memcpy(bytes.data(), page.data(), page.size());
 }
 
@@ -69,7 +69,7 @@ void use(const std::filesystem::path& file) {
     const terrain::GroundSamples samples(ground);
     terrain::ground_height_m(samples, 1.0, -1.0);
     const glm::dvec3 end_m(samples.half_extent_m(), 200.0);
-    terrain::sight_between(samples, -end_m, end_m, octant::wgs84.mean_radius_m());
+    terrain::line_of_sight(samples, -end_m, end_m, octant::wgs84.mean_radius_m());
     groundfile::hash_of_ground(file);
     groundfile::verify_ground(file, 1);
 }

@@ -90,7 +90,7 @@ public:
     void mutations(std::uint64_t count, std::uint64_t seed) {
         Hash name;
         name.add(std::as_bytes(std::span(target_.name)));
-        Dice dice(name.value() + seed);
+        RandomGenerator dice(name.value() + seed);
         for (std::uint64_t i = 0; i < count && findings_ < 10; ++i) {
             one(mutated(seeds_, target_.words, dice),
                 fmt::format("mutation {} of seed {}", i, seed));

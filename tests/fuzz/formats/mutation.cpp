@@ -45,7 +45,7 @@ constexpr std::array<std::uint64_t, 12> words_of_bits{
 /// The bytes that are changed, and what decides how.
 class Faults {
 public:
-    Faults(std::string& bytes, Dice& dice)
+    Faults(std::string& bytes, RandomGenerator& dice)
         : bytes_(bytes)
         , dice_(dice) {}
 
@@ -124,13 +124,13 @@ public:
 
 private:
     std::string& bytes_;
-    Dice& dice_;
+    RandomGenerator& dice_;
 };
 
 } // namespace
 
 std::string
-mutated(std::span<const std::string> seeds, std::span<const std::string> words, Dice& dice) {
+mutated(std::span<const std::string> seeds, std::span<const std::string> words, RandomGenerator& dice) {
     std::string bytes;
     Faults faults(bytes, dice);
     bytes = seeds[faults.below(seeds.size())];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 
 #include <span>
 #include <string>
@@ -12,6 +12,6 @@ namespace octant::tests::formats {
 /// off, the head of one seed before the tail of another. At least one seed. Decided by the dice
 /// alone: the same everywhere.
 std::string
-mutated(std::span<const std::string> seeds, std::span<const std::string> words, Dice& dice);
+mutated(std::span<const std::string> seeds, std::span<const std::string> words, RandomGenerator& dice);
 
 } // namespace octant::tests::formats

@@ -3,7 +3,7 @@
 #include "tests/fuzz/formats/small_model.h"
 #include "tests/fuzz/formats/target.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/ordercache/order_bytes.h"
+#include "visuals/ordercache/order_file_format.h"
 
 namespace octant::tests::formats::order_cache_format {
 
@@ -15,10 +15,10 @@ namespace ordercache = visuals::ordercache;
 std::vector<std::string> seeds() {
     std::vector<std::string> all;
     for (const auto method :
-         {draworder::Method::Tree, draworder::Method::Bsp, draworder::Method::Paper}) {
+         {draworder::OrderMethod::Tree, draworder::OrderMethod::Bsp, draworder::OrderMethod::Paper}) {
         draworder::OrderOptions options;
         options.method = method;
-        all.push_back(ordercache::order_bytes(draworder::ordered(small_model(), options)));
+        all.push_back(ordercache::encode_order(draworder::ordered(small_model(), options)));
     }
     return all;
 }
@@ -28,9 +28,9 @@ void use(const std::filesystem::path& file) {
     const std::string bytes = read_file(file);
     draworder::OrderedModel ordered = [&] {
         try {
-            return ordercache::order_from_bytes(bytes, small_model());
+            return ordercache::decode_order(bytes, small_model());
         } catch (const Error& refusal) {
-            error_in(file, refusal.what());
+            throw_error_in(file, refusal.what());
         }
     }();
     draworder::DrawOrder::Walk walk;
@@ -44,9 +44,9 @@ void use(const std::filesystem::path& file) {
             }
         }
     }
-    const std::string again = ordercache::order_bytes(ordered);
+    const std::string again = ordercache::encode_order(ordered);
     expect(
-        ordercache::order_bytes(ordercache::order_from_bytes(again, small_model())) == again,
+        ordercache::encode_order(ordercache::decode_order(again, small_model())) == again,
         "the same order again");
 }
 

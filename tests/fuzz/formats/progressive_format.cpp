@@ -48,11 +48,11 @@ std::vector<std::string> seeds() {
 /// The checksum of each block that fits, and the file's length in the first one.
 void seal(std::string& bytes) {
     constexpr std::size_t length_at = 4;
-    std::size_t at = refine::progressive_mark.size();
-    for (bool first = true; at + refine::block_frame_bytes <= bytes.size(); first = false) {
+    std::size_t at = refine::progressive_signature.size();
+    for (bool first = true; at + refine::block_header_bytes <= bytes.size(); first = false) {
         std::uint32_t count = 0;
         std::memcpy(&count, bytes.data() + at, sizeof count);
-        if (count > bytes.size() - at - refine::block_frame_bytes) {
+        if (count > bytes.size() - at - refine::block_header_bytes) {
             return;
         }
         char* const block = bytes.data() + at + sizeof count;
@@ -64,7 +64,7 @@ void seal(std::string& bytes) {
         hash.add(std::as_bytes(std::span(block, count)));
         const std::uint64_t value = hash.value();
         std::memcpy(block + count, &value, sizeof value);
-        at += refine::block_frame_bytes + count;
+        at += refine::block_header_bytes + count;
     }
 }
 

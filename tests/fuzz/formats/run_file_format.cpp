@@ -29,7 +29,7 @@ std::vector<std::string> seeds() {
     info.facts = {{"lowest height", "61 m"}};
     info.notes = {"a note"};
     info.inputs = {{"a.obj", "0123456789abcdef"}};
-    ui::report::RunEnd end;
+    ui::report::RunSummary end;
     end.state_hash = 12345;
     end.picture_hash = 6789;
     end.cpu_times = {1000, 500, 10, 100};

@@ -12,7 +12,7 @@ void use(const std::filesystem::path& file) {
     const ui::sweep::Sweep sweep = ui::sweep::read_sweep(file);
     expect(!sweep.runs.empty() && sweep.runs.size() <= ui::sweep::max_runs, "as many as may be");
     std::set<std::string> names;
-    for (const ui::sweep::Run& run : sweep.runs) {
+    for (const ui::sweep::SweepRun& run : sweep.runs) {
         expect(
             !run.name.empty() && run.name.front() != '.' && run.name.find('/') == std::string::npos,
             "a name that a file can have");

@@ -9,7 +9,7 @@ namespace {
 /// Wrong lines are told and left out; what was taken is the same when it is written and read again.
 void use(const std::filesystem::path& file) {
     const ui::window::KeyMapFile read = ui::window::read_key_map(file);
-    for (const std::string& fault : read.faults) {
+    for (const std::string& fault : read.errors) {
         expect(fault.starts_with(file.string()), "a fault that names the file, got " + fault);
         expect(fault.find('\n') == fault.npos, "a fault of one line, got " + fault);
     }

@@ -13,10 +13,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
         generator.take(std::as_bytes(std::span(data, size)), moved, frame);
         for (const Fix& fix : moved) {
-            octant::tests::expect(fault_of(fix) == Fault::None, "a fix that can be believed");
+            octant::tests::expect(error_of_fix(fix) == PacketError::None, "a fix that can be believed");
         }
         octant::tests::expect(
-            generator.parts().turned(frame).size() <= CigiParts::max_parts, "bounded parts");
+            generator.parts().turned(frame).size() <= CigiArticulatedParts::max_parts, "bounded parts");
         for (const auto& [number, view] : generator.definitions()) {
             for (const double side_rad :
                  {view.left_rad, view.right_rad, view.top_rad, view.bottom_rad}) {

@@ -5,10 +5,10 @@ using namespace octant::sim::links;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     DisEntity entity;
-    const Verdict verdict = decode_dis(std::as_bytes(std::span(data, size)), entity);
+    const DecodeResult verdict = decode_dis(std::as_bytes(std::span(data, size)), entity);
     octant::tests::expect(!dis_text(verdict).empty(), "words for every verdict");
-    if (verdict.fault == Fault::None) {
-        octant::tests::expect(fault_of(entity.fix) == Fault::None, "a fix that can be believed");
+    if (verdict.fault == PacketError::None) {
+        octant::tests::expect(error_of_fix(entity.fix) == PacketError::None, "a fix that can be believed");
     }
     return 0;
 }

@@ -5,10 +5,10 @@ using namespace octant::sim::links;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Fix fix;
-    const Verdict verdict = decode_fdm(std::as_bytes(std::span(data, size)), fix);
+    const DecodeResult verdict = decode_fdm(std::as_bytes(std::span(data, size)), fix);
     octant::tests::expect(!fdm_text(verdict).empty(), "words for every verdict");
-    if (verdict.fault == Fault::None) {
-        octant::tests::expect(fault_of(fix) == Fault::None, "a fix that can be believed");
+    if (verdict.fault == PacketError::None) {
+        octant::tests::expect(error_of_fix(fix) == PacketError::None, "a fix that can be believed");
     }
     return 0;
 }

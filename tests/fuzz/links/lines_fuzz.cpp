@@ -11,10 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     LineSplitter splitter;
     const auto take = [&columns](const std::vector<std::byte>& line) {
         Fix fix;
-        const Verdict verdict = columns.take(line, fix);
+        const DecodeResult verdict = columns.take(line, fix);
         octant::tests::expect(!NamedColumns::text_of(verdict).empty(), "words for every verdict");
-        if (verdict.fault == Fault::None) {
-            octant::tests::expect(fault_of(fix) == Fault::None, "a fix that can be believed");
+        if (verdict.fault == PacketError::None) {
+            octant::tests::expect(error_of_fix(fix) == PacketError::None, "a fix that can be believed");
         }
     };
     splitter.add(std::as_bytes(std::span(data, size)), take);

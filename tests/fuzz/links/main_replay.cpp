@@ -1,7 +1,7 @@
 // Drives a target without libFuzzer: with files given, or with its seeds and as many changes of
 // them as the first argument says.
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/fuzz/links/packet_target.h"
 
 #include <algorithm>
@@ -22,12 +22,12 @@ void run(const Bytes& bytes) {
         reinterpret_cast<const std::uint8_t*>(exact.data()), exact.size()); // NOLINT
 }
 
-std::size_t below(octant::Dice& dice, std::size_t most) {
+std::size_t below(octant::RandomGenerator& dice, std::size_t most) {
     return static_cast<std::size_t>(dice.next() * static_cast<double>(most));
 }
 
 /// The bytes with some of them changed, cut, doubled or thrown away.
-Bytes changed(Bytes bytes, octant::Dice& dice) {
+Bytes changed(Bytes bytes, octant::RandomGenerator& dice) {
     const std::size_t changes = 1 + below(dice, 4);
     for (std::size_t i = 0; i < changes && !bytes.empty(); ++i) {
         const std::size_t at = below(dice, bytes.size());
@@ -79,7 +79,7 @@ int main(int count, char** arguments) {
         }
         return 0;
     }
-    octant::Dice dice(11);
+    octant::RandomGenerator dice(11);
     const auto seeds = octant::tests::packet_seeds();
     for (const Bytes& seed : seeds) {
         run(seed);

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             parse.length > 0 && parse.length <= rest.size(), "a length within the bytes");
         if (parse.frame) {
             const auto fix = pose.take(*parse.frame);
-            octant::tests::expect(!fix || fault_of(*fix) == Fault::None, "a fix to be believed");
+            octant::tests::expect(!fix || error_of_fix(*fix) == PacketError::None, "a fix to be believed");
         }
         rest = rest.subspan(parse.length);
     }

@@ -1,4 +1,4 @@
-#include "sim/links/identify.h"
+#include "sim/links/packet_kind.h"
 #include "sim/links/xplane.h"
 #include "tests/fuzz/links/packet_target.h"
 
@@ -9,9 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     XPlanePose pose;
     for (int i = 0; i < 3; ++i) {
         std::optional<Fix> fix;
-        const Verdict verdict = pose.take(bytes, fix);
+        const DecodeResult verdict = pose.take(bytes, fix);
         octant::tests::expect(!xplane_text(verdict).empty(), "words for every verdict");
-        octant::tests::expect(!fix || fault_of(*fix) == Fault::None, "a fix to be believed");
+        octant::tests::expect(!fix || error_of_fix(*fix) == PacketError::None, "a fix to be believed");
     }
     if (const auto kind = packet_kind(bytes)) {
         octant::tests::expect(!text_of(*kind).empty(), "words for every kind");

@@ -158,7 +158,7 @@ struct Apart {
 using Ground = std::function<std::optional<double>(double x_m, double y_m)>;
 
 /// At 10,000 places that the ground covers. `degrees`: the numbers lie on the globe.
-Apart apart(const Numbers& numbers, const MapSystem& system, bool degrees, const Ground& ground) {
+Apart apart(const Numbers& numbers, const CoordinateSystem& system, bool degrees, const Ground& ground) {
     const std::unique_ptr<void, decltype(&OSRRelease)> globe(
         OSRNewSpatialReference(nullptr), OSRRelease);
     const std::unique_ptr<void, decltype(&OSRRelease)> local(

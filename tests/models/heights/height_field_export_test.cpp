@@ -66,7 +66,7 @@ TEST_CASE("a height of -9999 among others like it and a negative zero survive wr
 
 TEST_CASE("a field's place survives writing") {
     const auto path = scratch_file("placed.tif");
-    for (const GeoPlace place : {GeoPlace{49.5, -123.25}, GeoPlace{-33.123456789, 151.0}}) {
+    for (const GeoPosition place : {GeoPosition{49.5, -123.25}, GeoPosition{-33.123456789, 151.0}}) {
         HeightField field = rough_field(20, 31, 90.0);
         field.place = place;
         write_height_field(path, field);

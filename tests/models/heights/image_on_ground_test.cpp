@@ -53,7 +53,7 @@ TEST_CASE("ground read from a map knows the middle of it in the map's own coordi
 
 TEST_CASE("a placed image lies on the ground where its coordinates say, and nowhere else") {
     const HeightField field = utm_ground();
-    const Image laid = laid_on_ground(
+    const Image laid = resampled_to_ground(
         grey_image("EPSG:32610", {500000, 100, 0, 5400100, 0, -100}), area_of(field), max_px);
     REQUIRE(laid.width == 4);
     REQUIRE(laid.height == 4);
@@ -77,7 +77,7 @@ TEST_CASE("an image in degrees is brought into the ground's system") {
     const HeightField field = utm_ground();
     const double degree = 0.01;
     REQUIRE(field.place);
-    const Image laid = laid_on_ground(
+    const Image laid = resampled_to_ground(
         grey_image(
             "EPSG:4326",
             {field.place->longitude_deg - degree,
@@ -107,14 +107,14 @@ TEST_CASE("an image without a place is stretched over the ground, a large one ma
     image.rgba.assign(32, 255);
     image.rgba[0] = 7;
     const HeightField field(3, 3, 10.0, std::vector<float>(9, 0.0F));
-    const Image laid = laid_on_ground(image, area_of(field), 4);
+    const Image laid = resampled_to_ground(image, area_of(field), 4);
     CHECK(laid.width == 4);
     CHECK(laid.rgba == image.rgba);
     for (std::size_t at = 0; at < image.rgba.size(); ++at) {
         const bool west = at / 4 % 4 < 2;
         image.rgba[at] = at % 4 == 3 ? 255 : west ? 50 : 150;
     }
-    const Image reduced = laid_on_ground(image, area_of(field), 2);
+    const Image reduced = resampled_to_ground(image, area_of(field), 2);
     REQUIRE(reduced.width == 2);
     REQUIRE(reduced.height == 2);
     CHECK(std::abs(int{reduced.pixel(0, 0)[0]} - 50) <= 25);
@@ -125,12 +125,12 @@ TEST_CASE("an image without a place is stretched over the ground, a large one ma
 TEST_CASE("an image that lies elsewhere, or that the ground has no coordinates for, is refused") {
     const Image image = grey_image("EPSG:32610", {600000, 100, 0, 5400100, 0, -100});
     CHECK_THROWS_WITH(
-        laid_on_ground(image, area_of(utm_ground()), max_px),
+        resampled_to_ground(image, area_of(utm_ground()), max_px),
         "drape.tif: expected an image of the ground of ground.tif, got one that lies elsewhere");
     HeightField made(3, 3, 10.0, std::vector<float>(9, 0.0F));
     made.name = "hills";
     CHECK_THROWS_WITH(
-        laid_on_ground(image, area_of(made), max_px),
+        resampled_to_ground(image, area_of(made), max_px),
         "drape.tif: expected an image without a coordinate system over ground without one "
         "(hills), got one with");
 }

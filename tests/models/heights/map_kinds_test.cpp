@@ -44,7 +44,7 @@ void place_by_points(const path& file, const RasterFile& raster) {
     }
     REQUIRE(
         GDALSetGCPs(
-            made.get(), 4, points.data(), wkt_of(models::heights::globe_system(wgs84).get()).c_str()) ==
+            made.get(), 4, points.data(), wkt_of(models::heights::geographic_coordinate_system(wgs84).get()).c_str()) ==
         CE_None);
     GDALDeinitGCPs(4, points.data());
 }

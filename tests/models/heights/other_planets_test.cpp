@@ -136,10 +136,10 @@ TEST_CASE("a map of Mars that is written and read again lies at its place on Mar
 }
 
 TEST_CASE("an ellipsoid is read from a system's text, and every one of the earth is WGS 84") {
-    const GeoPlace place{10.0, 20.0, {moon_m, 0.0}};
+    const GeoPosition place{10.0, 20.0, {moon_m, 0.0}};
     const GdalSession gdal;
-    CHECK(ellipsoid_of(wkt_of(system_about(place).get())) == place.ellipsoid);
-    CHECK(ellipsoid_of(wkt_of(system_named("EPSG:31467").get())) == wgs84); // Bessel's
+    CHECK(ellipsoid_of(wkt_of(local_coordinate_system(place).get())) == place.ellipsoid);
+    CHECK(ellipsoid_of(wkt_of(coordinate_system_from_name("EPSG:31467").get())) == wgs84); // Bessel's
     CHECK(ellipsoid_of("no system") == wgs84);
     CHECK(ellipsoid_of("SPHEROID[\"x\",") == wgs84);
     CHECK(ellipsoid_of("SPHEROID[\"x\",-3,nan]") == wgs84);
@@ -148,7 +148,7 @@ TEST_CASE("an ellipsoid is read from a system's text, and every one of the earth
 TEST_CASE("on a sphere the frame's metres north are its radius by the angle") {
     const TransverseMercator frame({-30.0, 40.0, {moon_m, 0.0}});
     CHECK(frame.local_from_geo({-29.0, 40.0}).y == Approx(moon_m * rad).epsilon(1e-12));
-    const GeoPlace back = frame.geo_from_local({5000.0, -7000.0});
+    const GeoPosition back = frame.geo_from_local({5000.0, -7000.0});
     CHECK(back.ellipsoid == frame.origin().ellipsoid);
     CHECK(glm::distance(frame.local_from_geo(back), glm::dvec2(5000.0, -7000.0)) < 1e-6);
 }

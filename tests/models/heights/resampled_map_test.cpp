@@ -22,7 +22,7 @@ namespace {
 
 using std::filesystem::path;
 
-Deviation deviation_of(const std::vector<path>& files, const HeightField& field) {
+HeightDeviation deviation_of(const std::vector<path>& files, const HeightField& field) {
     const HeightSource source(files);
     return source
         .deviation_of([&field](double x_m, double y_m) { return field.height_at(x_m, y_m); })
@@ -95,7 +95,7 @@ TEST_CASE("at 70 degrees north the frame is true and its corners say how true") 
     CHECK(
         distortion->turn_deg ==
         Approx(0.25 * std::sin(70.0 * std::numbers::pi / 180.0)).epsilon(0.05));
-    const Deviation deviation = deviation_of({file}, field);
+    const HeightDeviation deviation = deviation_of({file}, field);
     CHECK(deviation.places > 10000);
     CHECK(deviation.rms_m < 1.5);
 }

@@ -45,7 +45,7 @@ TEST_CASE("a runway's own places are told along it and to its left") {
     strip.begin_m = {100.0, 200.0};
     strip.heading_rad = rad_from_deg(90.0);
     CHECK(glm::distance(strip.place({50.0, 10.0}), glm::dvec2(150.0, 210.0)) < 1e-9);
-    CHECK(glm::distance(strip.on_strip({150.0, 210.0}), glm::dvec2(50.0, 10.0)) < 1e-9);
+    CHECK(glm::distance(strip.strip_from_world({150.0, 210.0}), glm::dvec2(50.0, 10.0)) < 1e-9);
     CHECK(strip.distance_m({1000.0, 215.0}) == 0.0);
     CHECK(strip.distance_m({1000.0, 232.5}) == Approx(10.0));
     CHECK(strip.distance_m({97.0, 226.5}) == Approx(5.0));
@@ -56,14 +56,14 @@ TEST_CASE("ground is levelled on a runway and 60 m beside it, and kept far from 
     const HeightField field = field_of(rolling_m);
     const auto site = runway_site(field, {{{200.0, -100.0}}, rad_from_deg(33.0), 0.0});
     REQUIRE(site);
-    CHECK(site->is_as_wished);
+    CHECK(site->matches_request);
     CHECK(site->earthwork_m > 5.0);
     const HeightField level = levelled(field, site->strip);
     const RunwayStrip& strip = site->strip;
     CHECK(std::abs(strip.rise) <= max_rise);
     for (double along_m = -60.0; along_m <= strip.length_m + 60.0; along_m += 7.0) {
         for (double left_m = -82.5; left_m <= 82.5; left_m += 5.0) {
-            if (strip.distance_m(strip.place({along_m, left_m})) <= levelled_beside_m) {
+            if (strip.distance_m(strip.place({along_m, left_m})) <= level_margin_m) {
                 REQUIRE(gap_to(strip, level, strip.place({along_m, left_m})) < 1e-3);
             }
         }
@@ -91,7 +91,7 @@ TEST_CASE("cuttings and embankments rise by one in seven, and end where they mee
     for (const double own_m : {70.0, 130.0}) {
         const HeightField level = levelled(field_of([&](double, double) { return own_m; }), strip);
         const double towards = own_m < 100.0 ? -1.0 : 1.0;
-        const double begins_m = 22.5 + levelled_beside_m + std::sqrt(2.0) * spacing_m;
+        const double begins_m = 22.5 + level_margin_m + std::sqrt(2.0) * spacing_m;
         for (double x_m = 150.0; x_m < 300.0; x_m += spacing_m) {
             CHECK(
                 *level.height_at(x_m, 0.0) ==
@@ -112,7 +112,7 @@ TEST_CASE("cuttings and embankments rise by one in seven, and end where they mee
 TEST_CASE("a levelled field is the same place on the earth") {
     HeightField field = field_of(rolling_m);
     field.name = "rolling";
-    field.place = GeoPlace{46.0, 7.0};
+    field.place = GeoPosition{46.0, 7.0};
     field.filled_voids = 3;
     const HeightField level = levelled(field, {});
     CHECK(level.name == "rolling");
@@ -123,7 +123,7 @@ TEST_CASE("a levelled field is the same place on the earth") {
 }
 
 TEST_CASE("a runway follows a gentle slope and cuts through a steep one") {
-    const RunwayWish north{{{0.0, 0.0}}, 0.0, 0.0};
+    const RunwayRequest north{{{0.0, 0.0}}, 0.0, 0.0};
     const auto gentle =
         runway_site(field_of([](double, double y_m) { return 300.0 + 0.006 * y_m; }), north);
     REQUIRE(gentle);
@@ -143,13 +143,13 @@ TEST_CASE("where the ground is too rough another place near it is found") {
         return x_m > 3000.0 ? 500.0 : 500.0 + 60.0 * std::sin(x_m / 150.0) * std::sin(y_m / 180.0);
     };
     const HeightField field = field_of(ridges);
-    const RunwayWish wish{{{0.0, 0.0}}, rad_from_deg(70.0), 0.0};
+    const RunwayRequest wish{{{0.0, 0.0}}, rad_from_deg(70.0), 0.0};
     const auto site = runway_site(field, wish);
     REQUIRE(site);
     CHECK(site->earthwork_m <= max_earthwork_m);
-    CHECK_FALSE(site->is_as_wished);
+    CHECK_FALSE(site->matches_request);
     CHECK(site->strip.distance_m({0.0, 0.0}) > 2500.0);
-    CHECK(site->strip.distance_m({0.0, 0.0}) < looked_for_within_m);
+    CHECK(site->strip.distance_m({0.0, 0.0}) < runway_search_radius_m);
     CHECK(runway_site(field, wish)->strip == site->strip);
 
     // A path that leads there has it nearer to where it comes by.

@@ -440,7 +440,7 @@ TEST_CASE("axes in degrees are never metres, at any spacing") {
     metres.transform = {8.0, 0.5, 0.0, 47.0, 0.0, -0.5};
     ImportOptions options;
     options.system = "metres";
-    CHECK_NOTHROW(check_system(options));
+    CHECK_NOTHROW(check_coordinate_system(options));
     CHECK(read_small(metres, options).spacing_m() == 0.5);
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("where the larger way alone counts, the two-sided distance is as tight
     const TriangleMesh coarse = tests::ball(9);
     models::measure::DistanceOptions options = few_samples();
     const MeshDistance both = distance(fine, coarse, options);
-    options.larger_alone = true;
+    options.maximum_only = true;
     const MeshDistance larger = distance(fine, coarse, options);
     CHECK(larger.min_hausdorff_m() <= both.max_hausdorff_m());
     CHECK(larger.max_hausdorff_m() >= both.min_hausdorff_m());

@@ -1,6 +1,6 @@
 #include "models/measure/nearest_point.h"
 #include "models/measure/triangle_bvh.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "tests/models/measure/made_meshes.h"
 
 #include <catch2/catch.hpp>
@@ -211,7 +211,7 @@ TEST_CASE("many threads may ask one tree") {
     std::vector<glm::dvec3> points(2000);
     std::ranges::generate(points, [&] { return dice.point(-1.5, 1.5); });
     std::vector<NearestOnMesh> found(points.size());
-    share_out(
+    parallel_for(
         points.size(), 4, [&](std::size_t i, std::size_t) { found[i] = bvh.nearest(points[i]); });
     for (std::size_t i = 0; i < points.size(); ++i) {
         CHECK(found[i].triangle == bvh.nearest(points[i]).triangle);

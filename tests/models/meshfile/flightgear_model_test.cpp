@@ -1,6 +1,6 @@
 #include "models/meshfile/format_axes.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/turning_model.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/meshfile/xml_tree.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
@@ -75,7 +75,7 @@ TEST_CASE("an aircraft of FlightGear is read by its own file, which names its mo
 
 TEST_CASE("a faulty number in a range costs the range alone") {
     file_with("square.ac", ac3d_square("0x0", "near"));
-    const TurningModel model = read_turning_model(
+    const RotatingModel model = read_rotating_model(
         file_with(
             "ranges.xml",
             "<PropertyList><path>square.ac</path><animation><type>range</type>"
@@ -102,7 +102,7 @@ TEST_CASE("a FlightGear model includes files and names groups of objects") {
         "<PropertyList include=\"common.xml\"><path>square.ac</path><animation n='3' include = "
         "'spin.xml'><object-name>all</object-name></animation><animation include='gone.xml'/>"
         "</PropertyList>");
-    const TurningModel model = read_turning_model(file, {});
+    const RotatingModel model = read_rotating_model(file, {});
     CHECK(model.body.triangles.size() == 2); // the sub-model
     REQUIRE(model.parts.size() == 1);
     CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 1.0, 0.0));

@@ -1,4 +1,4 @@
-#include "models/display_colour.h"
+#include "models/srgb.h"
 #include "models/meshfile/base64.h"
 #include "models/meshfile/mesh_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
@@ -132,11 +132,11 @@ TEST_CASE("primitives of one glTF mesh share the vertices of the same accessor")
 }
 
 TEST_CASE("a display value is brighter than the light it stands for, and comes back to the bit") {
-    CHECK(linear_from_display(glm::dvec3(0.5)).x == Approx(0.214041));
-    CHECK(linear_from_display({0.0, 0.04045, 1.0}).y == Approx(0.04045 / 12.92));
+    CHECK(linear_from_srgb(glm::dvec3(0.5)).x == Approx(0.214041));
+    CHECK(linear_from_srgb({0.0, 0.04045, 1.0}).y == Approx(0.04045 / 12.92));
     for (int step = 0; step <= 1000; ++step) {
         const glm::vec3 display(static_cast<float>(step) / 1000.0F);
-        CHECK(glm::vec3(display_from_linear(linear_from_display(glm::dvec3(display)))) == display);
+        CHECK(glm::vec3(srgb_from_linear(linear_from_srgb(glm::dvec3(display)))) == display);
     }
 }
 

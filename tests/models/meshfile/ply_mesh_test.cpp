@@ -1,5 +1,5 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/no_index.h"
+#include "models/invalid_index.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -251,5 +251,5 @@ TEST_CASE("texture coordinates of a PLY file's vertices and of its faces are rea
     const Triangle& corners = of_faces.corner_texture_coordinates[0];
     CHECK(of_faces.texture_coordinates[corners[1]] == glm::vec2(0.5F, 0.0F));
     CHECK(of_faces.texture_coordinates[corners[2]] == glm::vec2(0.5F, 1.0F));
-    CHECK(of_faces.corner_texture_coordinates[1][0] == no_index);
+    CHECK(of_faces.corner_texture_coordinates[1][0] == invalid_index);
 }

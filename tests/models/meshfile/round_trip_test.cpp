@@ -1,7 +1,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/mesh_join.h"
-#include "models/no_index.h"
+#include "models/meshfile/mesh_append.h"
+#include "models/invalid_index.h"
 #include "models/repair/repair.h"
 #include "sim/base/text_file.h"
 #include "tests/models/meshfile/mesh_samples.h"
@@ -107,7 +107,7 @@ TEST_CASE("texture coordinates that break along an edge come back corner by corn
     for (std::uint32_t t = 0; t < 12; ++t) {
         before.corner_texture_coordinates.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
-    before.corner_texture_coordinates[5] = {no_index, no_index, no_index};
+    before.corner_texture_coordinates[5] = {invalid_index, invalid_index, invalid_index};
     for (const std::string ending : {".obj", ".ply", ".gltf", ".glb"}) {
         INFO(ending);
         const TriangleMesh after = written_and_read(before, ending);
@@ -115,14 +115,14 @@ TEST_CASE("texture coordinates that break along an edge come back corner by corn
         for (std::size_t t = 0; t < 12; ++t) {
             for (std::size_t k = 0; k < 3 && t != 5; ++k) {
                 const std::uint32_t is = after.corner_texture_coordinates[t][k];
-                REQUIRE(is != no_index);
+                REQUIRE(is != invalid_index);
                 CHECK(
                     after.texture_coordinates[is] ==
                     before.texture_coordinates[before.corner_texture_coordinates[t][k]]);
             }
         }
         // glTF has them for all vertices or for none.
-        CHECK((after.corner_texture_coordinates[5][0] == no_index) == (ending[1] != 'g'));
+        CHECK((after.corner_texture_coordinates[5][0] == invalid_index) == (ending[1] != 'g'));
         CHECK(repaired(after).mesh.corner_texture_coordinates.size() == 12);
     }
 }
@@ -170,19 +170,19 @@ TEST_CASE("a mesh far from the origin keeps its digits in glTF, by the translati
 
 TEST_CASE("what a format does not hold is told") {
     TriangleMesh mesh = coloured_cube();
-    CHECK(notes_on_writing("a.obj", mesh).empty());
-    CHECK(notes_on_writing("a.glb", mesh).empty());
+    CHECK(write_warnings("a.obj", mesh).empty());
+    CHECK(write_warnings("a.glb", mesh).empty());
     mesh.texture_coordinates = {{0.0F, 0.0F}};
     mesh.corner_texture_coordinates.assign(12, {0, 0, 0});
     CHECK(
-        notes_on_writing("a.stl", mesh) ==
+        write_warnings("a.stl", mesh) ==
         std::vector<std::string>{"a.stl: the format holds no normals, colours of vertices, "
                                  "materials, texture coordinates; they are left out"});
     CHECK(
-        notes_on_writing("a.wrl", mesh) ==
+        write_warnings("a.wrl", mesh) ==
         std::vector<std::string>{
             "a.wrl: the format holds no texture coordinates; they are left out"});
-    CHECK(notes_on_writing("a.stl", cube()).empty());
+    CHECK(write_warnings("a.stl", cube()).empty());
 }
 
 TEST_CASE("a picture inside a glTF file becomes a file beside an OBJ file, and goes back in") {

@@ -1,5 +1,5 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/turning_model.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/repair/repair.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
@@ -110,22 +110,22 @@ TEST_CASE("what is mostly transparent is left out or glass, unless nothing else 
     two.replace(two.find("kids 1"), 6, "kids 2");
     for (const std::uint32_t opacity : {255U, 20U, 5U}) {
         file_with("two.bmp", tiff_of_opacity(opacity));
-        const bool is_clear = opacity < 128U;
+        const bool is_transparent = opacity < 128U;
         const TriangleMesh mesh = read_mesh(file_with("two.ac", two + plain), {.pictures = true});
-        CHECK(mesh.triangles.size() == (is_clear ? 1U : 3U));
-        CHECK(mesh.notes.size() == (is_clear ? 1U : 0U));
+        CHECK(mesh.triangles.size() == (is_transparent ? 1U : 3U));
+        CHECK(mesh.notes.size() == (is_transparent ? 1U : 0U));
         const auto alone = file_with("alone.ac", ac3d_square("0x0"));
         CHECK(read_mesh(alone, {.pictures = true}).triangles.size() == 2);
         const MeshParts parts = read_parts(file_with("two.ac", two + plain), {.pictures = true});
-        CHECK(parts.body.triangles.size() == (is_clear ? 1U : 3U));
+        CHECK(parts.body.triangles.size() == (is_transparent ? 1U : 3U));
         CHECK(parts.clear.mesh.triangles.size() == (opacity == 20U ? 2U : 0U));
         CHECK(parts.body.notes.size() == (opacity == 5U ? 1U : 0U));
         if (opacity == 20U) {
             CHECK(parts.clear.opacity == Approx(20.0 / 255.0));
         }
-        if (is_clear) {
+        if (is_transparent) {
             CHECK(read_parts(alone, {.pictures = true}).body.triangles.empty());
-            CHECK(read_turning_model(alone, {.pictures = true}).body.triangles.size() == 2);
+            CHECK(read_rotating_model(alone, {.pictures = true}).body.triangles.size() == 2);
         }
     }
 }
@@ -181,19 +181,19 @@ TEST_CASE("clear materials of AC3D, glTF and FlightGear files come apart") {
     const std::string pane = "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\n"
                              "mat 1\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
     const auto file = file_with("canopy.ac", two + pane);
-    const auto check = [](const TurningModel& model) {
+    const auto check = [](const RotatingModel& model) {
         CHECK(model.body.triangles.size() == 2);
         CHECK(model.clear.mesh.triangles.size() == 1);
         CHECK(model.clear.opacity == Approx(0.3F));
     };
-    check(read_turning_model(file, {}));
-    check(read_turning_model(
+    check(read_rotating_model(file, {}));
+    check(read_rotating_model(
         file_with("canopy.xml", "<PropertyList><path>canopy.ac</path></PropertyList>"), {}));
     CHECK(read_mesh(file).triangles.size() == 3); // as one mesh all of it is there
 
     std::string all = ac3d_square("0x0");
     all.replace(all.find("trans 0"), 7, "trans 1");
-    const TurningModel unseen = read_turning_model(file_with("unseen.ac", all), {});
+    const RotatingModel unseen = read_rotating_model(file_with("unseen.ac", all), {});
     CHECK(unseen.body.triangles.size() == 2);
     CHECK(unseen.clear.mesh.triangles.empty());
 
@@ -206,5 +206,5 @@ TEST_CASE("clear materials of AC3D, glTF and FlightGear files come apart") {
     const std::size_t material = text.rfind('{', text.rfind("\"pbrMetallicRoughness\"", at));
     text.insert(material + 1, "\"alphaMode\":\"BLEND\",");
     write_file(gltf, text);
-    check(read_turning_model(gltf, {}));
+    check(read_rotating_model(gltf, {}));
 }

@@ -1,10 +1,10 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/planar/decimal_grid.h"
 #include "models/planar/planar_model.h"
 #include "models/planar/planarize.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_check.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@
 #include <vector>
 
 using namespace octant::models::planar;
-using octant::Dice;
+using octant::RandomGenerator;
 using octant::models::polygons::plane_of;
 using octant::models::polygons::PolygonModel;
 
@@ -105,10 +105,10 @@ TEST_CASE("quadrangles of a file with six decimals become planar without being c
     const PolygonModel given = written_torus();
     REQUIRE(unevenness(given) > 1e-8);
     const PlanarModel planar = planar_model(given);
-    CHECK(planar.cut_polygons == 0);
+    CHECK(planar.triangulated_polygons == 0);
     CHECK(planar.model.polygons.size() == given.polygons.size());
     CHECK(unevenness(planar.model) < 2.0 * planar_noise);
-    const PolygonModel back = as_given(planar.model, planar, given);
+    const PolygonModel back = in_model_frame(planar.model, planar, given);
     for (std::size_t i = 0; i < given.vertices_m.size(); ++i) {
         CHECK(glm::distance(back.vertices_m[i], given.vertices_m[i]) < 8e-6);
     }
@@ -118,10 +118,10 @@ TEST_CASE("a quadrangle that is bent by more than its file's precision is cut") 
     PolygonModel model = plate();
     model.vertices_m[2].z = 1.0 / 3e4;
     const PlanarModel planar = planar_model(model);
-    CHECK(planar.cut_polygons == 1);
+    CHECK(planar.triangulated_polygons == 1);
     REQUIRE(planar.model.polygons.size() == 2);
     CHECK(planar.model.parents == std::vector<std::uint32_t>{0, 0});
-    CHECK(as_given(planar.model, planar, model).vertices_m == model.vertices_m);
+    CHECK(in_model_frame(planar.model, planar, model).vertices_m == model.vertices_m);
 }
 
 TEST_CASE("a planar model keeps its bits, whatever its place and size") {
@@ -133,7 +133,7 @@ TEST_CASE("a planar model keeps its bits, whatever its place and size") {
             }
             const PlanarModel planar = planar_model(model);
             CHECK(planar.radius_m == Approx(std::sqrt(0.5) * scale));
-            CHECK(as_given(planar.model, planar, model).vertices_m == model.vertices_m);
+            CHECK(in_model_frame(planar.model, planar, model).vertices_m == model.vertices_m);
         }
     }
 }
@@ -187,7 +187,7 @@ TEST_CASE("what ends a hair beside a polygon ends on it") {
         model.vertices_m.end(), {{0.3, 0.3, 4e-7}, {0.6, 0.3, -3e-7}, {0.5, 0.3, 0.812345}});
     add(model, {4, 5, 6});
     const PlanarModel planar = planar_model(model);
-    CHECK(planar.cut_polygons == 0);
+    CHECK(planar.triangulated_polygons == 0);
     const octant::Plane floor = plane_of(planar.model, 0);
     CHECK(std::abs(distance_m(floor, planar.model.vertices_m[4])) < planar_noise);
     CHECK(std::abs(distance_m(floor, planar.model.vertices_m[5])) < planar_noise);
@@ -200,7 +200,7 @@ TEST_CASE("corners in one place are one, and polygons without an area are left o
     add(model, {0, 1, 4, 3});
     add(model, {0, 5, 1});
     const PlanarModel planar = planar_model(model);
-    CHECK(planar.lost_polygons == 1);
+    CHECK(planar.dropped_polygons == 1);
     REQUIRE(planar.model.polygons.size() == 2);
     CHECK(planar.model.vertices_m[4] == planar.model.vertices_m[2]);
 }
@@ -211,7 +211,7 @@ TEST_CASE("a polygon with a slight dent is cut into convex pieces") {
     model.corner_vertices = {0, 4, 1, 2, 3};
     model.polygons[0].corner_count = 5;
     const PlanarModel planar = planar_model(model);
-    CHECK(planar.cut_polygons == 1);
+    CHECK(planar.triangulated_polygons == 1);
     for (std::size_t i = 0; i < planar.model.polygons.size(); ++i) {
         CHECK_FALSE(octant::models::polygons::polygon_fault(planar.model, i, planar_tolerance));
     }
@@ -225,7 +225,7 @@ TEST_CASE("a polygon that only rounding dents is cut, but not counted") {
     model.polygons[0].corner_count = 6;
     const PlanarModel planar = planar_model(model);
     CHECK(planar.model.polygons.size() > 1);
-    CHECK(planar.cut_polygons == 0);
+    CHECK(planar.triangulated_polygons == 0);
 }
 
 TEST_CASE("no polygon of the shipped aircraft is bent or dented") {
@@ -233,8 +233,8 @@ TEST_CASE("no polygon of the shipped aircraft is bent or dented") {
         INFO(name);
         const PlanarModel planar = planar_model(octant::models::polygons::read_obj(
             std::string(OCTANT_SOURCE_DIR) + "/models/" + name + ".obj"));
-        CHECK(planar.cut_polygons == 0);
-        CHECK(planar.lost_polygons == 0);
+        CHECK(planar.triangulated_polygons == 0);
+        CHECK(planar.dropped_polygons == 0);
     }
 }
 

@@ -15,7 +15,7 @@ using namespace octant::models::polygons;
 namespace {
 
 TriangleMesh in_file(const PolygonModel& body, const FileAxes& axes) {
-    TriangleMesh mesh = as_triangles(body);
+    TriangleMesh mesh = mesh_from_polygons(body);
     for (glm::dvec3& vertex_m : mesh.vertices_m) {
         vertex_m = axes.file_from_body(vertex_m);
     }
@@ -43,14 +43,14 @@ TEST_CASE("nose and top of the F-15 are found whichever way its file turns it") 
           "right,forward,up",
           "back,right,up"}) {
         CAPTURE(axes);
-        const auto guess = guessed_axes(in_file(body, FileAxes::from_text(axes)));
+        const auto guess = guess_axes(in_file(body, FileAxes::from_text(axes)));
         REQUIRE(guess.has_value());
         CHECK(guess->text() == axes);
     }
 }
 
 TEST_CASE("shapes without nose or top are not guessed at") {
-    CHECK_FALSE(guessed_axes(TriangleMesh()).has_value());
-    CHECK_FALSE(guessed_axes(box({1.0, 1.0, 1.0})).has_value());
-    CHECK_FALSE(guessed_axes(box({5.0, 3.0, 1.0})).has_value());
+    CHECK_FALSE(guess_axes(TriangleMesh()).has_value());
+    CHECK_FALSE(guess_axes(box({1.0, 1.0, 1.0})).has_value());
+    CHECK_FALSE(guess_axes(box({5.0, 3.0, 1.0})).has_value());
 }

@@ -1,6 +1,6 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/polygons/polygon_check.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -11,14 +11,14 @@
 #include <optional>
 
 using namespace octant::models;
-using namespace octant::models::made;
+using namespace octant::models::procedural;
 using namespace octant::models::polygons;
 
 namespace {
 
 constexpr double inner_radius_m = 13'880.0; ///< inside the sides of the 24-gon
 
-glm::dvec3 point_inside(octant::Dice& dice, double min_height_m, double max_height_m) {
+glm::dvec3 point_inside(octant::RandomGenerator& dice, double min_height_m, double max_height_m) {
     while (true) {
         const double x = dice.between(-inner_radius_m, inner_radius_m);
         const double y = dice.between(-inner_radius_m, inner_radius_m);
@@ -91,7 +91,7 @@ TEST_CASE("the ground lies at height 0, faces up and covers every place once") {
             CHECK(model.vertices_m[vertex].z == 0.0);
         }
     }
-    octant::Dice dice(60);
+    octant::RandomGenerator dice(60);
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 above = point_inside(dice, 1.0, 1.0);
         int covered = 0;
@@ -120,7 +120,7 @@ TEST_CASE("the areas of the ground add up to the 24-gon") {
 
 TEST_CASE("along no line of sight inside the ring do two polygons face the eye") {
     const PolygonModel model = background60();
-    octant::Dice dice(60);
+    octant::RandomGenerator dice(60);
     int hits = 0;
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 eye = point_inside(dice, 0.5, 6000.0);

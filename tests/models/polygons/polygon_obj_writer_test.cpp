@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
 #include "sim/base/output_file.h"
@@ -8,7 +8,7 @@
 #include "obj_texts.h"
 
 using namespace octant::models;
-using namespace octant::models::made;
+using namespace octant::models::procedural;
 using namespace octant::models::polygons;
 using namespace octant::models::polygons::test;
 

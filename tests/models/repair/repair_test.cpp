@@ -92,7 +92,7 @@ TEST_CASE("a closed mesh without faults stays as it is, bit for bit") {
     CHECK(after.mesh.corner_normals == before.corner_normals);
     CHECK(after.mesh.triangle_materials == before.triangle_materials);
     CHECK(after.counts == RepairCounts{.shells = 1});
-    CHECK(in_words(after.counts).empty());
+    CHECK(describe_counts(after.counts).empty());
 }
 
 TEST_CASE("an open mesh keeps its hole, which is counted") {
@@ -101,7 +101,7 @@ TEST_CASE("an open mesh keeps its hole, which is counted") {
     const RepairedMesh after = checked(mesh);
     CHECK(after.counts == RepairCounts{.boundary_loops = 1, .shells = 1});
     CHECK(after.mesh.triangles == mesh.triangles);
-    CHECK(in_words(after.counts) == std::vector<std::string>{"1 hole or open rim left as it is"});
+    CHECK(describe_counts(after.counts) == std::vector<std::string>{"1 hole or open rim left as it is"});
 }
 
 TEST_CASE("vertices of no triangle are taken out and the others keep their order") {
@@ -112,7 +112,7 @@ TEST_CASE("vertices of no triangle are taken out and the others keep their order
     CHECK(after.mesh.vertices_m == tetrahedron().vertices_m);
     CHECK(after.mesh.triangles == tetrahedron().triangles);
     CHECK(after.counts == RepairCounts{.unreferenced_vertices = 1, .shells = 1});
-    CHECK(in_words(after.counts) == std::vector<std::string>{"1 vertex of no triangle taken out"});
+    CHECK(describe_counts(after.counts) == std::vector<std::string>{"1 vertex of no triangle taken out"});
 }
 
 TEST_CASE("triangles that share no vertices are welded where places agree") {
@@ -262,7 +262,7 @@ TEST_CASE("a triangle that comes again, either way round, is taken out; material
     mesh.triangles.push_back({1, 0, 2});
     mesh.triangle_materials.push_back(2);
     const RepairedMesh after = checked(mesh);
-    CHECK(after.counts == RepairCounts{.doubled_triangles = 2, .shells = 1});
+    CHECK(after.counts == RepairCounts{.duplicate_triangles = 2, .shells = 1});
     CHECK(after.mesh.triangles == tetrahedron().triangles);
     CHECK(after.mesh.triangle_materials == std::vector<std::uint32_t>{0, 1, 0, 1});
 }
@@ -271,7 +271,7 @@ TEST_CASE("a closed mesh stays closed where bodies touch, whatever came twice") 
     SECTION("two boxes with a wall between them") {
         const RepairedMesh after = checked(boxes({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}));
         CHECK(after.counts.boundary_loops == 0);
-        CHECK(after.counts.doubled_triangles == 0);
+        CHECK(after.counts.duplicate_triangles == 0);
         CHECK(after.counts.shells == 2);
         CHECK(volume_m3(after.mesh) == Approx(2.0));
     }
@@ -308,7 +308,7 @@ TEST_CASE("a closed mesh stays closed where bodies touch, whatever came twice") 
         }
         const RepairedMesh after = checked(mesh);
         CHECK(after.counts.boundary_loops == 0);
-        CHECK(after.counts.doubled_triangles == 12);
+        CHECK(after.counts.duplicate_triangles == 12);
         // Both ends of the sheet's diagonal are on its rim, so one side gets a vertex in its
         // middle.
         CHECK(after.mesh.triangles.size() == 12 + 4 + 2);
@@ -364,7 +364,7 @@ TEST_CASE("of two directions the one that fewer triangles have is turned, with i
     mesh.normals.push_back({0.0F, 1.0F, 0.0F});
     mesh.corner_normals[5] = {6, 6, 6}; // these point inwards as the triangle does
     const RepairedMesh after = checked(mesh);
-    CHECK(after.counts == RepairCounts{.turned_triangles = 2, .shells = 1});
+    CHECK(after.counts == RepairCounts{.flipped_triangles = 2, .shells = 1});
     CHECK(after.mesh.triangles == cube().triangles);
     CHECK(volume_m3(after.mesh) == Approx(1.0));
     CHECK(after.mesh.corner_normals[0] == Triangle{0, 0, 0});
@@ -409,11 +409,11 @@ TEST_CASE("a door that touches its sheet along few edges keeps its own side, a f
         return mesh;
     };
     const RepairedMesh door = checked(sheet_with_door(2));
-    CHECK(door.counts.turned_triangles == 0);
+    CHECK(door.counts.flipped_triangles == 0);
     CHECK(door.counts.shells == 2);
     CHECK(door.counts.split_edges == 2);
     const RepairedMesh flap = checked(sheet_with_door(6));
-    CHECK(flap.counts.turned_triangles == 72);
+    CHECK(flap.counts.flipped_triangles == 72);
     CHECK(flap.counts.shells == 1);
 }
 

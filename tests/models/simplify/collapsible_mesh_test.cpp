@@ -19,7 +19,7 @@ CollapsibleMesh collapsible(const TriangleMesh& mesh) {
 HalfEdge edge_between(const CollapsibleMesh& mesh, std::uint32_t from, std::uint32_t to) {
     HalfEdge found = none;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
-        if (mesh.face_is_there(face_of(h)) && mesh.origin(h) == from && mesh.target(h) == to) {
+        if (mesh.has_face(face_of(h)) && mesh.origin(h) == from && mesh.target(h) == to) {
             found = h;
         }
     }
@@ -31,7 +31,7 @@ TriangleMesh what_is_there(const CollapsibleMesh& mesh, const TriangleMesh& plac
     made.vertices_m = places.vertices_m;
     made.vertices_m.resize(mesh.vertex_slots());
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.face_is_there(face)) {
+        if (mesh.has_face(face)) {
             made.triangles.push_back(mesh.corners(face));
         }
     }
@@ -63,7 +63,7 @@ TEST_CASE("an octahedron collapses to a closed manifold of 6 triangles and 5 ver
     mesh.collapse(h);
     CHECK(mesh.face_count() == 6);
     CHECK(mesh.vertex_count() == 5);
-    CHECK_FALSE(mesh.vertex_is_there(4));
+    CHECK_FALSE(mesh.has_vertex(4));
     CHECK(neighbours(mesh, 0) == std::set<std::uint32_t>{1, 2, 3, 5});
     const TriangleMesh after = what_is_there(mesh, original);
     CHECK(is_manifold(after));
@@ -119,12 +119,12 @@ TEST_CASE("a compacted mesh is the same with fewer slots") {
     const TriangleMesh original = ball(12);
     CollapsibleMesh mesh = collapsible(original);
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; h += 7) {
-        if (mesh.face_is_there(face_of(h)) && mesh.may_collapse(h)) {
+        if (mesh.has_face(face_of(h)) && mesh.may_collapse(h)) {
             mesh.collapse(h);
         }
     }
     const CollapsibleMesh before = mesh;
-    const KeptSlots kept = mesh.compact();
+    const SlotMap kept = mesh.compact();
     REQUIRE(mesh.face_count() == mesh.face_slots());
     REQUIRE(mesh.vertex_count() == mesh.vertex_slots());
     REQUIRE(mesh.face_slots() < before.face_slots());

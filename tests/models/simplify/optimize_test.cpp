@@ -157,14 +157,14 @@ TEST_CASE("a split edge leaves a closed manifold with two triangles and one vert
     mesh.collapse(0);
     REQUIRE(mesh.face_count() == 6);
     std::uint32_t vertex = 0;
-    while (mesh.vertex_is_there(vertex)) {
+    while (mesh.has_vertex(vertex)) {
         ++vertex;
     }
     std::array<std::uint32_t, 2> free{};
     std::size_t found = 0;
     HalfEdge edge = none;
     for (std::uint32_t face = 0; face < mesh.face_slots(); ++face) {
-        if (mesh.face_is_there(face)) {
+        if (mesh.has_face(face)) {
             edge = 3 * face;
         } else {
             free.at(found++) = face;

@@ -1,4 +1,4 @@
-#include "models/made/made_globe.h"
+#include "models/procedural/globe.h"
 #include "models/simplify/paper_simplify.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 using namespace octant::models;
-using namespace octant::models::made;
+using namespace octant::models::procedural;
 using namespace octant::models::simplify;
 using namespace octant::tests;
 

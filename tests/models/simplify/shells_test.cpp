@@ -92,7 +92,7 @@ TEST_CASE("a goal that all shells cannot reach drops the smallest ones, unless t
     options.goal.faces = 12;
     const Simplified fewer = simplified(balls(4), options);
     CHECK(fewer.mesh.triangles.size() <= 12);
-    CHECK(fewer.shells_gone == 1);
+    CHECK(fewer.shells_removed == 1);
     CHECK(euler_number(fewer.mesh) == 6); // three closed shells are left
     INFO("the two largest ones alone, at the same number of triangles, are farther off");
     const TriangleMesh two = simplified(balls(2), options).mesh;
@@ -104,11 +104,11 @@ TEST_CASE("a goal that all shells cannot reach drops the smallest ones, unless t
     CHECK(off(fewer.mesh).rms_m() < 0.5 * off(two).rms_m());
     options.keep_shells = true;
     const Simplified all = simplified(balls(4), options);
-    CHECK(all.shells_gone == 0);
+    CHECK(all.shells_removed == 0);
     CHECK(all.mesh.triangles.size() == 16);
     options.keep_shells = false;
     options.goal.faces = 200;
-    CHECK(simplified(balls(4), options).shells_gone == 0);
+    CHECK(simplified(balls(4), options).shells_removed == 0);
 }
 
 TEST_CASE("of shells that must go those go that lie by others, small ones far off stay") {
@@ -119,7 +119,7 @@ TEST_CASE("of shells that must go those go that lie by others, small ones far of
     SimplifyOptions options;
     options.goal.faces = 10;
     const Simplified fewer = simplified(mesh, options);
-    CHECK(fewer.shells_gone == 1);
+    CHECK(fewer.shells_removed == 1);
     CHECK(std::ranges::any_of(
         fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 8.0; }));
 }
@@ -132,7 +132,7 @@ TEST_CASE("parts above a dense mesh do not vanish where another step costs less"
         options.effort = effort;
         const Simplified fewer = simplified(fine, options);
         CHECK(fewer.mesh.triangles.size() <= 140);
-        CHECK(fewer.shells_gone == 0);
+        CHECK(fewer.shells_removed == 0);
         CHECK(measure::distance(fine, fewer.mesh, {.samples = 0}).max_hausdorff_m() < 0.1);
     }
 }
@@ -144,7 +144,7 @@ TEST_CASE("a part that is far from all others does not vanish, whatever the goal
     SimplifyOptions options;
     options.goal.faces = 4;
     const Simplified fewer = simplified(mesh, options);
-    CHECK(fewer.shells_gone == 0);
+    CHECK(fewer.shells_removed == 0);
     CHECK(fewer.mesh.triangles.size() == 8);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("of very many shells that cannot collapse the goal's number stays, spr
     options.goal.faces = 80;
     const Simplified fewer = simplified(mesh, options);
     CHECK(fewer.mesh.triangles.size() <= 80);
-    CHECK(fewer.shells_gone >= 180);
+    CHECK(fewer.shells_removed >= 180);
     // The largest ones all stand on one side.
     CHECK(std::ranges::any_of(
         fewer.mesh.vertices_m, [](const glm::dvec3& vertex_m) { return vertex_m.x > 700.0; }));
@@ -239,11 +239,11 @@ TEST_CASE("for a wanted error shells go that lie nearer to others than that, unl
     SimplifyOptions options;
     options.goal.error_m = 0.12;
     const Simplified fewer = simplified(mesh, options);
-    CHECK(fewer.shells_gone == 1);
+    CHECK(fewer.shells_removed == 1);
     CHECK(euler_number(fewer.mesh) == 4);
     CHECK(fewer.steps > 0);
     options.goal.error_m = 0.02;
-    CHECK(simplified(mesh, options).shells_gone == 0);
+    CHECK(simplified(mesh, options).shells_removed == 0);
     options.goal.error_m = 0.12;
     options.keep_shells = true;
     CHECK(euler_number(simplified(mesh, options).mesh) == 6);

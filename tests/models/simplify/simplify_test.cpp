@@ -404,7 +404,7 @@ TEST_CASE("a mesh that is sorted in space is the same surface with the same attr
         return all;
     };
     TriangleMesh sorted = mesh;
-    sort_in_space(sorted);
+    sort_spatially(sorted);
     CHECK(sorted.triangles != mesh.triangles);
     CHECK(faces(sorted) == faces(mesh));
 }

@@ -15,7 +15,7 @@ TEST_CASE("what a host sends is read again as it was meant, in both byte orders"
         WireWriter message(order);
         const test::HostScene scene;
         scene.add_to(message, {2, CigiMode::Operate, true, 77, 123456, 70});
-        CigiRate rate;
+        CigiRateControl rate;
         rate.entity = 3;
         rate.local = true;
         rate.mps = {100.0, -2.5, 0.25};
@@ -23,7 +23,7 @@ TEST_CASE("what a host sends is read again as it was meant, in both byte orders"
         add_rate(message, rate);
 
         std::vector<CigiPacket> packets;
-        REQUIRE(decode_cigi(message.bytes(), packets).fault == Fault::None);
+        REQUIRE(decode_cigi(message.bytes(), packets).fault == PacketError::None);
         REQUIRE(packets.size() == 5);
         const auto& control = std::get<CigiIgControl>(packets[0]);
         CHECK(control.host_frame == 77);
@@ -44,7 +44,7 @@ TEST_CASE("what a host sends is read again as it was meant, in both byte orders"
         CHECK(from.entity == 3);
         CHECK(from.offset_m == scene.view.offset_m);
         CHECK(deg_from_rad(from.angles.pitch_rad) == Approx(-12.0));
-        const auto& rates = std::get<CigiRate>(packets[4]);
+        const auto& rates = std::get<CigiRateControl>(packets[4]);
         CHECK(rates.local);
         CHECK_FALSE(rates.of_part);
         CHECK(rates.mps == rate.mps);

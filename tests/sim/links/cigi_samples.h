@@ -21,20 +21,20 @@ inline constexpr double m_per_degree = 1e5;
 /// A flat ground at 100 m with a wall 300 m high from 2 E on; its edge is at 3 degrees.
 class FlatGround final : public CigiGround {
 public:
-    std::optional<CigiSurface> below(const glm::dvec3& place) const override {
+    std::optional<CigiSurfacePoint> below(const glm::dvec3& place) const override {
         if (std::abs(place.x) > 3.0 || std::abs(place.y) > 3.0) {
             return std::nullopt;
         }
-        return CigiSurface{{place.x, place.y, place.y < 2.0 ? 100.0 : 300.0}, 0.0, 0.5 * pi};
+        return CigiSurfacePoint{{place.x, place.y, place.y < 2.0 ? 100.0 : 300.0}, 0.0, 0.5 * pi};
     }
 
-    std::optional<Met> first_met(const glm::dvec3& from, const glm::dvec3& to) const override {
+    std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const override {
         constexpr int steps = 10000;
         for (int i = 0; i <= steps; ++i) {
             const glm::dvec3 at = from + (static_cast<double>(i) / steps) * (to - from);
             const auto surface = below(at);
             if (surface && at.z < surface->place.z) {
-                return Met{distance_m(from, at), *surface};
+                return TerrainHit{distance_m(from, at), *surface};
             }
         }
         return std::nullopt;

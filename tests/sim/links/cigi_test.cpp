@@ -17,7 +17,7 @@ TEST_CASE("a host's entities are read in both byte orders") {
         HostMessage message(order, 77);
         message.entity(0, 1.5, -0.5, 900.0).set(12, 10.0F).set(16, -5.0F);
         std::vector<Fix> moved;
-        REQUIRE(generator.take(message.bytes(), moved).fault == Fault::None);
+        REQUIRE(generator.take(message.bytes(), moved).fault == PacketError::None);
         CHECK(generator.host_frame() == 77);
         CHECK(generator.mode() == CigiMode::Operate);
         REQUIRE(moved.size() == 1);
@@ -37,7 +37,7 @@ TEST_CASE("an attached entity lies along its parent's axes") {
     message.entity(0, 1.0, 0.0, 900.0); // nose to the east
     message.entity(5, 100.0, 0.0, 20.0).set(4, std::uint8_t{5}).set(10, std::uint16_t{0});
     std::vector<Fix> moved;
-    REQUIRE(generator.take(message.bytes(), moved).fault == Fault::None);
+    REQUIRE(generator.take(message.bytes(), moved).fault == PacketError::None);
     REQUIRE(moved.size() == 2);
     CHECK(moved[1].latitude_deg == Approx(1.0));
     CHECK(moved[1].longitude_deg == Approx(100.0 / m_per_degree));
@@ -54,7 +54,7 @@ TEST_CASE("rates move an entity in its own axes or in those of the ground") {
         message.begin(8, 32).set(5, std::uint8_t{local ? std::uint8_t{2} : std::uint8_t{0}});
         message.set(8, 50.0F).set(28, 10.0F);
         std::vector<Fix> moved;
-        REQUIRE(generator.take(message.bytes(), moved).fault == Fault::None);
+        REQUIRE(generator.take(message.bytes(), moved).fault == PacketError::None);
         const Fix& fix = moved.back();
         CHECK(fix.velocity_ned_mps->x == Approx(local ? 0.0 : 50.0).margin(1e-9));
         CHECK(fix.velocity_ned_mps->y == Approx(local ? 50.0 : 0.0).margin(1e-9));
@@ -79,7 +79,7 @@ TEST_CASE("a message begins with Start of Frame, whose numbers are the frames'")
 TEST_CASE("values that nothing can have are left out of a message, the rest of it counts") {
     const auto packets_of = [](const HostMessage& message) {
         std::vector<CigiPacket> packets;
-        REQUIRE(decode_cigi(message.bytes(), packets).fault == Fault::None);
+        REQUIRE(decode_cigi(message.bytes(), packets).fault == PacketError::None);
         return packets.size() - 1; // without IG Control
     };
     for (const float value : {-1.0F, 2e6F, std::nanf("")}) {
@@ -105,17 +105,17 @@ TEST_CASE("what is no message of a CIGI 3 host is refused, and unknown packets a
     std::vector<Fix> moved;
     HostMessage message(ByteOrder::Big, 1);
     message.begin(200, 16).begin(24, 16);
-    CHECK(generator.take(message.bytes(), moved).fault == Fault::None);
+    CHECK(generator.take(message.bytes(), moved).fault == PacketError::None);
     CHECK(generator.unknown()[200] == 1);
     CHECK(generator.unknown()[24] == 1);
     const Bytes whole = message.bytes();
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        const Fault fault = generator.take(whole.first(length), moved).fault;
-        CHECK((fault == Fault::None) == (length == 24 || length == 40));
+        const PacketError fault = generator.take(whole.first(length), moved).fault;
+        CHECK((fault == PacketError::None) == (length == 24 || length == 40));
     }
     std::vector<std::byte> zero_size(whole.begin(), whole.end());
     zero_size[25] = std::byte{0};
-    CHECK(generator.take(zero_size, moved).fault == Fault::WrongSize);
+    CHECK(generator.take(zero_size, moved).fault == PacketError::WrongSize);
 }
 
 TEST_CASE("caps hold whatever a host asks for") {

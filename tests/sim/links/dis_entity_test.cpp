@@ -50,8 +50,8 @@ TEST_CASE("places on the ellipsoid and around the earth's centre agree") {
 TEST_CASE("a DIS entity state gives back what was written") {
     DisEntity read;
     const auto bytes = encode_dis(some_entity(), 12.5);
-    const Verdict verdict = decode_dis(bytes, read);
-    REQUIRE(verdict.fault == Fault::None);
+    const DecodeResult verdict = decode_dis(bytes, read);
+    REQUIRE(verdict.fault == PacketError::None);
     const DisEntity expected = some_entity();
     CHECK(read.entity == 3);
     CHECK(read.type == expected.type);
@@ -76,7 +76,7 @@ TEST_CASE("the five ways of dead reckoning take what belongs to them") {
         DisEntity entity = some_entity();
         entity.reckoning = reckoning;
         DisEntity read;
-        REQUIRE(decode_dis(encode_dis(entity, 0.0), read).fault == Fault::None);
+        REQUIRE(decode_dis(encode_dis(entity, 0.0), read).fault == PacketError::None);
         const int number = static_cast<int>(reckoning);
         CAPTURE(number);
         CHECK((glm::length(*read.fix.velocity_ned_mps) > 0.0) == (number >= 2));
@@ -94,7 +94,7 @@ TEST_CASE("what is no entity state is said") {
     bytes[0] = std::byte{99};
     CHECK(dis_text(decode_dis(bytes, read)) == "expected a DIS PDU of version 1 to 7, got 99");
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        CHECK(decode_dis(Bytes(whole).first(length), read).fault != Fault::None);
+        CHECK(decode_dis(Bytes(whole).first(length), read).fault != PacketError::None);
     }
     // The centre of the earth has no latitude that means anything, but is far below any aircraft.
     WireWriter writer(ByteOrder::Big);
@@ -104,5 +104,5 @@ TEST_CASE("what is no entity state is said") {
     for (const std::size_t at : {std::size_t{48}, std::size_t{56}, std::size_t{64}}) {
         writer.set(at, 0.0);
     }
-    CHECK(decode_dis(writer.bytes(), read).fault == Fault::OutOfRange);
+    CHECK(decode_dis(writer.bytes(), read).fault == PacketError::OutOfRange);
 }

@@ -3,7 +3,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
-#include "sim/links/cigi_answers.h"
+#include "sim/links/cigi_responses.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/dis_entity.h"
 #include "tests/scratch.h"
@@ -113,12 +113,12 @@ TEST_CASE("Wireshark reads CIGI answers as they are meant") {
     }
     WireWriter message(ByteOrder::Big);
     add_start_of_frame(message, {77, 1234, 250000, CigiMode::Operate, 5});
-    const CigiAnswerHead head{11, true, 9};
-    const CigiSurface surface{{47.5, 8.25, 600.25}, rad_from_deg(123.0), rad_from_deg(80.0)};
-    add_height(message, head, CigiHeight::Hot, 600.25);
-    add_heights(message, {12, true, 9}, 400.5, surface);
-    add_sight(message, {13, true, 9}, false, {true, 1500.5, {}});
-    add_sight(message, {14, true, 9}, true, {false, 2500.5, surface});
+    const CigiResponseHeader head{11, true, 9};
+    const CigiSurfacePoint surface{{47.5, 8.25, 600.25}, rad_from_deg(123.0), rad_from_deg(80.0)};
+    add_height_response(message, head, CigiHeightKind::Hot, 600.25);
+    add_extended_height_response(message, {12, true, 9}, 400.5, surface);
+    add_los_response(message, {13, true, 9}, false, {true, 1500.5, {}});
+    add_los_response(message, {14, true, 9}, true, {false, 2500.5, surface});
     add_position(message, 42, {47.5, 8.25, 700.0}, {rad_from_deg(90.0), 0.0, rad_from_deg(-10.0)});
 
     const auto sof = dissected(

@@ -43,9 +43,9 @@ std::vector<std::byte> packet_25() {
 TEST_CASE("an FDM packet of either version gives back what was written") {
     for (const auto& bytes : {packet(), packet_25()}) {
         Fix fix;
-        const Verdict verdict = decode_fdm(bytes, fix);
+        const DecodeResult verdict = decode_fdm(bytes, fix);
         const Fix expected = some_fix();
-        REQUIRE(verdict.fault == Fault::None);
+        REQUIRE(verdict.fault == PacketError::None);
         CHECK(fix.latitude_deg == Approx(expected.latitude_deg).epsilon(1e-15));
         CHECK(fix.longitude_deg == Approx(expected.longitude_deg).epsilon(1e-15));
         CHECK(fix.altitude_m == expected.altitude_m);
@@ -96,19 +96,19 @@ TEST_CASE("an FDM packet with numbers that no aircraft has is refused") {
     Fix wrong = some_fix();
     Fix fix;
     wrong.altitude_m = std::numeric_limits<double>::quiet_NaN();
-    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == Fault::NotFinite);
+    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == PacketError::NotFinite);
     wrong.altitude_m = 1e9;
-    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == Fault::OutOfRange);
+    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == PacketError::OutOfRange);
     wrong = some_fix();
     wrong.latitude_deg = 91.0;
-    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == Fault::OutOfRange);
+    CHECK(decode_fdm(encode_fdm(wrong), fix).fault == PacketError::OutOfRange);
 }
 
 TEST_CASE("a height above ground that the sender does not know is none") {
     Fix unknown = some_fix();
     unknown.above_ground_m.reset();
     Fix fix;
-    REQUIRE(decode_fdm(encode_fdm(unknown), fix).fault == Fault::None);
+    REQUIRE(decode_fdm(encode_fdm(unknown), fix).fault == PacketError::None);
     CHECK_FALSE(fix.above_ground_m.has_value());
 }
 
@@ -118,6 +118,6 @@ TEST_CASE("no packet of any length makes the FDM decoder read beyond it") {
         const std::vector<std::byte> part(
             whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
         Fix fix;
-        CHECK(decode_fdm(part, fix).fault != Fault::None);
+        CHECK(decode_fdm(part, fix).fault != PacketError::None);
     }
 }

@@ -2,7 +2,7 @@
 // flight takes a second. What is shown is judged against the truth of the flight, not against what
 // the receiver says of itself.
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
@@ -101,7 +101,7 @@ struct Sent {
     long lost = 0;
 };
 
-Sent sent(const Sender& sender, const Network& network, double length_s, Dice& dice) {
+Sent sent(const Sender& sender, const Network& network, double length_s, RandomGenerator& dice) {
     Sent all;
     auto stall = sender.stalls_s.begin();
     double place_s = 0.0;
@@ -183,9 +183,9 @@ std::vector<std::byte> bytes_of(const Sender& sender, const Fix& fix, const Pack
     return {bytes.begin(), bytes.end()};
 }
 
-Datagram datagram_of(const Sender& sender, const Packet& packet, Dice& dice) {
+Datagram datagram_of(const Sender& sender, const Packet& packet, RandomGenerator& dice) {
     glm::dvec3 at_m = sender.flight.at(packet.place_s);
-    at_m += sender.noise_m * glm::dvec3(dice.bell(), dice.bell(), 0.0);
+    at_m += sender.noise_m * glm::dvec3(dice.normal_deviate(), dice.normal_deviate(), 0.0);
     const glm::dvec3 mps = sender.flight.velocity_mps(packet.place_s);
     Fix fix;
     fix.latitude_deg = deg_from_rad(at_m.y / earth_m);
@@ -223,7 +223,7 @@ struct Shown {
     }
 };
 
-WorldPlace on_flat_earth(const VehicleKey&, const Fix& fix) {
+WorldPosition on_flat_earth(const VehicleKey&, const Fix& fix) {
     return {
         .at_m = {
             rad_from_deg(fix.longitude_deg) * earth_m,
@@ -235,7 +235,7 @@ WorldPlace on_flat_earth(const VehicleKey&, const Fix& fix) {
 Shown shown(const Sender& sender, const Network& network, double length_s) {
     constexpr double frame_s = 1.0 / 60.0;
     constexpr double from_s = 5.0;
-    Dice dice(3);
+    RandomGenerator dice(3);
     const Sent all = sent(sender, network, length_s, dice);
     LiveTraffic traffic(on_flat_earth);
     if (sender.form == Form::Lines) {
@@ -361,7 +361,7 @@ TEST_CASE("numbers of packets count what is missing, not what comes late, twice 
 TEST_CASE("a counter that stands or that several streams share tells no losses") {
     SequenceCount stands;
     SequenceCount shared;
-    Dice dice(3);
+    RandomGenerator dice(3);
     for (std::uint32_t i = 0; i < 1000; ++i) {
         stands.add(7, 32, 0.01 * i);
         if (dice.next() < 0.5) {
@@ -392,7 +392,7 @@ TEST_CASE("an hour takes no more memory than a minute") {
     LiveTraffic traffic(on_flat_earth);
     std::vector<AircraftState> states(1);
     const Sender sender{.velocity = false};
-    Dice dice(5);
+    RandomGenerator dice(5);
     double at_a_minute = 0.0;
     for (int i = 0; i < 3600 * 30; ++i) {
         const double t = i / 30.0;

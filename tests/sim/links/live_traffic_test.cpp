@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/text_file.h"
 #include "sim/links/dis_entity.h"
 #include "sim/links/flightgear_fdm.h"
@@ -21,9 +21,9 @@ using namespace octant::sim::links;
 
 namespace {
 
-using Taken = LiveTraffic::Taken;
+using PacketOutcome = LiveTraffic::PacketOutcome;
 
-WorldPlace flat(const VehicleKey&, const Fix& fix) {
+WorldPosition flat(const VehicleKey&, const Fix& fix) {
     if (fix.local_m) {
         return {.at_m = glm::dvec3(*fix.local_m, fix.altitude_m)};
     }
@@ -39,10 +39,10 @@ Datagram line(std::string_view text, double arrival_s = 0.0) {
 
 TEST_CASE("lines of named columns move aircraft, each by its id") {
     LiveTraffic traffic(flat);
-    CHECK(traffic.take(line("t_s,id,north_m,east_m,alt_m,yaw_deg")) == Taken::Right);
-    CHECK(traffic.take(line("0,1,100,200,300,90")) == Taken::Moved);
-    CHECK(traffic.take(line("0,2,5,6,7,0")) == Taken::Moved);
-    CHECK(traffic.take(line("0.1,1,110,200,300,90", 0.1)) == Taken::Moved);
+    CHECK(traffic.take(line("t_s,id,north_m,east_m,alt_m,yaw_deg")) == PacketOutcome::Right);
+    CHECK(traffic.take(line("0,1,100,200,300,90")) == PacketOutcome::Moved);
+    CHECK(traffic.take(line("0,2,5,6,7,0")) == PacketOutcome::Moved);
+    CHECK(traffic.take(line("0.1,1,110,200,300,90", 0.1)) == PacketOutcome::Moved);
     std::vector<AircraftState> states(3);
     REQUIRE(traffic.show_newest(0.1, states) == 2);
     CHECK(states[0].position_m == glm::dvec3(200.0, 110.0, 300.0));
@@ -70,18 +70,18 @@ TEST_CASE("a sender that begins anew by another port goes on as the same aircraf
 
 TEST_CASE("lines that are wrong are refused with the reason and change nothing") {
     LiveTraffic traffic(flat);
-    CHECK(traffic.take(line("1,2,3")) == Taken::Wrong);
-    CHECK(traffic.take(line("t_s,north_m,alt_m")) == Taken::Wrong);
+    CHECK(traffic.take(line("1,2,3")) == PacketOutcome::Wrong);
+    CHECK(traffic.take(line("t_s,north_m,alt_m")) == PacketOutcome::Wrong);
     traffic.take(line("t_s\tlat_deg\tlon_deg\talt_m\twhatever"));
-    CHECK(traffic.take(line("0\t1\t2")) == Taken::Wrong);
-    CHECK(traffic.take(line("0\t1\tx\t3\ty")) == Taken::Wrong);
-    CHECK(traffic.take(line("0\t91\t2\t3\t4")) == Taken::Wrong);
+    CHECK(traffic.take(line("0\t1\t2")) == PacketOutcome::Wrong);
+    CHECK(traffic.take(line("0\t1\tx\t3\ty")) == PacketOutcome::Wrong);
+    CHECK(traffic.take(line("0\t91\t2\t3\t4")) == PacketOutcome::Wrong);
     CHECK(traffic.counts().accepted == 0);
     CHECK(traffic.counts().wrong == 5);
-    const std::vector<std::string> news = traffic.take_news();
+    const std::vector<std::string> news = traffic.take_new_messages();
     CHECK(news.size() == 5);
     CHECK(news[0].find("expected a line of names") != std::string::npos);
-    CHECK(traffic.take(line("0\t1\t2\t3\ty")) == Taken::Moved);
+    CHECK(traffic.take(line("0\t1\t2\t3\ty")) == PacketOutcome::Moved);
 }
 
 TEST_CASE("a stream is cut into lines, whatever pieces it comes in") {
@@ -107,7 +107,7 @@ TEST_CASE("a stream is cut into lines, whatever pieces it comes in") {
 
 TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded") {
     LiveTraffic traffic(flat);
-    Dice dice(3);
+    RandomGenerator dice(3);
     for (int i = 0; i < 20000; ++i) {
         Datagram packet;
         packet.protocol = static_cast<Protocol>(1 + i % 6);
@@ -121,16 +121,16 @@ TEST_CASE("any bytes on any port leave what flies as it is, and memory bounded")
     }
     CHECK(traffic.vehicles().empty());
     CHECK(traffic.counts().accepted == 0);
-    CHECK(traffic.take_news().size() <= 1600); // 200 for each fault
+    CHECK(traffic.take_new_messages().size() <= 1600); // 200 for each fault
     CHECK(traffic.packet_reports().size() <= 1600);
 }
 
 TEST_CASE("garbage of many kinds does not hide what another sender is, and all of it is counted") {
     LiveTraffic traffic(flat);
-    const auto take = [&](Protocol protocol, Source source, std::vector<std::byte> bytes) {
+    const auto take = [&](Protocol protocol, PacketSource source, std::vector<std::byte> bytes) {
         traffic.take({protocol, source, 0.0, std::move(bytes)});
     };
-    const auto garbage = [&](Source source) {
+    const auto garbage = [&](PacketSource source) {
         for (std::uint8_t i = 0; i < 200; ++i) {
             take(Protocol::Fdm, source, std::vector<std::byte>(i + 1U, std::byte{0xee}));
             std::vector<std::byte> message(12);
@@ -146,10 +146,10 @@ TEST_CASE("garbage of many kinds does not hide what another sender is, and all o
     std::vector<std::byte> cigi_4(24);
     cigi_4[1] = std::byte{24};
     cigi_4[4] = std::byte{4};
-    const auto told_of_cigi_4 = [&](Source source) {
-        traffic.take_news();
+    const auto told_of_cigi_4 = [&](PacketSource source) {
+        traffic.take_new_messages();
         take(Protocol::Cigi, source, cigi_4);
-        const auto news = traffic.take_news();
+        const auto news = traffic.take_new_messages();
         return news.size() == 1 && news[0].find("CIGI 4 host, which") != std::string::npos;
     };
     garbage({1, 1});
@@ -172,7 +172,7 @@ TEST_CASE("DIS over another planet is told once to count from the centre of the 
         const auto bytes = encode_dis({}, 0.1 * i);
         traffic.take({Protocol::Dis, {1, 3000}, 0.1 * i, {bytes.begin(), bytes.end()}});
     }
-    const auto news = traffic.take_news();
+    const auto news = traffic.take_new_messages();
     REQUIRE(news.size() == 2);
     CHECK(news[0].find("WGS 84") != std::string::npos);
     CHECK(news[0].find("on the Moon") != std::string::npos);
@@ -215,16 +215,16 @@ TEST_CASE(
 
 TEST_CASE("streams that come and go do not push out one that stays") {
     LiveTraffic traffic(flat);
-    const auto from = [](Source source, std::string_view text, double arrival_s) {
+    const auto from = [](PacketSource source, std::string_view text, double arrival_s) {
         Datagram datagram = line(text, arrival_s);
         datagram.source = source;
         return datagram;
     };
-    constexpr Source stays{1, 1}; // the first by its address
+    constexpr PacketSource stays{1, 1}; // the first by its address
     traffic.take(from(stays, "t_s,north_m,east_m,alt_m", 0.0));
     for (std::uint16_t i = 0; i < 500; ++i) {
         traffic.take(from({2, i}, "t_s,north_m,east_m,alt_m", i));
-        CHECK(traffic.take(from(stays, "0,1,2,3", i)) != Taken::Wrong);
+        CHECK(traffic.take(from(stays, "0,1,2,3", i)) != PacketOutcome::Wrong);
     }
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("MAVLink systems beyond the cap wait until one has been silent for ten
     CHECK(traffic.vehicles().size() == 64);
     traffic.take(packet(300, 9.0));
     CHECK(traffic.vehicles().size() == 64);
-    CHECK(traffic.take(packet(300, 11.0)) == Taken::Moved);
+    CHECK(traffic.take(packet(300, 11.0)) == PacketOutcome::Moved);
 }
 
 TEST_CASE("a sender of twenty thousand packets a second is remembered in bounded memory") {
@@ -263,7 +263,7 @@ TEST_CASE("a sender of twenty thousand packets a second is remembered in bounded
         const auto bytes = encode_fdm(fix);
         REQUIRE(
             traffic.take({Protocol::Fdm, {1, 1}, time_s, {bytes.begin(), bytes.end()}}) ==
-            Taken::Moved);
+            PacketOutcome::Moved);
     }
     constexpr double mebibyte = 1048576.0;
     CHECK(octant::tests::used_bytes() - before < 4.0 * mebibyte);
@@ -282,6 +282,6 @@ TEST_CASE("no more vehicles are kept than the cap, and silent ones make room") {
     CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
     CHECK(traffic.counts().unused == 400 - static_cast<long>(LiveTraffic::max_vehicles));
     const Datagram later{Protocol::Fdm, {2, 9}, 20.0, {bytes.begin(), bytes.end()}};
-    CHECK(traffic.take(later) == Taken::Moved);
+    CHECK(traffic.take(later) == PacketOutcome::Moved);
     CHECK(traffic.vehicles().size() == LiveTraffic::max_vehicles);
 }

@@ -1,5 +1,5 @@
 #include "sim/base/axes.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "sim/links/live_vehicle.h"
 #include "sim/links/sender_clock.h"
@@ -60,7 +60,7 @@ struct Arrival {
 };
 
 std::vector<Arrival> arrivals(const Way& way, double length_s) {
-    Dice dice(7);
+    RandomGenerator dice(7);
     std::vector<Arrival> all;
     for (int i = 0; i < static_cast<int>(length_s * way.rate_hz); ++i) {
         const double sent_s = i / way.rate_hz;
@@ -235,7 +235,7 @@ TEST_CASE("a paused sender's aircraft stands where it is") {
 TEST_CASE("a clock that hardly moves is late, and years without a packet are passed at once") {
     SenderClock clock;
     const auto at = [](double sent_s) {
-        TimeClue clue;
+        TimingEvidence clue;
         clue.sent_s = sent_s;
         return clue;
     };

@@ -1,6 +1,6 @@
 #include "tests/sim/links/receiver.h"
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/links/flightgear_fdm.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ double used_bytes() {
 
 void attack(Protocol protocol, std::uint16_t port, int packets, double per_s) {
     constexpr int together = 500;
-    Dice dice(static_cast<std::uint64_t>(protocol));
+    RandomGenerator dice(static_cast<std::uint64_t>(protocol));
     const auto right = encode_fdm({});
     UdpPort socket(loopback, 0);
     const Clock::time_point begin = Clock::now();

@@ -38,7 +38,7 @@ private:
     sim::links::UdpPort socket_{0x7f000001, 0};
     sim::links::SourceLimit limit_;
     sim::links::LiveTraffic traffic_{[](const sim::links::VehicleKey&, const sim::links::Fix& fix) {
-        return sim::links::WorldPlace{.at_m = glm::dvec3(fix.latitude_deg * 1e5)};
+        return sim::links::WorldPosition{.at_m = glm::dvec3(fix.latitude_deg * 1e5)};
     }};
     std::vector<sim::links::Datagram> packets_;
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -37,7 +37,7 @@ TEST_CASE("packets come through a real socket with their sender and their time")
     const auto got = wait_for(ours, 200);
     REQUIRE(got.size() == 200);
     for (const Datagram& packet : got) {
-        CHECK(packet.source == Source{loopback, theirs.port()});
+        CHECK(packet.source == PacketSource{loopback, theirs.port()});
         CHECK(packet.bytes == std::vector<std::byte>(bytes.begin(), bytes.end()));
         CHECK(packet.arrival_s <= 100.0);
         CHECK(packet.arrival_s > 90.0);
@@ -54,7 +54,7 @@ TEST_CASE("a port that is taken is an error that names it") {
 
 TEST_CASE("addresses are read from text or refused") {
     CHECK(address_from_text("--bind", "127.0.0.1") == loopback);
-    CHECK(peer_from_text("--send", "127.0.0.1:5550") == Source{loopback, 5550});
+    CHECK(peer_from_text("--send", "127.0.0.1:5550") == PacketSource{loopback, 5550});
     CHECK(text_of(peer_from_text("--send", "localhost:8005")) == "127.0.0.1:8005");
     CHECK_THROWS_WITH(
         address_from_text("--from", "127.0.0"),

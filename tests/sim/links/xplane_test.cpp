@@ -75,10 +75,10 @@ TEST_CASE("groups of DATA say where an aircraft is, how it is turned and how it 
 TEST_CASE("groups that come in packets of their own are put together") {
     XPlanePose pose;
     std::optional<Fix> fix;
-    CHECK(pose.take(packet("DATA*", {angles}), fix).fault == Fault::Unused);
-    CHECK(pose.take(packet("DATA*", {local}), fix).fault == Fault::Unused);
+    CHECK(pose.take(packet("DATA*", {angles}), fix).fault == PacketError::Unused);
+    CHECK(pose.take(packet("DATA*", {local}), fix).fault == PacketError::Unused);
     CHECK_FALSE(fix);
-    CHECK(pose.take(packet("DATA*", {place}), fix).fault == Fault::None);
+    CHECK(pose.take(packet("DATA*", {place}), fix).fault == PacketError::None);
     REQUIRE(fix);
     CHECK(fix->velocity_ned_mps->y == 100.0);
     CHECK(fix->attitude.pitch_rad == Approx(rad_from_deg(5.0)));
@@ -180,8 +180,8 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
     }
     XPlanePose pose;
     std::optional<Fix> fix;
-    const Verdict verdict = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
-    CHECK(verdict.fault == Fault::Unused);
+    const DecodeResult verdict = pose.take(packet("RREF,", {{0, {47.0F}}, {1, {8.0F}}}), fix);
+    CHECK(verdict.fault == PacketError::Unused);
     CHECK(
         xplane_text(verdict) ==
         "X-Plane RREF lacks latitude, longitude and elevation under our request numbers; start "
@@ -191,15 +191,15 @@ TEST_CASE("what an X-Plane is asked for, it is believed in its answers") {
 TEST_CASE("answers that bring a place in parts give no place before all parts are there") {
     XPlanePose pose;
     std::optional<Fix> fix;
-    const Verdict part = pose.take(packet("RREF,", {{7001, {47.25F}}}), fix);
-    CHECK(part.fault == Fault::Unused);
+    const DecodeResult part = pose.take(packet("RREF,", {{7001, {47.25F}}}), fix);
+    CHECK(part.fault == PacketError::Unused);
     CHECK(
         xplane_text(part) ==
         "X-Plane RREF: a part of the answers; waits for latitude, longitude and elevation");
     CHECK(
-        pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == Fault::Unused);
+        pose.take(packet("RREF,", {{7002, {8.5F}}, {7011, {100.0F}}}), fix).fault == PacketError::Unused);
     CHECK_FALSE(fix);
-    CHECK(pose.take(packet("RREF,", {{7003, {1500.0F}}}), fix).fault == Fault::None);
+    CHECK(pose.take(packet("RREF,", {{7003, {1500.0F}}}), fix).fault == PacketError::None);
     REQUIRE(fix);
     CHECK(fix->latitude_deg == Approx(47.25));
     CHECK(fix->longitude_deg == Approx(8.5));

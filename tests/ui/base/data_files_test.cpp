@@ -39,10 +39,10 @@ TEST_CASE("every known aircraft has its model, its cockpit and its four paths") 
 }
 
 TEST_CASE("what is only a shape flies as an F-15, and a name that nothing has not at all") {
-    CHECK(ui::base::flown_as("500md").name == "500md");
-    CHECK(ui::base::flown_as("concave").name == "f15");
-    CHECK(ui::base::flown_as("./mine.obj").name == "f15");
-    CHECK_THROWS_AS(ui::base::flown_as("f16"), Error);
+    CHECK(ui::base::aircraft_kind_of("500md").name == "500md");
+    CHECK(ui::base::aircraft_kind_of("concave").name == "f15");
+    CHECK(ui::base::aircraft_kind_of("./mine.obj").name == "f15");
+    CHECK_THROWS_AS(ui::base::aircraft_kind_of("f16"), Error);
     CHECK_THROWS_AS(ui::base::path_file("turn", "f16"), Error);
 }
 

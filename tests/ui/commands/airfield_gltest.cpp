@@ -28,7 +28,7 @@ std::vector<std::string> flight() {
 }
 
 ui::settings::RunSettings settings_of_flight() {
-    ui::settings::RunSettings settings = ui::settings::of_given_ground();
+    ui::settings::RunSettings settings = ui::settings::measurement_settings();
     settings.path.name = "straight";
     settings.path.aircraft = {"500md"};
     settings.path.terrain = "hills";
@@ -41,7 +41,7 @@ ui::settings::RunSettings settings_of_flight() {
 /// Where the runway of flight() lies.
 const models::heights::RunwayStrip& runway() {
     static const ui::world::World world = [] {
-        ui::settings::RunSettings settings = ui::settings::of_given_ground();
+        ui::settings::RunSettings settings = ui::settings::measurement_settings();
         settings.path.name = "straight";
         settings.path.aircraft = {"concave"};
         settings.path.terrain = tests::small_map();
@@ -134,7 +134,7 @@ TEST_CASE("pictures with a runway are the same for any number of threads") {
     for (const char* const threads : {"1", "2", "5"}) {
         std::vector<std::string> own = arguments;
         own.insert(own.end(), {"--raster-threads", threads});
-        const std::string hash = tests::figures_of("fly", own)["picture_hash"].text();
+        const std::string hash = tests::results_of_run("fly", own)["picture_hash"].text();
         first = first.empty() ? hash : first;
         CHECK(hash == first);
     }
@@ -145,7 +145,7 @@ TEST_CASE("ground with a runway is painted in order as the depth buffer shows it
     settings.ground.triangles = 8000;
     settings.view.size_px = {320, 240};
     settings.view.kind = visuals::scene::View::Chase;
-    const ui::flight::ComparedWorlds worlds = ui::flight::compared_worlds(settings);
+    const ui::flight::ComparisonWorlds worlds = ui::flight::load_comparison_worlds(settings);
     for (const auto& [renderer, every] :
          {std::pair(ui::settings::RendererKind::Raster, 10),
           std::pair(ui::settings::RendererKind::Gl, 60)}) {

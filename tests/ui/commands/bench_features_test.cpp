@@ -24,7 +24,7 @@ const BenchScene& scene_named(const std::vector<BenchScene>& scenes, const std::
 } // namespace
 
 TEST_CASE("a table of costs has a scene without features and with each one alone") {
-    settings::RunSettings measured = settings::of_given_ground();
+    settings::RunSettings measured = settings::measurement_settings();
     measured.path.terrain = "canyon";
     const std::vector<BenchScene> scenes = feature_scenes({"canyon", measured});
     const settings::RunSettings& none = scenes.front().settings;
@@ -43,7 +43,7 @@ TEST_CASE("a table of costs has a scene without features and with each one alone
 }
 
 TEST_CASE("a table of costs has the defaults as they are, by OpenGL, too") {
-    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::measurement_settings()});
     CHECK(scene_named(scenes, "hills: those of the defaults").settings == settings::RunSettings());
     settings::RunSettings by_gl;
     by_gl.drawing.renderer = settings::RendererKind::Gl;
@@ -51,7 +51,7 @@ TEST_CASE("a table of costs has the defaults as they are, by OpenGL, too") {
 }
 
 TEST_CASE("a table of costs has ground by a texture from both renderers, else without features") {
-    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::measurement_settings()});
     settings::RunSettings expected = scenes.front().settings;
     expected.air.ground_shading = visuals::scene::GroundShading::Texture;
     CHECK(scene_named(scenes, "hills: ground by texture").settings == expected);
@@ -60,7 +60,7 @@ TEST_CASE("a table of costs has ground by a texture from both renderers, else wi
 }
 
 TEST_CASE("a table of costs has an airfield where there is room for one") {
-    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::of_given_ground()});
+    const std::vector<BenchScene> scenes = feature_scenes({"hills", settings::measurement_settings()});
     const BenchScene& airfield = scene_named(scenes, "hills: airfield");
     CHECK(airfield.is_optional);
     settings::RunSettings without = airfield.settings;
@@ -81,9 +81,9 @@ TEST_CASE("costs of features are timed over fewer frames than single scenes, unl
 }
 
 TEST_CASE("growth is measured from 20,000 to 200,000 triangles of ground, all else alike") {
-    settings::RunSettings measured = settings::of_given_ground();
+    settings::RunSettings measured = settings::measurement_settings();
     measured.path.terrain = "canyon";
-    const std::vector<BenchScene> scenes = growth_scenes({"canyon", measured});
+    const std::vector<BenchScene> scenes = triangle_count_scenes({"canyon", measured});
     REQUIRE(scenes.size() == 4);
     CHECK(scenes.front().name == "canyon, 20000");
     CHECK(scenes.front().settings.ground.triangles == 20000);

@@ -2,7 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "sim/base/units.h"
-#include "sim/links/cigi_begin.h"
+#include "sim/links/cigi_packet_header.h"
 #include "sim/links/cigi_host.h"
 #include "sim/links/udp_port.h"
 #include "tests/scratch.h"
@@ -75,20 +75,20 @@ links::WireWriter frame_of(
     return message;
 }
 
-void turn_part(links::WireWriter& message, std::uint8_t part, float yaw_deg) {
-    const std::size_t at = links::begin_cigi_packet(message, 6, 32);
+void rotate_part_to_body(links::WireWriter& message, std::uint8_t part, float yaw_deg) {
+    const std::size_t at = links::add_cigi_packet_header(message, 6, 32);
     message.set(at + 4, part);
     message.set(at + 5, std::uint8_t{0x71}); // enabled; roll, pitch and yaw are set
     message.set(at + 28, yaw_deg);
 }
 
 void set_visibility(links::WireWriter& message, float visibility_m) {
-    message.set(links::begin_cigi_packet(message, 10, 32) + 8, visibility_m);
+    message.set(links::add_cigi_packet_header(message, 10, 32) + 8, visibility_m);
 }
 
 /// Of the longest day, by universal time.
 void set_hour(links::WireWriter& message, std::uint8_t hour) {
-    const std::size_t at = links::begin_cigi_packet(message, 9, 16);
+    const std::size_t at = links::add_cigi_packet_header(message, 9, 16);
     message.set(at + 2, hour);
     message.set(at + 4, std::uint8_t{0x13}); // date and time are valid
     message.set(at + 8, std::uint32_t{6212026});
@@ -112,8 +112,8 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     std::vector<links::WireWriter> script;
     const auto next = [&](std::uint16_t type, float rotor_deg) -> links::WireWriter& {
         script.push_back(frame_of(static_cast<std::uint32_t>(script.size() + 1), type));
-        turn_part(script.back(), 1, rotor_deg);
-        turn_part(script.back(), 0, 0.0F);
+        rotate_part_to_body(script.back(), 1, rotor_deg);
+        rotate_part_to_body(script.back(), 0, 0.0F);
         return script.back();
     };
     next(helicopter, 0.0F);

@@ -4,7 +4,7 @@
 
 namespace octant::tests {
 
-PrintedJson figures_of(const std::string& command, std::vector<std::string> arguments) {
+PrintedJson results_of_run(const std::string& command, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), command);
     arguments.insert(arguments.end(), {"--json", "--quiet"});
     const ProgramRun run = run_octant(arguments);

@@ -9,7 +9,7 @@
 namespace octant::tests {
 
 /// Runs `octant COMMAND ARGUMENTS --json --quiet`, which must say nothing but its figures.
-PrintedJson figures_of(const std::string& command, std::vector<std::string> arguments);
+PrintedJson results_of_run(const std::string& command, std::vector<std::string> arguments);
 
 /// Checks that a run ended with code 2 and one line that has `expected` in it.
 void check_refusal(const ProgramRun& run, const std::string& expected);

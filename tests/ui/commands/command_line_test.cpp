@@ -17,12 +17,12 @@ Program small_program() {
     const Option region{
         .name = "--region",
         .form = "X Y RADIUS",
-        .takes = Takes::SomeWords,
+        .arity = Arity::OneOrMore,
         .read = read,
-        .together = 3};
+        .words_per_use = 3};
     const Option quiet{
-        .name = "--quiet", .takes = Takes::Nothing, .read = read, .shown_default = {}};
-    const Option vsync{.name = "--vsync,!--no-vsync", .takes = Takes::Nothing, .read = read};
+        .name = "--quiet", .arity = Arity::None, .read = read, .shown_default = {}};
+    const Option vsync{.name = "--vsync,!--no-vsync", .arity = Arity::None, .read = read};
     const Option input{.name = "in", .form = "FILE", .read = read, .required = true};
     const auto run = [] {};
     return {
@@ -47,7 +47,7 @@ std::string refusal_of(std::vector<std::string> words) {
         arguments.push_back(word.c_str());
     }
     try {
-        action_of(small_program(), static_cast<int>(arguments.size()), arguments.data());
+        parse_command_line(small_program(), static_cast<int>(arguments.size()), arguments.data());
     } catch (const std::exception& fault) {
         return fault.what();
     }
@@ -110,7 +110,7 @@ TEST_CASE("a flag is set and unset by its value as by its names") {
                  .options = {flag("--sky,!--no-sky", "sky", value), flag("--json", "", value)},
                  .run = run}}};
         const std::vector<const char*> arguments{"octant", "fly", word};
-        action_of(program, static_cast<int>(arguments.size()), arguments.data());
+        parse_command_line(program, static_cast<int>(arguments.size()), arguments.data());
         return value;
     };
     for (const bool before : {false, true}) {

@@ -54,7 +54,7 @@ std::string fault_of(const CommandLine& line) {
     const commands::Program program =
         commands::octant_program({ui::window::view_command(), ui::window::listen_command()});
     try {
-        commands::action_of(program, static_cast<int>(words.size()), words.data());
+        commands::parse_command_line(program, static_cast<int>(words.size()), words.data());
     } catch (const Error& fault) {
         return fault.what();
     }

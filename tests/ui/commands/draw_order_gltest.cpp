@@ -14,13 +14,13 @@ using octant::tests::run_octant;
 
 namespace {
 
-std::filesystem::path order_folder() {
+std::filesystem::path order_cache_folder() {
     static const auto made = tests::empty_folder("draw-order");
     return made;
 }
 
 std::string order_file(const std::string& name) {
-    return (order_folder() / name).string();
+    return (order_cache_folder() / name).string();
 }
 
 tests::ProgramRun draw_order(std::vector<std::string> arguments) {
@@ -163,7 +163,7 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_order_refused(
         {"f15", "--export", order_file("x.obj"), "--export-model", order_file("x.obj")},
         "expected another file than --export-model");
-    CHECK_FALSE(std::filesystem::exists(order_folder() / "x.obj"));
+    CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.obj"));
     check_order_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
     write_file(order_file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
     check_order_refused(
@@ -174,7 +174,7 @@ TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     check_order_refused(
         {order_file("plates.obj"), "--export-model", order_file("plates.obj")},
         "expected another file than the model");
-    CHECK_FALSE(std::filesystem::exists(order_folder() / "x.txt"));
+    CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.txt"));
 }
 
 TEST_CASE("the study of draw orders writes its tables") {
@@ -199,7 +199,7 @@ TEST_CASE("the study of draw orders writes its tables") {
     }
     for (const char* name :
          {"table-1.csv", "table-4.csv", "methods.csv", "wrong-pixels.csv", "bsp.csv"}) {
-        CHECK(std::filesystem::exists(order_folder() / "study" / name));
+        CHECK(std::filesystem::exists(order_cache_folder() / "study" / name));
     }
     CHECK(run_octant({"study", "draw-order", "--out", "/proc/x"}).exit_code == 2);
 }

@@ -60,11 +60,11 @@ TEST_CASE("a run is repeated from its run.json") {
     const auto folder = tests::empty_folder("repeat") / "first";
     const Hashes first =
         fly({"turn", "--view", "orbit", "--heading", "40", "--record", folder.string()});
-    const tests::ProgramRun again =
+    const tests::ProgramRun repeat_option =
         run_octant({"fly", "--settings", (folder / "run.json").string(), "--json", "--quiet"});
-    REQUIRE(again.exit_code == 0);
-    CHECK(tests::PrintedJson(again.out)["picture_hash"] == first.picture);
-    CHECK(tests::PrintedJson(again.out)["state_hash"] == first.state);
+    REQUIRE(repeat_option.exit_code == 0);
+    CHECK(tests::PrintedJson(repeat_option.out)["picture_hash"] == first.picture);
+    CHECK(tests::PrintedJson(repeat_option.out)["state_hash"] == first.state);
     for (const char* name :
          {"frames.csv",
           "mangohud.csv",
@@ -124,12 +124,12 @@ TEST_CASE("a recorded track can be flown and gives the flight it came from") {
          "--record",
          (folder / "again").string()});
     const auto first = ui::report::read_frame_csv(folder / "first/frames.csv").records;
-    const auto again = ui::report::read_frame_csv(folder / "again/frames.csv").records;
+    const auto repeat_option = ui::report::read_frame_csv(folder / "again/frames.csv").records;
     REQUIRE(first.size() == 12);
-    REQUIRE(again.size() == 12);
-    for (std::size_t i = 0; i < again.size(); ++i) {
-        CHECK(glm::length(first[i].aircraft_m - again[i].aircraft_m) < 2e-3);
-        CHECK(glm::length(first[i].eye_m - again[i].eye_m) < 0.05);
+    REQUIRE(repeat_option.size() == 12);
+    for (std::size_t i = 0; i < repeat_option.size(); ++i) {
+        CHECK(glm::length(first[i].aircraft_m - repeat_option[i].aircraft_m) < 2e-3);
+        CHECK(glm::length(first[i].eye_m - repeat_option[i].eye_m) < 0.05);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/polygons/obj_writer.h"
 #include "tests/scratch.h"
 #include "tests/ui/flight/kept_world.h"
@@ -29,7 +29,7 @@ visuals::scene::Picture picture_of(int width, int height, const std::vector<std:
 
 ui::settings::RunSettings
 canyon_flight(const char* path, const char* aircraft, visuals::scene::View view) {
-    ui::settings::RunSettings settings = ui::settings::of_given_ground();
+    ui::settings::RunSettings settings = ui::settings::measurement_settings();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.view.kind = view;
@@ -39,9 +39,9 @@ canyon_flight(const char* path, const char* aircraft, visuals::scene::View view)
     return settings;
 }
 
-ui::flight::ComparedWorlds worlds_of(const ui::settings::RunSettings& settings) {
-    const auto [painted, by_depth] = ui::flight::compared_settings(settings);
-    return {tests::kept_world(painted), tests::kept_world(by_depth)};
+ui::flight::ComparisonWorlds worlds_of(const ui::settings::RunSettings& settings) {
+    const auto [painted, depth_buffered] = ui::flight::comparison_settings(settings);
+    return {tests::kept_world(painted), tests::kept_world(depth_buffered)};
 }
 
 ui::flight::IdComparison compare(const ui::settings::RunSettings& settings, int every) {
@@ -70,20 +70,20 @@ TEST_CASE("a polygon number is apart only when no neighbour in the reference has
     CHECK(ui::flight::difference_of(reference, reference).differing == 0);
     const auto shifted = picture_of(4, 3, {1, 2, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
     CHECK(ui::flight::difference_of(shifted, reference).differing == 1);
-    CHECK(ui::flight::difference_of(shifted, reference).apart.empty());
+    CHECK(ui::flight::difference_of(shifted, reference).unmatched.empty());
     const auto far_off = picture_of(4, 3, {1, 1, 2, 1, 1, 1, 2, 2, 3, 3, 3, 3});
-    const std::vector<glm::ivec2> apart = ui::flight::difference_of(far_off, reference).apart;
-    REQUIRE(apart.size() == 1);
-    CHECK(apart[0] == glm::ivec2(3, 0));
+    const std::vector<glm::ivec2> unmatched = ui::flight::difference_of(far_off, reference).unmatched;
+    REQUIRE(unmatched.size() == 1);
+    CHECK(unmatched[0] == glm::ivec2(3, 0));
 }
 
 TEST_CASE("a polygon number is wrong when a larger reference does not have it there either") {
     const auto picture = picture_of(2, 1, {5, 7});
     const std::vector<glm::ivec2> pixels = {{0, 0}, {1, 0}};
     std::vector<std::uint32_t> large(18, 5);
-    CHECK(ui::flight::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 1);
+    CHECK(ui::flight::count_wrong_ids(pixels, picture, picture_of(6, 3, large), 3) == 1);
     large[17] = 7;
-    CHECK(ui::flight::wrong_among(pixels, picture, picture_of(6, 3, large), 3) == 0);
+    CHECK(ui::flight::count_wrong_ids(pixels, picture, picture_of(6, 3, large), 3) == 0);
 }
 
 TEST_CASE("detail between samples, trees and houses are painted as the depth buffer shows them") {
@@ -150,7 +150,7 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
 TEST_CASE("models of hundreds of polygons are painted as rays see them") {
     // A torus and two that pass through it, the second of which repeats the first polygon by
     // polygon: rings, cuts and polygons in one plane. Where polygons cross, a depth buffer rounds.
-    auto model = models::made::torus();
+    auto model = models::procedural::torus();
     const std::string file = (tests::scratch_folder() / "rings.obj").string();
     const models::polygons::PolygonModel once = model;
     const glm::dvec3 aside{0.7 * models::polygons::radius_m(once), 0.0, 0.0};

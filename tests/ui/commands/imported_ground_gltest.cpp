@@ -1,5 +1,5 @@
 #include "models/heights/height_field_export.h"
-#include "models/made/made_terrain.h"
+#include "models/procedural/procedural_terrain.h"
 #include "tests/scratch.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
@@ -22,7 +22,7 @@ namespace {
 /// A map of 1025 x 1025 samples and the ground imported from it.
 struct Map {
     Map() {
-        const models::heights::HeightField field = models::made::made_canyon();
+        const models::heights::HeightField field = models::procedural::procedural_canyon();
         REQUIRE(field.columns() == 1025);
         models::heights::write_height_field(file, field);
         visuals::groundfile::import_ground(

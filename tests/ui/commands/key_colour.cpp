@@ -58,7 +58,7 @@ ui::settings::RunSettings key_colour_settings(
 }
 
 long cracks_in_flight(const ui::settings::RunSettings& settings) {
-    ui::flight::Session session(settings, ui::flight::Shows::World, nullptr, kept_world(settings));
+    ui::flight::Session session(settings, ui::flight::PictureContent::World, nullptr, kept_world(settings));
     long cracks = 0;
     for (int frame = 0; frame < session.frames(); ++frame) {
         session.draw(frame);

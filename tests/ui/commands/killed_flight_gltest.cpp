@@ -151,10 +151,10 @@ TEST_CASE("a signal ends a flight in order, and its recording can be flown again
         CHECK(fs::exists(folder / "report.html"));
         CHECK_FALSE(fs::exists(folder / "recording.lock"));
     }
-    const tests::ProgramRun again = tests::run_octant({"fly", "--replay", folder.string()});
-    INFO(again.out << again.err);
-    CHECK(again.exit_code == 0);
-    CHECK(again.out.find("same states, same pictures") != std::string::npos);
+    const tests::ProgramRun repeat_option = tests::run_octant({"fly", "--replay", folder.string()});
+    INFO(repeat_option.out << repeat_option.err);
+    CHECK(repeat_option.exit_code == 0);
+    CHECK(repeat_option.out.find("same states, same pictures") != std::string::npos);
 }
 
 TEST_CASE("a signal ends a live flight as any other: summary, report, no lock, its exit code") {
@@ -280,12 +280,12 @@ TEST_CASE("a recording of files whose names are not UTF-8 is flown again") {
          "--json"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const tests::ProgramRun again =
+    const tests::ProgramRun repeat_option =
         tests::run_octant({"fly", "--settings", first + "/run.json", "--quiet", "--json"});
-    INFO(again.err);
-    REQUIRE(again.exit_code == 0);
+    INFO(repeat_option.err);
+    REQUIRE(repeat_option.exit_code == 0);
     const auto hashes = [](const std::string& text) {
         return text.substr(text.find("state_hash"));
     };
-    CHECK(hashes(run.out) == hashes(again.out));
+    CHECK(hashes(run.out) == hashes(repeat_option.out));
 }

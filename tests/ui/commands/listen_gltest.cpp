@@ -185,7 +185,7 @@ TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {
     CHECK_FALSE(packets.empty());
     for (const links::Datagram& packet : packets) {
         links::Fix fix;
-        REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::Fault::None);
+        REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::PacketError::None);
         CHECK(fix.latitude_deg == Approx(47.0).margin(0.1));
         CHECK(fix.longitude_deg == Approx(8.0).margin(0.1));
     }

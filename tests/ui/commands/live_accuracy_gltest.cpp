@@ -1,7 +1,7 @@
 // How near to the truth octant listen shows what comes by real UDP: what its recording says was in
 // each picture against where the sender's aircraft was then.
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/transverse_mercator.h"
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
@@ -37,7 +37,7 @@ constexpr std::uint32_t loopback = 0x7f000001;
 constexpr double speed_mps = 150.0;
 constexpr double rate_hz = 60.0;
 constexpr double flown_s = 12.0;
-constexpr GeoPlace origin{47.0, 8.0};
+constexpr GeoPosition origin{47.0, 8.0};
 
 /// How a network treats packets.
 struct Network {
@@ -53,7 +53,7 @@ struct Sending {
 
 /// When the packets of a flight reach the receiver.
 std::vector<Sending> schedule_of(const Network& network) {
-    Dice dice(5);
+    RandomGenerator dice(5);
     std::vector<Sending> schedule;
     for (int i = 0; i < static_cast<int>(flown_s * rate_hz); ++i) {
         const double truth_s = i / rate_hz;
@@ -69,7 +69,7 @@ std::vector<Sending> schedule_of(const Network& network) {
 
 /// North from the origin, steadily.
 std::vector<std::byte> packet_at(double truth_s) {
-    const GeoPlace place = TransverseMercator(origin).geo_from_local({0.0, speed_mps * truth_s});
+    const GeoPosition place = TransverseMercator(origin).geo_from_local({0.0, speed_mps * truth_s});
     links::Fix fix;
     fix.latitude_deg = place.latitude_deg;
     fix.longitude_deg = place.longitude_deg;
@@ -94,7 +94,7 @@ double begun_s(const ui::flight::PacketFile& packets) {
     for (const auto& frame : packets.frames) {
         for (const links::Datagram& packet : frame.packets) {
             links::Fix fix;
-            REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::Fault::None);
+            REQUIRE(links::decode_fdm(packet.bytes, fix).fault == links::PacketError::None);
             min_s = std::min(min_s, packet.arrival_s - fix.ticks.value_or(0) * 1e-6);
         }
     }

@@ -15,7 +15,7 @@
 
 using namespace octant;
 using Catch::Contains;
-using octant::tests::figures_of;
+using octant::tests::results_of_run;
 using octant::tests::run_octant;
 
 namespace {
@@ -43,12 +43,12 @@ std::vector<std::string> short_flight(std::vector<std::string> further) {
 }
 
 /// Of states and pictures.
-std::string recorded_hashes_in(const tests::PrintedJson& figures) {
-    return figures["state_hash"].text() + " " + figures["picture_hash"].text();
+std::string recorded_hashes_in(const tests::PrintedJson& results) {
+    return results["state_hash"].text() + " " + results["picture_hash"].text();
 }
 
 std::string hashes(const std::vector<std::string>& further) {
-    return recorded_hashes_in(figures_of("fly", short_flight(further)));
+    return recorded_hashes_in(results_of_run("fly", short_flight(further)));
 }
 
 std::vector<fs::path> cached_files_in(const fs::path& folder) {
@@ -94,10 +94,10 @@ TEST_CASE("a damaged order cache costs a line, is mended, and changes no picture
 
 TEST_CASE("draw-order says whether the order was kept, and else the same") {
     const std::string folder = (tests::empty_folder("order-cache-figures") / "orders").string();
-    const auto cold = figures_of("draw-order", {"f15", "--order-cache", folder});
-    const auto warm = figures_of("draw-order", {"f15", "--order-cache", folder, "--check"});
+    const auto cold = results_of_run("draw-order", {"f15", "--order-cache", folder});
+    const auto warm = results_of_run("draw-order", {"f15", "--order-cache", folder, "--check"});
     const auto other =
-        figures_of("draw-order", {"f15", "--order-cache", folder, "--method", "bsp"});
+        results_of_run("draw-order", {"f15", "--order-cache", folder, "--method", "bsp"});
     CHECK(cold["from_cache"] == false);
     CHECK(warm["from_cache"] == true);
     CHECK(warm["right"] == true);
@@ -108,7 +108,7 @@ TEST_CASE("draw-order says whether the order was kept, and else the same") {
             CHECK(warm[name] == cold[name]);
         }
     }
-    CHECK_FALSE(figures_of("draw-order", {"concave"}).contains("from_cache"));
+    CHECK_FALSE(results_of_run("draw-order", {"concave"}).contains("from_cache"));
 }
 
 TEST_CASE("two programs may order one model into one cache at once") {
@@ -128,7 +128,7 @@ TEST_CASE("two programs may order one model into one cache at once") {
         CHECK(run.err.empty());
     }
     CHECK(cached_files_in(folder).size() == 1);
-    const auto warm = figures_of("draw-order", {"concave", "--order-cache", folder.string()});
+    const auto warm = results_of_run("draw-order", {"concave", "--order-cache", folder.string()});
     CHECK(warm["from_cache"] == true);
 }
 

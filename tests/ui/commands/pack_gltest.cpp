@@ -58,10 +58,10 @@ TEST_CASE("a packed recording is flown and reported when nothing else of it is l
             .exit_code == 0);
     fs::remove_all(made / "there");
 
-    const tests::ProgramRun again = run_octant({"fly", "--settings", zip, "--quiet", "--json"});
-    INFO(again.err);
-    REQUIRE(again.exit_code == 0);
-    CHECK(hashes_in(again.out) == hashes_in(flown.out));
+    const tests::ProgramRun repeat_option = run_octant({"fly", "--settings", zip, "--quiet", "--json"});
+    INFO(repeat_option.err);
+    REQUIRE(repeat_option.exit_code == 0);
+    CHECK(hashes_in(repeat_option.out) == hashes_in(flown.out));
     const tests::ProgramRun replay = run_octant({"fly", "--replay", zip, "--quiet"});
     CHECK(replay.exit_code == 0);
     CHECK(replay.out.find("same states, same pictures as " + zip + "\n") != std::string::npos);
@@ -78,15 +78,15 @@ TEST_CASE("a run is not flown again where its recording lies, and takes the plac
     for (const char* name : {"way.toml", "mine.obj", "500md.mtl"}) {
         fs::remove(made / name);
     }
-    const tests::ProgramRun again = run_octant(
+    const tests::ProgramRun repeat_option = run_octant(
         {"fly",
          "--settings",
          (recording / "run.json").string(),
          "--record",
          recording.string(),
          "--quiet"});
-    INFO(again.err);
-    CHECK(again.exit_code == 0);
+    INFO(repeat_option.err);
+    CHECK(repeat_option.exit_code == 0);
     CHECK(read_file(recording / "inputs/way.toml") == before);
 }
 
@@ -97,8 +97,8 @@ TEST_CASE("a fault in a packed recording names the packed file") {
     const std::string zip = (made / "flight.zip").string();
     const std::string page = (made / "page.html").string();
     REQUIRE(run_octant({"pack", recording.string(), "--out", zip, "--quiet"}).exit_code == 0);
-    const tests::ProgramRun figures = run_octant({"report", zip, "--out", page, "--json"});
-    CHECK(figures.out.find("\"folder\": \"" + zip + "\"") != std::string::npos);
+    const tests::ProgramRun results = run_octant({"report", zip, "--out", page, "--json"});
+    CHECK(results.out.find("\"folder\": \"" + zip + "\"") != std::string::npos);
 
     std::string rows = read_file(recording / "frames.csv");
     const std::size_t third_line = rows.find('\n', rows.find('\n') + 1) + 1;

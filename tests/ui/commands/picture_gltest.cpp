@@ -83,7 +83,7 @@ void check_against_golden(
     for (const RendererKind kind : {RendererKind::Gl, RendererKind::Raster}) {
         settings.drawing.renderer = kind;
         sessions.push_back(std::make_unique<ui::flight::Session>(
-            settings, ui::flight::Shows::World, nullptr, tests::kept_world(settings)));
+            settings, ui::flight::PictureContent::World, nullptr, tests::kept_world(settings)));
         const ui::report::Picture actual = last_picture(*sessions.back());
         const std::string drawn_as = kind == RendererKind::Gl ? name : name + "-raster";
         const std::string approved_as = golden == Golden::OfEach ? drawn_as : name;
@@ -101,7 +101,7 @@ void check_against_golden(
 
 RunSettings
 small(const std::string& path, const std::string& aircraft, const std::string& terrain, View view) {
-    RunSettings settings = ui::settings::of_given_ground();
+    RunSettings settings = ui::settings::measurement_settings();
     settings.path.name = path;
     settings.path.aircraft = {aircraft};
     settings.path.terrain = terrain;

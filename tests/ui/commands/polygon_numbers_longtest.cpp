@@ -13,7 +13,7 @@ namespace {
 /// octant study hidden-surface --only rays --every 14 --size 480x270. `aircraft`: one in place of
 /// the F-15 and the 500MD; empty: both.
 bool shows_what_rays_find(const std::string& aircraft, int every) {
-    ui::studies::draw_order::HiddenSurfaceStudy study;
+    ui::studies::draw_order::HiddenSurfaceStudyOptions study;
     study.out = tests::scratch_folder();
     study.settings.path.terrain = "canyon";
     study.settings.view.size_px = {480, 270};

@@ -114,7 +114,7 @@ Faces expected_faces(const Faces& originals, const std::string& nodes_file) {
 }
 
 tests::PrintedJson refine(const std::vector<std::string>& arguments) {
-    return tests::figures_of("refine", arguments);
+    return tests::results_of_run("refine", arguments);
 }
 
 void check_refine_refused(const std::vector<std::string>& arguments, const std::string& expected) {
@@ -153,7 +153,7 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
     const Faces originals = write_sheet(refine_file("sheet.obj"));
     std::vector<double> vertices;
     for (const char* rule : {"selective", "hoppe", "xia"}) {
-        const auto figures = refine(
+        const auto results = refine(
             {refine_file("sheet.obj"),
              "--base",
              "50",
@@ -175,11 +175,11 @@ TEST_CASE("any active mesh is what the original file and the list of nodes say")
              refine_file("part.obj"),
              "--nodes",
              refine_file("part.txt")});
-        CHECK(figures["turned_faces"] == 0);
+        CHECK(results["turned_faces"] == 0);
         CHECK(
             faces_of_obj(refine_file("part.obj")) ==
             expected_faces(originals, refine_file("part.txt")));
-        vertices.push_back(figures["vertices"].number());
+        vertices.push_back(results["vertices"].number());
     }
     CHECK(vertices[0] < vertices[1]);
     CHECK(vertices[1] < vertices[2]);
@@ -202,9 +202,9 @@ TEST_CASE("a view refines what it sees, and the same input gives the same bytes"
     first.insert(first.end(), {"--out", refine_file("one.ply")});
     auto second = arguments;
     second.insert(second.end(), {"--out", refine_file("two.ply")});
-    const auto figures = refine(first);
-    CHECK(figures["vertices"] > 60);
-    CHECK(figures["vertices"] < 900);
+    const auto results = refine(first);
+    CHECK(results["vertices"] > 60);
+    CHECK(results["vertices"] < 900);
     refine(second);
     CHECK(read_file(refine_file("one.ply")) == read_file(refine_file("two.ply")));
 }

@@ -128,10 +128,10 @@ TEST_CASE(
     CHECK(rows.front().smooth_target == 0); // the safe side
     CHECK(rows.back().smooth_target >= 0);
     CHECK(rows.back().smooth_polygons == rows.back().smooth_target);
-    const tests::ProgramRun again = replay(folder);
-    INFO(again.err);
-    CHECK(again.exit_code == 0);
-    CHECK_THAT(again.out, Contains("same states, same pictures"));
+    const tests::ProgramRun repeat_option = replay(folder);
+    INFO(repeat_option.err);
+    CHECK(repeat_option.exit_code == 0);
+    CHECK_THAT(repeat_option.out, Contains("same states, same pictures"));
 }
 
 TEST_CASE("a mesh and a second view whose shading followed the clock are replayed bit for bit") {
@@ -158,10 +158,10 @@ TEST_CASE("a mesh and a second view whose shading followed the clock are replaye
     CHECK(
         rows.back().smooth_polygons ==
         std::min(rows.back().smooth_target, rows.back().aircraft_polygons));
-    const tests::ProgramRun again = replay(folder);
-    INFO(again.err);
-    CHECK(again.exit_code == 0);
-    CHECK_THAT(again.out, Contains("same states, same pictures"));
+    const tests::ProgramRun repeat_option = replay(folder);
+    INFO(repeat_option.err);
+    CHECK(repeat_option.exit_code == 0);
+    CHECK_THAT(repeat_option.out, Contains("same states, same pictures"));
 }
 
 TEST_CASE("other targets in the rows give other pictures, and the check says so") {
@@ -170,20 +170,20 @@ TEST_CASE("other targets in the rows give other pictures, and the check says so"
             rows[i].triangle_target = 1000 + 100 * static_cast<int>(i % 7);
         }
     });
-    const auto again = recorded().parent_path() / "again";
-    const tests::ProgramRun run = replay(half, {"--record", again.string(), "--json", "--quiet"});
+    const auto repeat_option = recorded().parent_path() / "again";
+    const tests::ProgramRun run = replay(half, {"--record", repeat_option.string(), "--json", "--quiet"});
     CHECK(run.exit_code == 1);
     const auto json = tests::PrintedJson(run.out);
     CHECK(json["replay"]["state_hash"] == "same");
     CHECK(json["replay"]["picture_hash"] == "other");
-    const Records rows = rows_of(again);
+    const Records rows = rows_of(repeat_option);
     REQUIRE(rows.size() == 60);
     CHECK(rows[10].triangle_target == 1300);
     CHECK(rows[10].terrain_triangles <= 1300);
     CHECK(rows[10].terrain_triangles > 1200);
-    CHECK(replay(again).exit_code == 0); // a replay is a recording like any other
+    CHECK(replay(repeat_option).exit_code == 0); // a replay is a recording like any other
     CHECK_THAT(
-        read_text_file(again / "run.json"),
+        read_text_file(repeat_option / "run.json"),
         Contains("\"replay of\": \"" + half.filename().string()));
 }
 

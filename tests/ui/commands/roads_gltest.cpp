@@ -86,7 +86,7 @@ TEST_CASE("roads are seen by each renderer, and not if they are not wanted") {
 
 TEST_CASE("ground with roads is painted in order as the depth buffer shows it") {
     for (const char* const terrain : {"hills", "canyon"}) {
-        ui::settings::RunSettings settings = ui::settings::of_given_ground();
+        ui::settings::RunSettings settings = ui::settings::measurement_settings();
         settings.path.name = "straight";
         settings.path.aircraft = {"500md"};
         settings.path.terrain = terrain;
@@ -100,14 +100,14 @@ TEST_CASE("ground with roads is painted in order as the depth buffer shows it") 
         REQUIRE(roads);
         settings.view.kind = visuals::scene::View::Free;
         for (std::size_t i = 0; i < 8; ++i) {
-            const visuals::roads::RoadPiece& piece =
-                roads->pieces()[i * roads->pieces().size() / 8];
-            const glm::dvec2 from_m = piece.levels[0].front().at_m + glm::dvec2(30.0, 10.0);
-            const glm::dvec2 to_m = piece.levels[0].back().at_m;
+            const visuals::roads::RoadSection& section =
+                roads->sections()[i * roads->sections().size() / 8];
+            const glm::dvec2 from_m = section.levels[0].front().at_m + glm::dvec2(30.0, 10.0);
+            const glm::dvec2 to_m = section.levels[0].back().at_m;
             const double ground_m = ground->height_at(from_m.x, from_m.y).value();
             settings.view.eye_m = {from_m.x, from_m.y, ground_m + 12.0 + 15.0 * double(i * i)};
             settings.view.look_m = {to_m.x, to_m.y, ground->height_at(to_m.x, to_m.y).value()};
-            const auto [painted, by_depth] = ui::flight::compared_settings(settings);
+            const auto [painted, by_depth] = ui::flight::comparison_settings(settings);
             const ui::flight::IdComparison result = ui::flight::compare_with_depth_buffer(
                 settings,
                 {tests::kept_world(painted), tests::kept_world(by_depth)},
@@ -130,7 +130,7 @@ TEST_CASE("pictures with roads are the same for any number of threads") {
     for (const char* const threads : {"1", "2", "5"}) {
         std::vector<std::string> own = arguments;
         own.insert(own.end(), {"--raster-threads", threads});
-        const std::string hash = tests::figures_of("fly", own)["picture_hash"].text();
+        const std::string hash = tests::results_of_run("fly", own)["picture_hash"].text();
         first = first.empty() ? hash : first;
         CHECK(hash == first);
     }

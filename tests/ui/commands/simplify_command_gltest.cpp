@@ -1,5 +1,5 @@
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/mesh_join.h"
+#include "models/meshfile/mesh_append.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/output_file.h"
@@ -93,7 +93,7 @@ std::string cubes(int count) {
 }
 
 tests::PrintedJson simplify_figures(const std::vector<std::string>& arguments) {
-    return tests::figures_of("simplify", arguments);
+    return tests::results_of_run("simplify", arguments);
 }
 
 void check_simplify_refused(
@@ -167,7 +167,7 @@ TEST_CASE("a distance far below a millionth of the diagonal is certified as clos
         INFO(ending);
         const std::string flat = file_named("flat" + ending);
         const auto made = simplify_figures({rough, flat, "--faces", "20", "--method", "fast"});
-        const auto measured = tests::figures_of("mesh-error", {rough, flat});
+        const auto measured = tests::results_of_run("mesh-error", {rough, flat});
         const double certified = made["error_of_diagonal"].number();
         const double least = measured["both"]["hausdorff_least"].number();
         CHECK(least > 0.0);
@@ -217,7 +217,7 @@ TEST_CASE("the error of a mesh far from the origin is kept in the written file, 
         const auto found = simplify_figures({in, out, "--error", "0.05", "--method", "fast"});
         CHECK(found["error"] <= 0.05);
         CHECK(found["faces"] < 1152);
-        const auto measured = tests::figures_of("mesh-error", {in, out});
+        const auto measured = tests::results_of_run("mesh-error", {in, out});
         CHECK(measured["both"]["hausdorff_least_units"] <= 0.05);
     }
     check_simplify_refused(
@@ -478,8 +478,8 @@ TEST_CASE("the steps that are told for a limited time repeat its result, also of
             arguments[1] = repeated;
             arguments[2] = "--steps";
             arguments[3] = fmt::format("{:.0f}", limited["steps"].number());
-            const auto again = simplify_figures(arguments);
-            CHECK(again["steps"] == limited["steps"].number());
+            const auto repeat_option = simplify_figures(arguments);
+            CHECK(repeat_option["steps"] == limited["steps"].number());
             CHECK(read_file(timed) == read_file(repeated));
         }
     }

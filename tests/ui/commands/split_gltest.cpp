@@ -243,7 +243,7 @@ TEST_CASE("a seam that does not fit is told with both machines") {
                         "--quiet"})
                 .exit_code == 0);
     }
-    ui::sweep::Run whole;
+    ui::sweep::SweepRun whole;
     whole.settings.path.name = "straight";
     whole.settings.path.terrain = "none";
     whole.settings.time.pictures = 0;

@@ -46,9 +46,9 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
          "--out",
          ply});
     REQUIRE(run.exit_code == 0);
-    const auto figures = tests::PrintedJson(run.out);
-    CHECK(figures["triangles"].number() <= 500);
-    CHECK(figures["triangles"].number() > 300);
+    const auto results = tests::PrintedJson(run.out);
+    CHECK(results["triangles"].number() <= 500);
+    CHECK(results["triangles"].number() > 300);
     std::ifstream in(ply);
     std::string word;
     while (word != "end_header") {
@@ -58,7 +58,7 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
     double x_m = 0.0;
     double y_m = 0.0;
     double z_m = 0.0;
-    for (int k = 0; k < figures["vertices"].number(); ++k) {
+    for (int k = 0; k < results["vertices"].number(); ++k) {
         REQUIRE(in >> x_m >> y_m >> z_m);
         west_m = std::min(west_m, x_m);
     }
@@ -156,8 +156,8 @@ TEST_CASE("octant terrain check says how many views it looked at") {
     const ProgramRun run = run_octant(
         {"terrain", "check", "hills", "--views", "40", "--every", "4", "--json", "--quiet"});
     REQUIRE(run.exit_code == 0);
-    const auto figures = tests::PrintedJson(run.out);
-    CHECK(figures["views"] == 10);
-    CHECK(figures["cracked_views"] == 0);
-    CHECK(figures["drawn"] == 1);
+    const auto results = tests::PrintedJson(run.out);
+    CHECK(results["views"] == 10);
+    CHECK(results["cracked_views"] == 0);
+    CHECK(results["drawn"] == 1);
 }

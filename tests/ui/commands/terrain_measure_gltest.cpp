@@ -1,10 +1,10 @@
-#include "models/made/made_terrain.h"
+#include "models/procedural/procedural_terrain.h"
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
-#include "ui/terrain/key_pictures.h"
+#include "ui/terrain/crack_finder.h"
 #include "ui/terrain/terrain_check.h"
 #include "visuals/scene/camera.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 #include "visuals/terrain/quadtree.h"
 
 #include <catch2/catch.hpp>
@@ -19,9 +19,9 @@ using octant::visuals::scene::GroundMetric;
 namespace {
 
 models::heights::HeightField small_ground(const std::string& kind) {
-    models::made::MadeOptions made;
+    models::procedural::ProceduralTerrainOptions made;
     made.size = 257;
-    return *models::made::made_terrain(kind, made);
+    return *models::procedural::procedural_terrain(kind, made);
 }
 
 } // namespace
@@ -40,7 +40,7 @@ TEST_CASE("one in fifty of ten thousand random views shows no crack and no hole"
             check.draw_every = 5;
             check.by_error = mesh == GroundMetric::ScreenError;
             check.quiet = true;
-            const TerrainFaults faults = check_terrain(*maker, check);
+            const TerrainCheckResult faults = check_terrain(*maker, check);
             INFO(kind << ": " << faults.edges.text() << ", " << faults.key_pixels);
             CHECK(faults.views == 200);
             CHECK(faults.drawn == 40);
@@ -54,11 +54,11 @@ TEST_CASE("the key colour is seen through missing triangles and through printed 
     namespace terrain = visuals::terrain;
     const models::heights::HeightField field = small_ground("canyon");
     terrain::QuadtreeOptions printed;
-    printed.propagation = terrain::Propagation::Printed;
+    printed.propagation = terrain::RoughnessPropagation::Printed;
     const terrain::Quadtree tree(field, printed);
     const std::vector<std::uint32_t> colours(257 * 257, 0xffffffffU);
-    terrain::Mesher mesher(tree, colours);
-    KeyPictures pictures({320, 180}, field.half_extent_m());
+    terrain::QuadtreeMesher mesher(tree, colours);
+    CrackFinder pictures({320, 180}, field.half_extent_m());
     const auto camera = visuals::scene::camera_looking_at({0.0, -500.0, 2500.0}, {0.0, 0.0, 0.0});
     GroundViewOptions seen;
     const terrain::MeshView view = mesh_view(camera, seen);

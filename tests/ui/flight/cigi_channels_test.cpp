@@ -1,4 +1,4 @@
-#include "sim/links/cigi_answers.h"
+#include "sim/links/cigi_responses.h"
 #include "sim/links/udp_port.h"
 #include "ui/flight/cigi_channels.h"
 
@@ -17,7 +17,7 @@ TEST_CASE("a host does what else there is to do while it waits for an image gene
     ui::flight::CigiChannels channels;
     channels.add(fmt::format("cigi:127.0.0.1:{}:{}", generator.port(), own));
     int done = 0;
-    const auto unanswered = channels.await_first([&] {
+    const auto unanswered = channels.wait_for_first_frames([&] {
         if (++done == 10) {
             links::WireWriter start(links::ByteOrder::Big);
             links::add_start_of_frame(start, {});

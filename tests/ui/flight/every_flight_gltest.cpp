@@ -60,7 +60,7 @@ TEST_CASE("every path, aircraft, view and built-in ground flies") {
             INFO(ground << " " << path << " " << aircraft);
             const auto settings = small_flight(path, aircraft, ground);
             Session session(
-                settings, ui::flight::Shows::World, nullptr, tests::kept_world(settings));
+                settings, ui::flight::PictureContent::World, nullptr, tests::kept_world(settings));
             REQUIRE(session.frames() > 5);
             std::set<visuals::scene::PictureBytes> pictures;
             for (const View view : views) {

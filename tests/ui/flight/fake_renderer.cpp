@@ -17,7 +17,7 @@ FakeRenderer::FakeRenderer(std::shared_ptr<RendererLog> log, const glm::ivec2& s
 }
 
 std::unique_ptr<scene::Renderer>
-FakeRenderer::beside(const glm::ivec2& size_px, int /*samples*/) const {
+FakeRenderer::sibling(const glm::ivec2& size_px, int /*samples*/) const {
     return std::make_unique<FakeRenderer>(std::make_shared<RendererLog>(), size_px);
 }
 

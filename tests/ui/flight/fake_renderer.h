@@ -30,7 +30,7 @@ public:
 
     const visuals::scene::RendererInfo& info() const override { return info_; }
 
-    std::unique_ptr<Renderer> beside(const glm::ivec2& size_px, int samples) const override;
+    std::unique_ptr<Renderer> sibling(const glm::ivec2& size_px, int samples) const override;
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
     void load_ground_texture(const visuals::scene::GroundTexture& texture) override;

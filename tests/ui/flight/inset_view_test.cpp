@@ -79,7 +79,7 @@ TEST_CASE("an inset needs no file of the ground and maps it no second time") {
     settings.path.terrain = file.string();
     ui::world::World world = small_world();
     world.scene.ground =
-        ui::world::load_scene_ground(settings, ui::world::DrawnBy::Processor).ground;
+        ui::world::load_scene_ground(settings, ui::world::RenderDevice::Cpu).ground;
     REQUIRE(mappings_of(file) == 1);
     std::filesystem::remove(file);
 
@@ -87,7 +87,7 @@ TEST_CASE("an inset needs no file of the ground and maps it no second time") {
     CHECK(triangles_of(inset) > 100);
     CHECK(mappings_of(file) == 1);
     settings.ground.triangles = 4000;
-    inset.follow(settings);
+    inset.apply_settings(settings);
     CHECK(triangles_of(inset) <= 1000);
     CHECK(mappings_of(file) == 1);
 }
@@ -126,8 +126,8 @@ TEST_CASE("an inset follows the scene to another ground") {
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     InsetView inset(settings, world.scene);
     const std::size_t level = triangles_of(inset);
-    world.scene.ground = landscape::ground_from_field(rough_field(), settings.ground, settings.air);
-    inset.follow(settings);
+    world.scene.ground = landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air);
+    inset.apply_settings(settings);
     CHECK(triangles_of(inset) > level);
 }
 
@@ -137,11 +137,11 @@ TEST_CASE("an inset settles anew when the control of its ground changes") {
     settings.ground.mesh = scene::GroundMetric::Midpoint;
     settings.ground.detail = scene::DetailControl::Damped;
     settings.ground.resolution_c = 3.0;
-    world.scene.ground = landscape::ground_from_field(rough_field(), settings.ground, settings.air);
+    world.scene.ground = landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air);
     InsetView inset(settings, world.scene);
     triangles_of(inset);
     settings.ground.resolution_c = 30.0;
-    inset.follow(settings);
+    inset.apply_settings(settings);
     InsetView made_so(settings, world.scene);
     CHECK(triangles_of(inset) == triangles_of(made_so));
 }

@@ -11,7 +11,7 @@ namespace octant::tests {
 /// have in common is loaded once. Throws Error.
 inline ui::world::World kept_world(const ui::settings::RunSettings& settings) {
     static std::optional<ui::world::World> last;
-    last = ui::world::load_world(settings, ui::world::DrawnBy::Processor, last ? &*last : nullptr);
+    last = ui::world::load_world(settings, ui::world::RenderDevice::Cpu, last ? &*last : nullptr);
     return *last;
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("along a path the leader is where the path has it, and the others besi
     CHECK(simulation.states()[0].position_m == leader.position_m);
     CHECK(
         simulation.states()[1].position_m ==
-        simulation.formation().wingman_of(leader, 1).position_m);
+        simulation.formation().wingman_state(leader, 1).position_m);
 }
 
 TEST_CASE("a simulation that begins anew forgets what it has flown") {

@@ -26,7 +26,7 @@ planning::AircraftModel tetrahedron() {
     models::TriangleMesh mesh;
     mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-    models::polygons::PolygonModel polygons = models::polygons::as_polygons(mesh);
+    models::polygons::PolygonModel polygons = models::polygons::polygons_from_mesh(mesh);
     visuals::draworder::DrawOrder order = visuals::draworder::file_order(polygons);
     return planning::aircraft_model(std::move(polygons), std::move(order), glm::dvec3(0.0));
 }
@@ -56,7 +56,7 @@ std::shared_ptr<const landscape::Ground> ground_with_plateau(double height_m) {
         heights_m.begin() + 3 * side * side / 4, heights_m.end(), static_cast<float>(height_m));
     scene::GroundSettings by_quadtree;
     by_quadtree.mesh = scene::GroundMetric::Midpoint;
-    return landscape::ground_from_field(
+    return landscape::make_quadtree_ground(
         {side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
 }
 

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "ui/flight/stress_controller.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ struct Machine {
     double fixed_ms = 3.0;
     double ms_per_triangle = 0.0005;
     double noise = 0.0; ///< share of the frame time, either way
-    Dice dice{7};
+    RandomGenerator dice{7};
 
     double frame_ms(int triangles) {
         const double exact_ms = fixed_ms + ms_per_triangle * triangles;
@@ -41,10 +41,10 @@ fly(StressState& state, const StressSettings& settings, Machine& machine, int fr
         targets.push_back(state.triangles());
         const StressState next =
             next_state(state, settings, {machine.frame_ms(state.triangles()), state.triangles()});
-        REQUIRE(next.target >= settings.lowest);
-        REQUIRE(next.target <= settings.highest);
-        REQUIRE(next.target >= state.target * (1.0 - settings.largest_fall) * (1.0 - 1e-12));
-        REQUIRE(next.target <= state.target * (1.0 + settings.largest_rise) * (1.0 + 1e-12));
+        REQUIRE(next.target >= settings.min_triangles);
+        REQUIRE(next.target <= settings.max_triangles);
+        REQUIRE(next.target >= state.target * (1.0 - settings.max_fall) * (1.0 - 1e-12));
+        REQUIRE(next.target <= state.target * (1.0 + settings.max_rise) * (1.0 + 1e-12));
         state = next;
     }
     return targets;
@@ -58,17 +58,17 @@ bool all_same(const std::vector<int>& targets, std::size_t from) {
 }
 
 double stress_of(const Machine& machine, const StressSettings& settings, const StressState& state) {
-    return (machine.fixed_ms + machine.ms_per_triangle * state.target) / settings.share_ms;
+    return (machine.fixed_ms + machine.ms_per_triangle * state.target) / settings.target_frame_ms;
 }
 
 } // namespace
 
 TEST_CASE("a target lies between an eighth of the budget and four times, however large that is") {
-    CHECK(settings_at(60.0, 20'000).lowest == 2'500);
-    CHECK(settings_at(60.0, 20'000).highest == 80'000);
+    CHECK(settings_at(60.0, 20'000).min_triangles == 2'500);
+    CHECK(settings_at(60.0, 20'000).max_triangles == 80'000);
     const StressSettings large = settings_at(60.0, 1'000'000'000);
-    CHECK(large.lowest == 125'000'000);
-    CHECK(large.highest == std::numeric_limits<int>::max());
+    CHECK(large.min_triangles == 125'000'000);
+    CHECK(large.max_triangles == std::numeric_limits<int>::max());
 }
 
 TEST_CASE("an overload takes the budget into the band within some seconds, and it stays there") {
@@ -76,9 +76,9 @@ TEST_CASE("an overload takes the budget into the band within some seconds, and i
         for (const double fixed_share : {0.0, 0.2, 0.4, 0.6}) {
             const StressSettings settings = settings_at(rate_hz);
             Machine machine;
-            machine.fixed_ms = fixed_share * settings.share_ms;
-            machine.ms_per_triangle = (1.6 - fixed_share) * settings.share_ms / 20000.0;
-            StressState state = starting_at(20000.0, settings);
+            machine.fixed_ms = fixed_share * settings.target_frame_ms;
+            machine.ms_per_triangle = (1.6 - fixed_share) * settings.target_frame_ms / 20000.0;
+            StressState state = initial_state(20000.0, settings);
             const auto settle_frames = static_cast<std::size_t>(std::max(4.5 * rate_hz, 200.0));
             const auto targets = fly(state, settings, machine, static_cast<int>(settle_frames) * 5);
             INFO(rate_hz << " Hz, fixed share " << fixed_share);
@@ -93,7 +93,7 @@ TEST_CASE("an overload takes the budget into the band within some seconds, and i
 TEST_CASE("noise moves no budget that has settled") {
     const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.15};
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     CHECK(all_same(fly(state, settings, machine, 20000), 600));
     CHECK(stress_of(machine, settings, state) == Approx(0.825).margin(0.075));
 }
@@ -101,7 +101,7 @@ TEST_CASE("noise moves no budget that has settled") {
 TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
     const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 5.0, .ms_per_triangle = 0.001, .noise = 0.35};
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     fly(state, settings, machine, 600);
     const auto targets = fly(state, settings, machine, 20000);
     int changes = 0;
@@ -115,7 +115,7 @@ TEST_CASE("violent noise makes a settled budget neither swing nor creep") {
 TEST_CASE("the budget rises slowly into free time and follows a load that comes and goes") {
     const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 2.0, .ms_per_triangle = 0.0004, .noise = 0.05};
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     const auto rising = fly(state, settings, machine, 900);
     CHECK(rising.back() > 25000);
     CHECK(all_same(rising, 600));
@@ -126,22 +126,22 @@ TEST_CASE("the budget rises slowly into free time and follows a load that comes 
     CHECK(falling[120] < 0.8 * before); // most of it within two seconds
     CHECK(all_same(falling, 300));
     machine.ms_per_triangle *= 0.5;
-    const auto again = fly(state, settings, machine, 1200);
-    CHECK(again.back() == Approx(before).epsilon(0.1));
-    CHECK(all_same(again, 900));
+    const auto repeat_option = fly(state, settings, machine, 1200);
+    CHECK(repeat_option.back() == Approx(before).epsilon(0.1));
+    CHECK(all_same(repeat_option, 900));
 }
 
 TEST_CASE("one slow frame moves a settled budget hardly or not at all") {
     for (const double rate_hz : {20.0, 60.0, 240.0}) {
         const StressSettings settings = settings_at(rate_hz);
         Machine machine;
-        machine.fixed_ms = 0.3 * settings.share_ms;
+        machine.fixed_ms = 0.3 * settings.target_frame_ms;
         for (const double stress : {0.76, 0.82, 0.89}) {
-            machine.ms_per_triangle = (stress - 0.3) * settings.share_ms / 20000.0;
-            StressState state = starting_at(20000.0, settings);
+            machine.ms_per_triangle = (stress - 0.3) * settings.target_frame_ms / 20000.0;
+            StressState state = initial_state(20000.0, settings);
             fly(state, settings, machine, 2000);
             REQUIRE(state.triangles() == 20000);
-            state = next_state(state, settings, {20.0 * settings.share_ms, 20000});
+            state = next_state(state, settings, {20.0 * settings.target_frame_ms, 20000});
             fly(state, settings, machine, 2000);
             INFO(rate_hz << " Hz, stress " << stress);
             CHECK(state.triangles() <= 20000);
@@ -153,7 +153,7 @@ TEST_CASE("one slow frame moves a settled budget hardly or not at all") {
 TEST_CASE("a machine that is too slow for the least budget holds it, and recovers") {
     const StressSettings settings = settings_at(60.0);
     Machine machine{.fixed_ms = 30.0, .ms_per_triangle = 0.001, .noise = 0.1};
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     const auto targets = fly(state, settings, machine, 1000);
     CHECK(all_same(targets, 200));
     CHECK(targets.back() == 2500);
@@ -166,29 +166,29 @@ TEST_CASE("a machine that is too slow for the least budget holds it, and recover
 TEST_CASE("an idle machine is given the greatest budget and no more") {
     const StressSettings settings = settings_at(60.0, 1000);
     Machine machine{.fixed_ms = 0.5, .ms_per_triangle = 1e-6};
-    StressState state = starting_at(1000.0, settings);
+    StressState state = initial_state(1000.0, settings);
     fly(state, settings, machine, 1000);
     CHECK(state.triangles() == 4000);
 }
 
 TEST_CASE("a budget that the ground does not use is not raised") {
     const StressSettings settings = settings_at(60.0);
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     for (int frame = 0; frame < 500; ++frame) {
         state = next_state(state, settings, {2.0, 6000});
     }
     CHECK(state.triangles() == 20000);
-    CHECK(state.course == StressState::Course::Held);
-    CHECK(state.stress == Approx(2.0 / settings.share_ms));
+    CHECK(state.trend == StressState::Trend::Held);
+    CHECK(state.stress == Approx(2.0 / settings.target_frame_ms));
 }
 
 TEST_CASE("the stress is none before a frame is measured and the filtered share afterwards") {
     const StressSettings settings = settings_at(60.0);
-    StressState state = starting_at(20000.0, settings);
+    StressState state = initial_state(20000.0, settings);
     CHECK_FALSE(state.stress.has_value());
-    state = next_state(state, settings, {0.85 * settings.share_ms, 20000});
+    state = next_state(state, settings, {0.85 * settings.target_frame_ms, 20000});
     CHECK(state.stress == Approx(0.85));
-    state = next_state(state, settings, {3.85 * settings.share_ms, 20000});
+    state = next_state(state, settings, {3.85 * settings.target_frame_ms, 20000});
     CHECK(state.stress == Approx(0.85 + (1.0 - std::exp(-1.0 / 30.0)) * 3.0));
     const StressState other = with_target(state, 10000);
     CHECK(other.triangles() == 10000);
@@ -197,13 +197,13 @@ TEST_CASE("the stress is none before a frame is measured and the filtered share 
 }
 
 TEST_CASE("whatever frames take, the budget changes in small steps within its limits") {
-    Dice dice(11);
+    RandomGenerator dice(11);
     for (int run = 0; run < 50; ++run) {
         const StressSettings settings = settings_at(dice.between(1.0, 1000.0));
-        StressState state = starting_at(dice.between(100.0, 1e6), settings);
+        StressState state = initial_state(dice.between(100.0, 1e6), settings);
         Machine machine{
-            .fixed_ms = settings.share_ms * dice.between(0.0, 2.0),
-            .ms_per_triangle = settings.share_ms * dice.between(0.0, 1e-4),
+            .fixed_ms = settings.target_frame_ms * dice.between(0.0, 2.0),
+            .ms_per_triangle = settings.target_frame_ms * dice.between(0.0, 1e-4),
             .noise = 0.9};
         fly(state, settings, machine, 500);
     }

@@ -31,14 +31,14 @@ FrameRecord full_record() {
     record.stress = 0.3169;
     record.draw_calls = 3;
     record.shadow_triangles = 24;
-    record.veil_triangles = 17;
+    record.transparent_triangles = 17;
     record.cuts = 5;
     record.unordered = 1;
     record.eye_m = {1.5, -2.25, 3e6};
     record.aircraft_m = {4.0, 5.0, 6.0};
     record.aircraft_agl_m = 61.25;
     record.triangle_target = 1200;
-    record.fine_triangles = 1900;
+    record.detail_triangles = 1900;
     record.scenery_triangles = 800;
     record.error_px = 0.75;
     record.latency_ms = 21.5;
@@ -88,9 +88,9 @@ TEST_CASE("what is written is read back as it was written") {
     write_file(scratch / "frames.csv", frame_csv_header() + frame_csv_line(record));
     const FrameFile file = read_frame_csv(scratch / "frames.csv");
     REQUIRE(file.records.size() == 1);
-    CHECK_FALSE(file.torn);
+    CHECK_FALSE(file.is_truncated);
     const FrameRecord& got = file.records[0];
-    const FrameRecord expected = as_written(record);
+    const FrameRecord expected = rounded_as_csv(record);
     CHECK(frame_csv_line(got) == frame_csv_line(record));
     CHECK(got.draw_ms == expected.draw_ms);
     CHECK(got.draw_ms == 12.3457);
@@ -134,7 +134,7 @@ TEST_CASE("a torn last line is left out, wherever it is cut") {
         CAPTURE(cut);
         REQUIRE(file.records.size() == expected);
         REQUIRE(
-            file.torn ==
+            file.is_truncated ==
             (cut != 0 && cut != first_end && cut != second_end && cut != whole.size()));
     }
 }
@@ -151,9 +151,9 @@ TEST_CASE("columns are found by name, in any order and among strange ones") {
     CHECK(got.frame_ms == 38.0);
     CHECK(got.overrun == 1);
     CHECK_FALSE(got.warm_up);
-    constexpr std::array<std::string_view, 1> further{"triangle_target"};
+    constexpr std::array<std::string_view, 1> required_columns{"triangle_target"};
     CHECK_THROWS_WITH(
-        read_frame_csv(scratch / "frames.csv", further),
+        read_frame_csv(scratch / "frames.csv", required_columns),
         Catch::Contains(":1: expected a column triangle_target, got 'mood,overrun,"));
 }
 

@@ -3,7 +3,7 @@
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_report.h"
 #include "ui/report/page_plot.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ made_up_recording(const std::filesystem::path& folder, const std::string& title,
     info.title = title;
     info.settings_json = R"({"note":"<script>&","rate":60})";
     info.machine.cores = 2;
-    Recording recording(folder, info);
+    RecordingWriter recording(folder, info);
     for (int frame = 0; frame < 30; ++frame) {
         recording.add(made_up_frame(frame, frame == 20 ? 30.0 : draw_ms));
     }
@@ -42,8 +42,8 @@ std::size_t count_of(const std::string& text, const std::string& what) {
     return count;
 }
 
-FlightDigest digest_of(const std::vector<FrameRecord>& records) {
-    FlightDigest digest;
+FlightAccumulator digest_of(const std::vector<FrameRecord>& records) {
+    FlightAccumulator digest;
     for (const FrameRecord& record : records) {
         digest.add(record);
     }
@@ -83,8 +83,8 @@ TEST_CASE("a table sets numbers right and escapes the rest") {
 TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through as markup") {
     const ScratchFolder scratch;
     const std::vector recordings{made_up_recording(scratch / "one", "<b>flight</b>", 5.0)};
-    const std::vector<HtmlTable> further{{"Study", {"x"}, {{"<i>"}}, ""}};
-    const std::string page = html_report(recordings, further);
+    const std::vector<HtmlTable> first_tables{{"Study", {"x"}, {{"<i>"}}, ""}};
+    const std::string page = html_report(recordings, first_tables);
     CHECK_THAT(page, Catch::StartsWith("<!DOCTYPE html>"));
     CHECK_THAT(page, Contains("<h1>&lt;b&gt;flight&lt;/b&gt;</h1>"));
     CHECK_THAT(page, Contains("&lt;script&gt;&amp;"));
@@ -96,13 +96,13 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK(count_of(page, "data:image/png;base64,") == 12 + 4); // and of the slowest frames
     CHECK(count_of(page, "<script") == 1 + 5);                 // and the numbers of each plot
     CHECK_THAT(page, Contains("12 of 14 pictures"));
-    for (const Figure& figure : figures()) {
-        CHECK_THAT(page, Contains(escaped(figure.definition)));
+    for (const Statistic& statistic : all_statistics()) {
+        CHECK_THAT(page, Contains(escaped(statistic.definition)));
     }
     CHECK_THAT(page, Contains("1 of 28 frames took longer than 16.67 ms. In 1 of them draw took"));
     CHECK_THAT(page, Contains("draw by 25.00 ms"));
     CHECK_THAT(page, Contains("0000000000000aaa"));
-    CHECK(html_report(recordings, further) == page);
+    CHECK(html_report(recordings, first_tables) == page);
 }
 
 TEST_CASE("the slowest frames of a flight are shown by their own pictures") {
@@ -204,7 +204,7 @@ TEST_CASE("a plot in a page has its numbers, and no text of it ends its element"
     plot.series = {
         {"</script>", "#fff", PlotSeries::Style::Line, {0.0, 1.0}, {2.5, std::nan("")}, {}}};
     plot.marks = {{"leg \"1\"", 0.5}};
-    const std::string html = page_plot(plot, PlotPlace::Wide);
+    const std::string html = page_plot(plot, PlotWidth::FullWidth);
     CHECK_THAT(html, Contains("<h3>a &lt; b</h3>"));
     CHECK_THAT(html, Contains("\"n\":\"\\u003c/script>\""));
     CHECK_THAT(html, Contains("\"x\":[0,1],\"y\":[2.5,null]"));
@@ -220,9 +220,9 @@ TEST_CASE("a flight whose triangle target moved shows its course and its stress"
         records.back().triangle_target = frame < 2 ? 90 : 100 + 10 * frame; // the first two warm up
         records.back().stress = frame < 2 ? std::nan("") : 0.8;
     }
-    const FlightDigest flight = digest_of(records);
-    CHECK(flight.triangle_targets().least == 120);
-    CHECK(flight.triangle_targets().greatest == 150);
+    const FlightAccumulator flight = digest_of(records);
+    CHECK(flight.triangle_targets().min_triangles == 120);
+    CHECK(flight.triangle_targets().max_triangles == 150);
     CHECK(flight.triangle_targets().mean == 135.0);
     const auto plots = flight_plots(flight, 20.0);
     REQUIRE(plots.size() == 7);

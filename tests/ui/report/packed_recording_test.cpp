@@ -6,7 +6,7 @@
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/packed_recording.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 #include "ui/report/zip_file.h"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ void record(const fs::path& folder) {
     info.title = "a flight";
     info.settings_json = R"({"path":"inputs/p.toml","terrain":"../map.bil"})";
     info.files = {{"inputs/p.toml", "legs"}};
-    Recording recording(folder, info);
+    RecordingWriter recording(folder, info);
     for (int frame = 0; frame < 20; ++frame) {
         recording.add(made_up_frame(frame, 10.0));
     }
@@ -52,7 +52,7 @@ TEST_CASE("a packed recording is the same wherever it is unpacked, and the same 
     const ScratchFolder scratch;
     record(scratch / "rec");
     write_file(scratch / "rec/notes.txt", "mine");
-    const Packing packing = pack_recording(scratch / "rec", scratch / "a.zip", false);
+    const PackResult packing = pack_recording(scratch / "rec", scratch / "a.zip", false);
     CHECK(packing.files == 7);
     REQUIRE(packing.notes.size() == 1);
     CHECK_THAT(packing.notes[0], Contains("map.bil does not lie in the recording"));
@@ -82,12 +82,12 @@ TEST_CASE("what is read out of a packed recording is called by the packed file")
     const std::vector<LoadedRecording> both = {
         load_recording(recording_folder(scratch / "a.zip")),
         load_recording(recording_folder(scratch / "other/a.zip"))};
-    CHECK(both[0].called == (scratch / "a.zip").string());
-    CHECK(both[1].called == (scratch / "other/a.zip").string());
+    CHECK(both[0].display_name == (scratch / "a.zip").string());
+    CHECK(both[1].display_name == (scratch / "other/a.zip").string());
     const std::string page = html_report(both, {}, scratch / "there");
-    CHECK_THAT(page, Contains(both[0].called) && Contains(both[1].called));
+    CHECK_THAT(page, Contains(both[0].display_name) && Contains(both[1].display_name));
     CHECK_THAT(page, !Contains(both[0].folder.string()) && !Contains(both[1].folder.string()));
-    CHECK(load_recording(scratch / "rec").called == (scratch / "rec").string());
+    CHECK(load_recording(scratch / "rec").display_name == (scratch / "rec").string());
 }
 
 TEST_CASE("a terrain is packed where that is asked for, with what belongs to it") {

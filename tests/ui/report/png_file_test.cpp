@@ -28,7 +28,7 @@ TEST_CASE("alpha is dropped and a bottom row that comes first goes to the bottom
     for (const int value : {1, 2, 3, 99, 4, 5, 6, 0}) {
         picture.bytes.push_back(static_cast<std::byte>(value));
     }
-    PictureView view = picture.view();
+    PixelView view = picture.view();
     view.bottom_row_first = true;
     std::vector<int> values;
     for (const std::byte byte : picture_from_png("a", png_bytes(view)).bytes) {
@@ -64,14 +64,14 @@ TEST_CASE("a picture is shrunk by whole numbers to the mean of its squares") {
     Picture picture{4, 2, 3, std::vector<std::byte>(24, std::byte{0})};
     picture.bytes[0] = std::byte{200};
     picture.bytes[3] = std::byte{100};
-    const Picture small = shrunk(picture.view(), 2);
+    const Picture small = downscaled(picture.view(), 2);
     CHECK(small.width_px == 2);
     CHECK(small.height_px == 1);
     CHECK(std::to_integer<int>(small.bytes[0]) == 75);
     CHECK(std::to_integer<int>(small.bytes[3]) == 0);
-    CHECK(shrunk(picture.view(), 4).bytes == picture.bytes);
-    CHECK(shrunk(picture.view(), 3).width_px == 2);
-    CHECK(shrunk(made_up_picture(100, 1, 4).view(), 10).height_px == 1);
+    CHECK(downscaled(picture.view(), 4).bytes == picture.bytes);
+    CHECK(downscaled(picture.view(), 3).width_px == 2);
+    CHECK(downscaled(made_up_picture(100, 1, 4).view(), 10).height_px == 1);
 }
 
 TEST_CASE("pictures are chosen evenly with both ends") {

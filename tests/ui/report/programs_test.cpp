@@ -40,20 +40,20 @@ TEST_CASE("a program is fed, and its output and its end are reported") {
     REQUIRE(cat);
     const std::string much(3'000'000, 'x');
     CHECK(cat->send(much));
-    const ProgramEnding ending = cat->finish();
+    const ProgramResult ending = cat->finish();
     CHECK(ending.succeeded);
     CHECK(ending.output == much);
     auto failing = ChildProgram::start({"sh", "-c", "echo one >&2; echo two >&2; exit 4"});
     REQUIRE(failing);
-    const ProgramEnding failed = failing->finish();
+    const ProgramResult failed = failing->finish();
     CHECK_FALSE(failed.succeeded);
-    CHECK(failed.last_complaint == "two");
+    CHECK(failed.last_error_line == "two");
     auto silent = ChildProgram::start({"sh", "-c", "exit 4"});
     REQUIRE(silent);
-    CHECK(silent->finish().last_complaint == "ended with exit code 4");
+    CHECK(silent->finish().last_error_line == "ended with exit code 4");
     auto killed = ChildProgram::start({"sh", "-c", "kill -9 $$"});
     REQUIRE(killed);
-    CHECK(killed->finish().last_complaint == "ended by signal 9");
+    CHECK(killed->finish().last_error_line == "ended by signal 9");
 }
 
 TEST_CASE("a program that is not there is nothing, and arguments meet no shell") {
@@ -158,7 +158,7 @@ TEST_CASE("ffmpeg makes a fragmented video of odd size and odd name") {
     const auto path = scratch / "odd: 'name' %d.mp4";
     const Picture picture = made_up_picture(63, 47, 4);
     VideoPipe video(path, {63, 47, 4, true, 10.0});
-    PictureView view = picture.view();
+    PixelView view = picture.view();
     view.bottom_row_first = true;
     for (int i = 0; i < 25; ++i) {
         video.add(view);

@@ -2,7 +2,7 @@
 
 #include "ui/report/frame_record.h"
 #include "ui/report/png_file.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 
 #include <cstdlib>
 #include <filesystem>

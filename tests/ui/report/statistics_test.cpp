@@ -1,6 +1,6 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/frame_times.h"
-#include "ui/report/overruns.h"
+#include "ui/report/slow_frames.h"
 #include "ui/report/statistics.h"
 
 #include <catch2/catch.hpp>
@@ -13,8 +13,8 @@ using namespace octant::ui::report;
 
 TEST_CASE("no frames give zeros, and one frame has no deviation and no jitter") {
     CHECK(statistics_of({}) == Statistics{});
-    for (const Figure& figure : figures()) {
-        CHECK(figure_text(figure, {}) == (figure.decimals == 0 ? "0" : "-"));
+    for (const Statistic& statistic : all_statistics()) {
+        CHECK(statistic_text(statistic, {}) == (statistic.decimals == 0 ? "0" : "-"));
     }
     const std::array one{20.0};
     const Statistics got = statistics_of_times(one);
@@ -77,8 +77,8 @@ TEST_CASE("warm-up frames are left out of the figures") {
 
 TEST_CASE("the figures are named as run.json names them") {
     std::vector<std::string> keys;
-    for (const Figure& figure : figures()) {
-        keys.emplace_back(figure.key);
+    for (const Statistic& statistic : all_statistics()) {
+        keys.emplace_back(statistic.key);
     }
     CHECK(
         keys == std::vector<std::string>{
@@ -106,14 +106,14 @@ TEST_CASE("an overrun names the longest stage and the one that grew") {
     }
     records[5].plan_ms = 9.0;
     records[5].frame_ms = 21.0; // 0.5 ms of it in no stage
-    SlowFrames slow;
+    SlowFrameList slow;
     std::ranges::for_each(records, [&](const FrameRecord& each) { slow.add(each); });
     const auto overruns = slow.slowest();
     REQUIRE(overruns.size() == 5);
     CHECK(slow.above_16_ms() == std::array<int, 5>{0, 0, 1, 0, 0});
     CHECK(overruns[0].record.frame == 5);
     CHECK(stage_names[overruns[0].longest_stage] == "draw");
-    CHECK(stage_names[overruns[0].grown_stage] == "plan");
-    CHECK(overruns[0].growth_ms == 7.0);
+    CHECK(stage_names[overruns[0].slowed_stage] == "plan");
+    CHECK(overruns[0].slowdown_ms == 7.0);
     CHECK(overruns[0].stage_ms[4] == Approx(0.5));
 }

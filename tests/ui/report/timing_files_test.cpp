@@ -2,7 +2,7 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/kernel_counters.h"
 #include "ui/report/loaded_recording.h"
-#include "ui/report/recording.h"
+#include "ui/report/recording_writer.h"
 
 #include <catch2/catch.hpp>
 
@@ -16,7 +16,7 @@ using namespace octant::ui::report;
 
 TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
     const ScratchFolder scratch;
-    Recording recording(scratch / "rec", made_up_info());
+    RecordingWriter recording(scratch / "rec", made_up_info());
     for (int frame = 0; frame < 3; ++frame) {
         recording.add(made_up_frame(frame, 4.5));
     }
@@ -32,7 +32,7 @@ TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
 
 TEST_CASE("the trace holds every frame with its stages one after the other") {
     const ScratchFolder scratch;
-    Recording recording(scratch / "rec", made_up_info());
+    RecordingWriter recording(scratch / "rec", made_up_info());
     for (int frame = 0; frame < 3; ++frame) {
         recording.add(made_up_frame(frame, frame == 2 ? 14.5 : 4.5));
     }
@@ -57,7 +57,7 @@ TEST_CASE("the trace holds every frame with its stages one after the other") {
 
 TEST_CASE("what the kernel counted stands beside the slowest frames") {
     const ScratchFolder scratch;
-    Recording recording(scratch / "rec", made_up_info());
+    RecordingWriter recording(scratch / "rec", made_up_info());
     for (int frame = 0; frame < 40; ++frame) {
         FrameRecord record = made_up_frame(frame, frame == 30 ? 50.0 : 5.0);
         record.counters = {100 + frame, frame, 10.0 * frame};
@@ -66,7 +66,7 @@ TEST_CASE("what the kernel counted stands beside the slowest frames") {
     recording.finish({1, 2, {}});
     const LoadedRecording loaded = load_recording(scratch / "rec");
     REQUIRE(loaded.has_counters);
-    REQUIRE(loaded.slowest.size() == SlowFrames::max_kept);
+    REQUIRE(loaded.slowest.size() == SlowFrameList::max_kept);
     CHECK(loaded.slowest[0].record.frame == 30);
     CHECK(loaded.slowest[0].record.counters.page_faults == 130);
     CHECK(loaded.slowest[0].record.counters.switches == 30);
@@ -84,7 +84,7 @@ TEST_CASE("what the kernel counted stands beside the slowest frames") {
 
 TEST_CASE("the trace of a long flight ends with its slow frames") {
     const ScratchFolder scratch;
-    Recording recording(scratch / "rec", made_up_info());
+    RecordingWriter recording(scratch / "rec", made_up_info());
     for (int frame = 0; frame < 100'000; ++frame) {
         recording.add(made_up_frame(frame, frame == 99'999 ? 50.0 : 5.0));
     }

@@ -18,19 +18,19 @@ enum class Unnamed { One };
 
 template <>
 inline constexpr std::array enum_names<Shuffled>{
-    Named{Shuffled::Two, "two"}, Named{Shuffled::One, "one"}};
+    EnumName{Shuffled::Two, "two"}, EnumName{Shuffled::One, "one"}};
 
 template <>
 inline constexpr std::array enum_names<OneForgotten>{
-    Named{OneForgotten::One, "one"}, Named{OneForgotten::Two, "two"}};
+    EnumName{OneForgotten::One, "one"}, EnumName{OneForgotten::Two, "two"}};
 
 template <>
 inline constexpr std::array enum_names<OneTwice>{
-    Named{OneTwice::One, "one"}, Named{OneTwice::One, "two"}};
+    EnumName{OneTwice::One, "one"}, EnumName{OneTwice::One, "two"}};
 
 template <>
 inline constexpr std::array enum_names<GapInTheMiddle>{
-    Named{GapInTheMiddle::One, "one"}, Named{GapInTheMiddle::Three, "three"}};
+    EnumName{GapInTheMiddle::One, "one"}, EnumName{GapInTheMiddle::Three, "three"}};
 
 } // namespace octant::ui::settings
 

@@ -27,12 +27,12 @@ namespace {
 // Each returns another value that the setting takes.
 
 double other_value(const SettingInfo& info, double value) {
-    return value == info.most ? info.least : info.most;
+    return value == info.max_value ? info.min_value : info.max_value;
 }
 
 int other_value(const SettingInfo& info, int value) {
-    return value == static_cast<int>(info.most) ? static_cast<int>(info.least)
-                                                : static_cast<int>(info.most);
+    return value == static_cast<int>(info.max_value) ? static_cast<int>(info.min_value)
+                                                : static_cast<int>(info.max_value);
 }
 
 bool other_value(const SettingInfo& /*info*/, bool value) {
@@ -56,8 +56,8 @@ glm::dvec3 other_value(const SettingInfo& /*info*/, const glm::dvec3& value) {
     return value + glm::dvec3(1.0, -2.5, 3.0);
 }
 
-models::heights::VoidMarks
-other_value(const SettingInfo& /*info*/, const models::heights::VoidMarks& voids) {
+models::heights::VoidValues
+other_value(const SettingInfo& /*info*/, const models::heights::VoidValues& voids) {
     return {{-9999.0, 0.5}, !voids.only};
 }
 
@@ -126,8 +126,8 @@ TEST_CASE("each row has a name of its own, a meaning, and limits that hold its d
             CHECK(names.insert(info.name).second);
             CHECK(info.meaning.size() > 5);
             if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
-                CHECK(info.least <= value);
-                CHECK(value <= info.most);
+                CHECK(info.min_value <= value);
+                CHECK(value <= info.max_value);
             }
         });
     CHECK(names.size() == ui::settings::settings_json(defaults).size());

@@ -48,13 +48,13 @@ TEST_CASE("stored numbers that mean no data are a list, with none in front the o
         return ui::settings::read_settings(settings_file("{\"void\": " + json + "}"))
             .path.terrain_voids;
     };
-    using models::heights::VoidMarks;
-    CHECK(voids_of("\"-9999,0.5\"") == VoidMarks{{-9999.0, 0.5}, false});
-    CHECK(voids_of("\"none\"") == VoidMarks{{}, true});
-    CHECK(voids_of("\"none,-3.4028235e+38\"") == VoidMarks{{-3.4028235e+38}, true});
-    CHECK(voids_of("\"common\"") == VoidMarks{});
-    CHECK(voids_of("null") == VoidMarks{}); // as files of before had it
-    CHECK(voids_of("-9999.0") == VoidMarks{{-9999.0}, false});
+    using models::heights::VoidValues;
+    CHECK(voids_of("\"-9999,0.5\"") == VoidValues{{-9999.0, 0.5}, false});
+    CHECK(voids_of("\"none\"") == VoidValues{{}, true});
+    CHECK(voids_of("\"none,-3.4028235e+38\"") == VoidValues{{-3.4028235e+38}, true});
+    CHECK(voids_of("\"common\"") == VoidValues{});
+    CHECK(voids_of("null") == VoidValues{}); // as files of before had it
+    CHECK(voids_of("-9999.0") == VoidValues{{-9999.0}, false});
     for (const char* const wrong : {"\"nothing\"", "\"0,\"", "\"\"", "\"nan\"", "\"common,0\""}) {
         CHECK_THROWS_WITH(
             voids_of(wrong),

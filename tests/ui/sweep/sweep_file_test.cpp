@@ -26,7 +26,7 @@ Sweep sweep_of(const std::string& text) {
 
 std::vector<std::string> names_of(const Sweep& sweep) {
     std::vector<std::string> names;
-    for (const Run& run : sweep.runs) {
+    for (const SweepRun& run : sweep.runs) {
         names.push_back(run.name);
     }
     return names;

@@ -23,7 +23,7 @@ struct Outcomes {
 /// Has the paused window change to a ground and draw the flight's first picture over it.
 void change_ground(DrivenViewer& driven, const std::filesystem::path& ground) {
     driven.state().message.text.clear();
-    driven.state().wanted.path.terrain = ground.string();
+    driven.state().next_settings.path.terrain = ground.string();
     driven.turns(3);
 }
 

@@ -39,10 +39,10 @@ DrivenViewer::DrivenViewer(
     options.settings = settings;
     options.panels = false;
     options.vsync = false;
-    options.records_into = folder_;
-    options.keeps_into = folder_ / "kept";
+    options.recordings_folder = folder_;
+    options.config_folder = folder_ / "kept";
     if (!layout.empty()) {
-        write_file(options.keeps_into / "layout.ini", layout);
+        write_file(options.config_folder / "layout.ini", layout);
     }
     viewer_ = std::make_unique<ui::window::Viewer>(options);
     turns(3);
@@ -57,7 +57,7 @@ DrivenViewer::~DrivenViewer() {
 
 void DrivenViewer::turns(int count) {
     for (int i = 0; i < count; ++i) {
-        viewer_->turn();
+        viewer_->run_frame();
     }
 }
 
@@ -67,7 +67,7 @@ bool DrivenViewer::until(const std::function<bool()>& holds) {
         if (holds()) {
             return true;
         }
-        viewer_->turn();
+        viewer_->run_frame();
     }
     return false;
 }

@@ -140,13 +140,13 @@ TEST_CASE("changing path, aircraft and ground in the window loads them, and a wr
     if (!driven) {
         return;
     }
-    driven->state().wanted.path.name = "turn";
-    driven->state().wanted.path.aircraft = {"500md"};
-    driven->state().wanted.path.terrain = "canyon";
+    driven->state().next_settings.path.name = "turn";
+    driven->state().next_settings.path.aircraft = {"500md"};
+    driven->state().next_settings.path.terrain = "canyon";
     driven->turns(3);
     CHECK(driven->settings().path.terrain == "canyon");
     CHECK(driven->viewer().session().world().flight.title == "500md turn over canyon");
-    driven->state().wanted.path.name = "no-such-path";
+    driven->state().next_settings.path.name = "no-such-path";
     driven->turns(3);
     CHECK(driven->settings().path.name == "turn");
     CHECK(driven->state().message.text.find("no-such-path") != std::string::npos);
@@ -183,13 +183,13 @@ TEST_CASE("Esc asks while a recording is made, and leaves at once where none is"
     REQUIRE(driven->state().recording.has_value());
     driven->strike("Escape");
     CHECK(driven->state().open.leave_question);
-    CHECK(driven->viewer().turn());
+    CHECK(driven->viewer().run_frame());
     driven->strike("Escape");
     CHECK_FALSE(driven->state().open.leave_question);
-    CHECK(driven->viewer().turn());
+    CHECK(driven->viewer().run_frame());
     driven->strike("Escape");
     driven->state().requests.leave_recording = true;
-    CHECK_FALSE(driven->viewer().turn());
+    CHECK_FALSE(driven->viewer().run_frame());
     CHECK(driven->viewer().finish_recording().has_value());
     driven->state().requests.leave_recording = false;
     driven->state().open.leave_question = false;
@@ -205,7 +205,7 @@ TEST_CASE("another way to remove hidden surfaces keeps the flight's time") {
     driven->strike("space");
     driven->strike("Home");
     driven->strike("slash");
-    driven->state().wanted.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
+    driven->state().next_settings.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
     driven->turns(3);
     CHECK(driven->settings().surface.hidden_surface == visuals::scene::HiddenSurface::DepthBuffer);
     CHECK(driven->viewer().session().simulation().time_s() == Approx(2.0));

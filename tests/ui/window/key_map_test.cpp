@@ -27,7 +27,7 @@ KeyMapFile read(const std::string& text) {
 
 TEST_CASE("without a file keys are as the help has them, and every key has a name and a place") {
     const KeyMapFile none = read_key_map(tests::scratch_folder() / "no keys");
-    CHECK(none.faults.empty());
+    CHECK(none.errors.empty());
     for (const ViewKey& each : view_keys()) {
         CAPTURE(each.id);
         CHECK(none.keys.command_of(each.key, false) == each.command);
@@ -35,8 +35,8 @@ TEST_CASE("without a file keys are as the help has them, and every key has a nam
         CHECK(key_of_name(none.keys.name_of(each.command)) == each.key);
     }
     for (const HeldKey& each : held_keys()) {
-        CHECK(none.keys.key_of(each.action) == each.key);
-        CHECK(key_of_name(none.keys.name_of(each.action)) == each.key);
+        CHECK(none.keys.key_of(each.chosen_action) == each.key);
+        CHECK(key_of_name(none.keys.name_of(each.chosen_action)) == each.key);
     }
 }
 
@@ -45,7 +45,7 @@ TEST_CASE(
     const KeyMapFile changed =
         read("# mine\n\nplay = P\r\nstick back=keypad -\n  loop = space \nrecord = none\n"
              "mouse look = middle\ngamepad pitch = -right y\njoystick throttle = -2\n");
-    CHECK(changed.faults.empty());
+    CHECK(changed.errors.empty());
     const KeyMap& keys = changed.keys;
     CHECK(keys.command_of(GLFW_KEY_P, false) == ViewCommand::PlayOrPause);
     CHECK(keys.command_of(GLFW_KEY_SPACE, false) == ViewCommand::Loop);
@@ -57,20 +57,20 @@ TEST_CASE(
     CHECK(keys.look_button == GLFW_MOUSE_BUTTON_MIDDLE);
     const std::array<float, 6> pad{0.1F, 0.2F, 0.3F, 0.4F, -1.0F, 0.6F};
     CHECK(gamepad_axes(keys, pad) == std::array<float, 6>{0.1F, -0.4F, 0.3F, 0.0F, -1.0F, 0.6F});
-    const JoystickState stick = joystick_of(keys, std::array{0.1F, 0.2F});
+    const JoystickState stick = mapped_joystick(keys, std::array{0.1F, 0.2F});
     CHECK(stick.axes == std::array<float, 4>{0.1F, 0.2F, 0.0F, -0.2F});
-    CHECK(joystick_of(KeyMap(), std::array{0.1F, 0.2F}).axis_count == 2);
+    CHECK(mapped_joystick(KeyMap(), std::array{0.1F, 0.2F}).axis_count == 2);
 
-    const KeyMapFile again = read(text_of_key_map(keys));
-    CHECK(again.faults.empty());
-    CHECK(text_of_key_map(again.keys) == text_of_key_map(keys));
+    const KeyMapFile repeat_option = read(text_of_key_map(keys));
+    CHECK(repeat_option.errors.empty());
+    CHECK(text_of_key_map(repeat_option.keys) == text_of_key_map(keys));
 }
 
 TEST_CASE("a button of a gamepad gives its command once, and then no longer moves the rudder") {
     const KeyMapFile changed =
         read("gamepad left bumper = record\ngamepad start = none\ngamepad a = none\n");
-    REQUIRE(changed.faults.empty());
-    PadButtons pressed{};
+    REQUIRE(changed.errors.empty());
+    GamepadButtons pressed{};
     CHECK(pad_commands(changed.keys, pressed, pressed).empty());
     pressed[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] = 1;
     pressed[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] = 1;
@@ -78,15 +78,15 @@ TEST_CASE("a button of a gamepad gives its command once, and then no longer move
     CHECK(pad_commands(changed.keys, {}, pressed) == std::vector{ViewCommand::Record});
     CHECK(pad_commands(changed.keys, pressed, pressed).empty());
     CHECK(pad_commands(KeyMap(), {}, pressed) == std::vector{ViewCommand::PlayOrPause});
-    const PadButtons flying = flying_buttons(changed.keys, pressed);
+    const GamepadButtons flying = flying_buttons(changed.keys, pressed);
     CHECK(flying[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == 0);
     CHECK(flying[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == 1);
 
-    const KeyMapFile again = read(text_of_key_map(changed.keys));
-    CHECK(again.faults.empty());
-    CHECK(again.keys.pad_commands == changed.keys.pad_commands);
+    const KeyMapFile repeat_option = read(text_of_key_map(changed.keys));
+    CHECK(repeat_option.errors.empty());
+    CHECK(repeat_option.keys.pad_commands == changed.keys.pad_commands);
     CHECK_THAT(
-        read("gamepad b = dance\n").faults.at(0),
+        read("gamepad b = dance\n").errors.at(0),
         Catch::Contains("keys:1: expected what a key does"));
 }
 
@@ -94,15 +94,15 @@ TEST_CASE("lines that are wrong are told with their numbers, and count for nothi
     const KeyMapFile wrong = read(
         "play\nfly = F\nplay = Any\nmouse look = wheel\ngamepad pitch = up\njoystick roll = 17\n"
         "gamepad nose = left x\nloop = O\n\x1b[31m = A\n");
-    REQUIRE(wrong.faults.size() == 8);
-    CHECK_THAT(wrong.faults[0], Catch::Contains("keys:1: expected a line \"what = key\""));
-    CHECK_THAT(wrong.faults[1], Catch::Contains("keys:2: expected something that keys"));
-    CHECK_THAT(wrong.faults[2], Catch::Contains("keys:3: expected the name of a key"));
-    CHECK_THAT(wrong.faults[3], Catch::Contains("keys:4: expected left, right or middle"));
-    CHECK_THAT(wrong.faults[4], Catch::Contains("keys:5: expected left x"));
-    CHECK_THAT(wrong.faults[5], Catch::Contains("keys:6: expected an axis of the joystick"));
-    CHECK_THAT(wrong.faults[6], Catch::Contains("keys:7: expected something that keys"));
-    CHECK(wrong.faults[7].find('\x1b') == std::string::npos);
+    REQUIRE(wrong.errors.size() == 8);
+    CHECK_THAT(wrong.errors[0], Catch::Contains("keys:1: expected a line \"what = key\""));
+    CHECK_THAT(wrong.errors[1], Catch::Contains("keys:2: expected something that keys"));
+    CHECK_THAT(wrong.errors[2], Catch::Contains("keys:3: expected the name of a key"));
+    CHECK_THAT(wrong.errors[3], Catch::Contains("keys:4: expected left, right or middle"));
+    CHECK_THAT(wrong.errors[4], Catch::Contains("keys:5: expected left x"));
+    CHECK_THAT(wrong.errors[5], Catch::Contains("keys:6: expected an axis of the joystick"));
+    CHECK_THAT(wrong.errors[6], Catch::Contains("keys:7: expected something that keys"));
+    CHECK(wrong.errors[7].find('\x1b') == std::string::npos);
     CHECK(wrong.keys.command_of(GLFW_KEY_O, false) == ViewCommand::Loop);
     CHECK(wrong.keys.command_of(GLFW_KEY_SPACE, false) == ViewCommand::PlayOrPause);
 }

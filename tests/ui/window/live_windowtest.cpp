@@ -1,7 +1,7 @@
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/udp_port.h"
 #include "tests/ui/window/virtual_display.h"
-#include "ui/commands/replay_packets.h"
+#include "ui/commands/packet_replay.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/replay.h"
 #include "ui/settings/settings_file.h"
@@ -72,14 +72,14 @@ private:
 };
 
 /// What a replay without a window says of a recording.
-ui::flight::ReplayVerdict replayed(const fs::path& folder) {
+ui::flight::ReplayComparison replayed(const fs::path& folder) {
     const ui::flight::Replay replay = ui::flight::read_replay(folder);
     const ui::settings::RunSettings settings = ui::settings::read_settings(folder / "run.json");
     ui::flight::Session session(settings);
     ui::flight::FlightRecorder recorder({}, settings, session);
-    const auto packets = ui::commands::fly_packets(replay, session, recorder, true);
-    const ui::flight::FlightEnd end = recorder.finish(session);
-    return ui::flight::verdict_on(replay, end.state_hash, end.picture_hash);
+    const auto packets = ui::commands::replay_packets(replay, session, recorder, true);
+    const ui::flight::FlightResult end = recorder.finish(session);
+    return ui::flight::compare_with_recording(replay, end.state_hash, end.picture_hash);
 }
 
 } // namespace
@@ -111,8 +111,8 @@ TEST_CASE("a flight of others that is recorded in the window is replayed without
         ui::window::Viewer viewer(options);
         const FdmSender sender(port);
         for (int i = 0; i < 90; ++i) {
-            viewer.turn();
-            viewer.state().wanted.view.azimuth_deg = i; // A recording keeps its view.
+            viewer.run_frame();
+            viewer.state().next_settings.view.azimuth_deg = i; // A recording keeps its view.
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
         const ImGuiWindow* const marks = ImGui::FindWindowByName("##status"); // "REC folder"
@@ -121,10 +121,10 @@ TEST_CASE("a flight of others that is recorded in the window is replayed without
         CHECK(marks->Pos.y + marks->Size.y <= 320.0F);
         REQUIRE(viewer.finish_recording());
         CHECK_FALSE(viewer.finish_recording());
-        viewer.turn(); // goes on
-        viewer.turn();
+        viewer.run_frame(); // goes on
+        viewer.run_frame();
     }
-    const ui::flight::ReplayVerdict verdict = replayed(folder);
+    const ui::flight::ReplayComparison verdict = replayed(folder);
     INFO(verdict.line);
     CHECK(verdict.is_same);
     CHECK(fs::exists(folder / "report.html"));

@@ -25,19 +25,19 @@ OpenPanels all_open() {
 }
 
 /// The places of panels that want so much, after the window has seen them once.
-std::vector<PanelRect> places_of(PanelColumns& columns, const PanelRoom& room, float wanted) {
+std::vector<PanelRect> places_of(PanelColumns& columns, const PanelArea& area, float wanted_height) {
     for (const std::string_view title : side_panels) {
-        columns.wants(title, wanted);
+        columns.report_height(title, wanted_height);
     }
     for (const std::string_view title : middle_panels) {
-        columns.wants(title, wanted);
+        columns.report_height(title, wanted_height);
     }
-    columns.lay_out(all_open(), room);
+    columns.lay_out(all_open(), area);
     std::vector<PanelRect> places;
     const auto take = [&](std::string_view title) {
-        const auto rect = columns.put(title);
+        const auto rect = columns.take_new_rect(title);
         REQUIRE(rect);
-        columns.lies(title, *rect);
+        columns.report_rect(title, *rect);
         places.push_back(*rect);
     };
     for (const std::string_view title : side_panels) {
@@ -59,19 +59,19 @@ bool overlap(const PanelRect& a, const PanelRect& b) {
 TEST_CASE("all panels at once lie in the window, none over another, and leave the middle free") {
     for (const glm::vec2& size :
          {glm::vec2(1280, 720), glm::vec2(800, 500), glm::vec2(1920, 1080)}) {
-        for (const float wanted : {60.0F, 300.0F, 2000.0F}) {
+        for (const float wanted_height : {60.0F, 300.0F, 2000.0F}) {
             for (const float inset : {0.0F, size.y / 3.0F}) {
-                CAPTURE(size.x, wanted, inset);
+                CAPTURE(size.x, wanted_height, inset);
                 PanelColumns columns;
                 const auto places = places_of(
-                    columns, {size, 1.0F, 40.0F, {inset * size.x / size.y, inset}}, wanted);
+                    columns, {size, 1.0F, 40.0F, {inset * size.x / size.y, inset}}, wanted_height);
                 for (std::size_t i = 0; i < places.size(); ++i) {
                     const PanelRect& place = places[i];
                     CHECK(place.at.x >= 0.0F);
                     CHECK(place.at.y >= 0.0F);
                     CHECK(place.at.x + place.size.x <= size.x);
                     CHECK(place.at.y + place.size.y <= size.y);
-                    CHECK(place.size.y <= wanted);
+                    CHECK(place.size.y <= wanted_height);
                     CHECK(place.size.y >= 48.0F);
                     for (std::size_t j = i + 1; j < places.size(); ++j) {
                         CHECK_FALSE(overlap(place, places[j]));
@@ -91,43 +91,43 @@ TEST_CASE("all panels at once lie in the window, none over another, and leave th
 
 TEST_CASE("a panel is as high as what it shows where there is room for all") {
     PanelColumns columns;
-    columns.wants("Flight", 310.0F);
-    columns.wants("Frame times", 250.0F);
+    columns.report_height("Flight", 310.0F);
+    columns.report_height("Frame times", 250.0F);
     OpenPanels open;
     open.timing = true;
     columns.lay_out(open, {{1280, 720}});
-    CHECK(columns.put("Flight")->size.y == 310.0F);
-    CHECK(columns.put("Frame times")->size.y == 250.0F);
-    CHECK(columns.put("Frame times")->at.y > columns.put("Flight")->at.y + 310.0F);
+    CHECK(columns.take_new_rect("Flight")->size.y == 310.0F);
+    CHECK(columns.take_new_rect("Frame times")->size.y == 250.0F);
+    CHECK(columns.take_new_rect("Frame times")->at.y > columns.take_new_rect("Flight")->at.y + 310.0F);
 }
 
 TEST_CASE("a panel that a person moves stays there until panels are put back") {
     PanelColumns columns;
-    const PanelRoom room{{1280, 720}};
+    const PanelArea area{{1280, 720}};
     const OpenPanels open;
-    columns.lay_out(open, room);
-    const PanelRect first = *columns.put("Flight");
-    columns.lies("Flight", first);
-    columns.lay_out(open, room);
-    CHECK_FALSE(columns.put("Flight"));
-    CHECK(columns.chosen().empty());
+    columns.lay_out(open, area);
+    const PanelRect first = *columns.take_new_rect("Flight");
+    columns.report_rect("Flight", first);
+    columns.lay_out(open, area);
+    CHECK_FALSE(columns.take_new_rect("Flight"));
+    CHECK(columns.user_placed().empty());
     const PanelRect moved{{500, 300}, first.size};
-    columns.lies("Flight", moved);
-    columns.lay_out(open, room);
-    CHECK_FALSE(columns.put("Flight"));
-    CHECK(columns.chosen().at("Flight") == moved);
+    columns.report_rect("Flight", moved);
+    columns.lay_out(open, area);
+    CHECK_FALSE(columns.take_new_rect("Flight"));
+    CHECK(columns.user_placed().at("Flight") == moved);
 
     PanelColumns next_run;
-    next_run.choose(layout_from(text_of_layout(columns.chosen())));
-    next_run.lay_out(open, room);
-    CHECK(next_run.put("Flight") == moved);
-    next_run.lies("Flight", moved);
+    next_run.restore_user_placed(layout_from(text_of_layout(columns.user_placed())));
+    next_run.lay_out(open, area);
+    CHECK(next_run.take_new_rect("Flight") == moved);
+    next_run.report_rect("Flight", moved);
     next_run.lay_out(open, {{400, 200}});
-    CHECK(next_run.put("Flight")->at.x < 400);
+    CHECK(next_run.take_new_rect("Flight")->at.x < 400);
 
-    columns.put_back();
-    columns.lay_out(open, room);
-    CHECK(columns.put("Flight") == first);
+    columns.reset_layout();
+    columns.lay_out(open, area);
+    CHECK(columns.take_new_rect("Flight") == first);
 }
 
 TEST_CASE("of a layout file only lines of our own with numbers of a window count") {
@@ -150,8 +150,8 @@ TEST_CASE("of a layout file only lines of our own with numbers of a window count
     CHECK(layout_from("Flight = 10 20 300 200\n").empty()); // of an older program
     CHECK(layout_from("").empty());
     PanelColumns columns;
-    columns.choose(layout_from(head + "##status = 1 2 300 300\nNo such = 1 2 300 300\n"));
-    CHECK(columns.chosen().empty());
+    columns.restore_user_placed(layout_from(head + "##status = 1 2 300 300\nNo such = 1 2 300 300\n"));
+    CHECK(columns.user_placed().empty());
 }
 
 TEST_CASE("the window has its panels where the columns put them, and the help puts them back") {
@@ -165,11 +165,11 @@ TEST_CASE("the window has its panels where the columns put them, and the help pu
         help_panel(state);
     };
     gui.settled(widgets);
-    CHECK(state.columns.chosen().empty());
-    state.columns.choose({{"Frame times", {{400, 300}, {300, 200}}}});
+    CHECK(state.columns.user_placed().empty());
+    state.columns.restore_user_placed({{"Frame times", {{400, 300}, {300, 200}}}});
     gui.settled(widgets);
-    CHECK(state.columns.chosen().size() == 1);
+    CHECK(state.columns.user_placed().size() == 1);
     CHECK(gui.click("Keys", "Put panels back", widgets));
     gui.settled(widgets);
-    CHECK(state.columns.chosen().empty());
+    CHECK(state.columns.user_placed().empty());
 }

@@ -67,15 +67,15 @@ TEST_CASE("every setting is to be found in one of the groups of the settings pan
     ViewState state;
     const std::string texts = gui.texts([&] {
         for (const auto& [group, headline] : groups) {
-            ui::window::edit_group(state.wanted, group);
+            ui::window::edit_group(state.next_settings, group);
         }
     });
     ui::settings::visit_settings(
-        state.wanted, [&](const ui::settings::FieldInfo& info, const auto&) {
+        state.next_settings, [&](const ui::settings::FieldInfo& info, const auto&) {
             CAPTURE(info.name);
             CHECK(contains(texts, info.name));
         });
-    CHECK(state.wanted == ui::settings::RunSettings{});
+    CHECK(state.next_settings == ui::settings::RunSettings{});
     state.open.settings = true;
     const std::string titles = gui.texts([&] { ui::window::settings_panel(state); });
     for (const auto& [group, headline] : groups) {
@@ -122,7 +122,7 @@ TEST_CASE("the help names every key") {
     }
     for (const ui::window::HeldKey& key : ui::window::held_keys()) {
         CHECK(contains(texts, key.meaning));
-        CHECK(contains(texts, state.keys.name_of(key.action)));
+        CHECK(contains(texts, state.keys.name_of(key.chosen_action)));
     }
 }
 
@@ -157,11 +157,11 @@ TEST_CASE("what is always to be seen is said in a fixed order, and nothing in pl
     state.recording = "flight-1";
     state.playback.playing = false;
     state.playback.speed = 0.5;
-    ui::window::HandStatus hand;
-    hand.warnings.stalled = true;
+    ui::window::ManualFlightStatus manual_flight;
+    manual_flight.warnings.stalled = true;
     CHECK(
-        texts_of(ui::window::status_marks(state, hand)) ==
+        texts_of(ui::window::status_marks(state, manual_flight)) ==
         std::vector<std::string>{"REC flight-1", "paused", "x0.5", "by hand", "STALL"});
-    hand.ended = true;
-    CHECK(texts_of(ui::window::status_marks(state, hand)).back() == "MET THE GROUND");
+    manual_flight.ended = true;
+    CHECK(texts_of(ui::window::status_marks(state, manual_flight)).back() == "MET THE GROUND");
 }

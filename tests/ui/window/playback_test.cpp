@@ -6,21 +6,21 @@ using octant::ui::window::Playback;
 
 TEST_CASE("a path plays at its speed, begins anew at its end or stops there") {
     Playback playback{.begin_s = 10.0, .end_s = 12.0, .time_s = 10.0, .speed = 2.0};
-    CHECK(playback.pass(0.5, false) == Playback::Moved::On);
+    CHECK(playback.advance(0.5, false) == Playback::TimeChange::Advanced);
     CHECK(playback.time_s == Approx(11.0));
-    CHECK(playback.pass(1.0, false) == Playback::Moved::Restarts);
+    CHECK(playback.advance(1.0, false) == Playback::TimeChange::Restarted);
     CHECK(playback.time_s == 10.0);
     playback.loops = false;
-    CHECK(playback.pass(5.0, false) == Playback::Moved::On);
+    CHECK(playback.advance(5.0, false) == Playback::TimeChange::Advanced);
     CHECK(playback.time_s == 12.0);
     CHECK_FALSE(playback.playing);
-    CHECK(playback.pass(5.0, false) == Playback::Moved::On);
+    CHECK(playback.advance(5.0, false) == Playback::TimeChange::Advanced);
     CHECK(playback.time_s == 12.0);
 }
 
 TEST_CASE("a flight by hand has no end, and a single frame pauses") {
     Playback playback{.begin_s = 0.0, .end_s = 1.0, .time_s = 0.9};
-    CHECK(playback.pass(1.0, true) == Playback::Moved::On);
+    CHECK(playback.advance(1.0, true) == Playback::TimeChange::Advanced);
     CHECK(playback.time_s == Approx(1.9));
     playback.step_frame(0.1, true);
     CHECK(playback.time_s == Approx(2.0));

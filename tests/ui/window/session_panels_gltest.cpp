@@ -1,5 +1,5 @@
 #include "ui/flight/session.h"
-#include "ui/window/panel_pixels.h"
+#include "ui/window/panel_rasterizer.h"
 #include "ui/window/panels.h"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ struct Shown {
     ViewState state;
 
     Shown() {
-        state.wanted = session.settings();
+        state.next_settings = session.settings();
         state.playback.end_s = 10.0;
         state.history.add(session.draw_at(0.0, std::nullopt));
     }
@@ -56,7 +56,7 @@ double contrast_over_white(const char* window) {
     glm::ivec2 atlas_px(0);
     io.Fonts->GetTexDataAsAlpha8(&texels, &atlas_px.x, &atlas_px.y);
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(4 * size.x * size.y), 255);
-    ui::window::PanelPixels(texels, atlas_px).draw(*ImGui::GetDrawData(), pixels.data(), size);
+    ui::window::PanelRasterizer(texels, atlas_px).draw(*ImGui::GetDrawData(), pixels.data(), size);
     const ImRect place = ImGui::FindWindowByName(window)->Rect();
     double lightest = 0.0;
     double darkest = 1.0;
@@ -97,7 +97,7 @@ TEST_CASE("panels of a session draw where they are open and change nothing by th
         state.open.shown = false;
         CHECK(gui.settled(widgets) == 0);
     }
-    CHECK(state.wanted == shown.session.settings());
+    CHECK(state.next_settings == shown.session.settings());
     CHECK_FALSE(state.requests.step_frame);
     CHECK_FALSE(state.requests.go_to_s.has_value());
 }
@@ -114,8 +114,8 @@ TEST_CASE("the flight panel pauses, changes the view and asks for the rest") {
     CHECK(gui.click("Flight", "One frame", widgets));
     CHECK(state.requests.step_frame);
     CHECK(gui.click("Flight", "5 free", widgets));
-    CHECK(state.wanted.view.kind == visuals::scene::View::Free);
-    CHECK(state.wanted.view.eye_m == shown.session.camera().eye_m);
+    CHECK(state.next_settings.view.kind == visuals::scene::View::Free);
+    CHECK(state.next_settings.view.eye_m == shown.session.camera().eye_m);
     state.playback.time_s = 5.0;
     CHECK(gui.click("Flight", "time", widgets));
     REQUIRE(state.requests.go_to_s.has_value());

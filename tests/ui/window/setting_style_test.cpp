@@ -57,8 +57,8 @@ TEST_CASE("optional numbers begin within their bounds") {
     ui::settings::visit_settings(settings, [](const SettingInfo& info, const auto& value) {
         if constexpr (OptionalNumber<std::decay_t<decltype(value)>>::value) {
             CAPTURE(info.name);
-            CHECK(ui::window::start_value(info) >= info.least);
-            CHECK(ui::window::start_value(info) <= info.most);
+            CHECK(ui::window::start_value(info) >= info.min_value);
+            CHECK(ui::window::start_value(info) <= info.max_value);
         }
     });
     CHECK(ui::window::start_value(info_of("fov")) == 45.0);
@@ -83,18 +83,18 @@ TEST_CASE("a tooltip says meaning, option, the paper's letter and bounds") {
 
 TEST_CASE("names go into one line of text and come back") {
     const std::vector<std::string> names{"f15", "my model.obj"};
-    CHECK(ui::window::joined(names) == "f15, my model.obj");
-    CHECK(ui::window::parted(ui::window::joined(names)) == names);
-    CHECK(ui::window::parted(" f15 ,, 500md,") == std::vector<std::string>{"f15", "500md"});
-    CHECK(ui::window::parted(" , ").empty());
+    CHECK(ui::window::comma_separated(names) == "f15, my model.obj");
+    CHECK(ui::window::split_at_commas(ui::window::comma_separated(names)) == names);
+    CHECK(ui::window::split_at_commas(" f15 ,, 500md,") == std::vector<std::string>{"f15", "500md"});
+    CHECK(ui::window::split_at_commas(" , ").empty());
 }
 
 TEST_CASE("wingmen come as copies of the leader and go from the end") {
     const std::vector<std::string> two{"f15", "500md"};
-    CHECK(ui::window::with_count(two, 4) == std::vector<std::string>{"f15", "500md", "f15", "f15"});
-    CHECK(ui::window::with_count(two, 1) == std::vector<std::string>{"f15"});
-    CHECK(ui::window::with_count(two, 0) == std::vector<std::string>{"f15"});
+    CHECK(ui::window::with_aircraft_count(two, 4) == std::vector<std::string>{"f15", "500md", "f15", "f15"});
+    CHECK(ui::window::with_aircraft_count(two, 1) == std::vector<std::string>{"f15"});
+    CHECK(ui::window::with_aircraft_count(two, 0) == std::vector<std::string>{"f15"});
     CHECK(
-        ui::window::with_leader({"f15", "500md", "f15"}, "x.obj") ==
+        ui::window::with_lead_aircraft({"f15", "500md", "f15"}, "x.obj") ==
         std::vector<std::string>{"x.obj", "500md", "x.obj"});
 }

@@ -232,8 +232,8 @@ TEST_CASE("settings that do not go together are refused in the window as on the 
     if (!driven) {
         return;
     }
-    driven->state().wanted.ground.mesh = visuals::scene::GroundMetric::ScreenError;
-    driven->state().wanted.ground.detail = visuals::scene::DetailControl::Damped;
+    driven->state().next_settings.ground.mesh = visuals::scene::GroundMetric::ScreenError;
+    driven->state().next_settings.ground.detail = visuals::scene::DetailControl::Damped;
     driven->turns(3);
     CHECK(driven->settings().ground.detail == visuals::scene::DetailControl::Exact);
     CHECK(driven->state().message.text.find("--mesh screen-error") != std::string::npos);

@@ -16,7 +16,7 @@
 
 using namespace octant;
 using ui::settings::RunSettings;
-using ui::world::DrawnBy;
+using ui::world::RenderDevice;
 using ui::world::World;
 
 namespace {
@@ -69,7 +69,7 @@ TEST_CASE("an airfield lies below the beginning of the path, and heights are tho
     REQUIRE(runway);
     const sim::AircraftState first = world.flight.trajectory.samples().front();
     CHECK(
-        glm::distance(runway->on_strip(glm::dvec2(first.position_m)), glm::dvec2(300.0, 0.0)) <
+        glm::distance(runway->strip_from_world(glm::dvec2(first.position_m)), glm::dvec2(300.0, 0.0)) <
         1e-6);
     CHECK(runway->heading_rad == Approx(rad_from_deg(70.0)));
     CHECK(farthest_off_m(world) < 0.02); // tiles keep heights to the centimetre
@@ -77,7 +77,7 @@ TEST_CASE("an airfield lies below the beginning of the path, and heights are tho
         world.notes.back(), Catch::StartsWith("airfield: runway 07/25 lies where the path begins"));
 
     settings.ground.airfield = false;
-    const World bare = ui::world::load_world(settings, DrawnBy::Processor, &world);
+    const World bare = ui::world::load_world(settings, RenderDevice::Cpu, &world);
     CHECK_FALSE(bare.scene.ground->runway());
     const glm::dvec2 before(bare.flight.trajectory.samples().front().position_m);
     CHECK(before == glm::dvec2(first.position_m));
@@ -90,7 +90,7 @@ TEST_CASE("an airfield stays where it is when the ground is meshed or coloured a
     const World world = ui::world::load_world(settings);
     settings.air.palette = visuals::scene::Palette::Arid;
     const auto recoloured =
-        ui::world::remade_scene_ground(world.scene, settings, DrawnBy::Processor);
+        ui::world::rebuilt_scene_ground(world.scene, settings, RenderDevice::Cpu);
     REQUIRE(recoloured);
     CHECK(recoloured->ground->runway() == world.scene.ground->runway());
     settings.ground.mesh = visuals::scene::GroundMetric::Printed;
@@ -98,9 +98,9 @@ TEST_CASE("an airfield stays where it is when the ground is meshed or coloured a
     REQUIRE(other.scene.ground->runway());
     CHECK(*other.scene.ground->runway() == *world.scene.ground->runway());
     CHECK(farthest_off_m(other) < 1e-3);
-    const ui::world::SceneGround again = ui::world::load_scene_ground(
-        settings, DrawnBy::Processor, ui::world::known_runway(world.scene.ground->runway()));
-    CHECK(*again.ground->runway() == *world.scene.ground->runway());
+    const ui::world::SceneGround repeat_option = ui::world::load_scene_ground(
+        settings, RenderDevice::Cpu, ui::world::fixed_runway_finder(world.scene.ground->runway()));
+    CHECK(*repeat_option.ground->runway() == *world.scene.ground->runway());
 }
 
 TEST_CASE("ground on which no airfield can lie is refused with what it would need") {

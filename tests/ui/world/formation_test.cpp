@@ -20,7 +20,7 @@ double min_distance_m(int aircraft, double radius_m) {
     std::vector<glm::dvec3> places_m = {leader.position_m};
     double min_m = std::numeric_limits<double>::infinity();
     for (int number = 1; number < aircraft; ++number) {
-        const glm::dvec3 place_m = formation.wingman_of(leader, number).position_m;
+        const glm::dvec3 place_m = formation.wingman_state(leader, number).position_m;
         for (const glm::dvec3& other_m : places_m) {
             min_m = std::min(min_m, glm::distance(place_m, other_m));
         }
@@ -42,6 +42,6 @@ TEST_CASE("no aircraft of a formation flies below its leader") {
     const ui::world::Formation formation(1000, 10.0);
     const sim::AircraftState leader;
     for (int number = 1; number < 1000; ++number) {
-        REQUIRE(formation.wingman_of(leader, number).position_m.z >= leader.position_m.z);
+        REQUIRE(formation.wingman_state(leader, number).position_m.z >= leader.position_m.z);
     }
 }

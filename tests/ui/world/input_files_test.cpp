@@ -1,6 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
-#include "ui/settings/settings_words.h"
+#include "ui/settings/settings_by_name.h"
 #include "ui/world/input_files.h"
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ std::string model(const std::string& materials) {
     return "mtllib " + materials + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 }
 
-ui::settings::RunSettings flown_by(const std::vector<fs::path>& aircraft) {
+ui::settings::RunSettings aircraft_shown_by(const std::vector<fs::path>& aircraft) {
     ui::settings::RunSettings settings;
     settings.path.name = "straight";
     settings.path.terrain = "none";
@@ -43,12 +43,12 @@ TEST_CASE("materials are kept only where they lie beside their model or below") 
     for (const char* const way : {"../above.mtl", "./../above.mtl", "below/../../above.mtl"}) {
         CAPTURE(way);
         write_file(folder / "m/m.obj", model(way));
-        CHECK(files_to_keep(flown_by({folder / "m/m.obj"}), {}).size() == 1);
+        CHECK(files_to_copy(aircraft_shown_by({folder / "m/m.obj"}), {}).size() == 1);
     }
     write_file(folder / "m/m.obj", model("./below/in.mtl"));
-    const auto kept = files_to_keep(flown_by({folder / "m/m.obj"}), {});
-    REQUIRE(kept.size() == 2);
-    CHECK(kept[1].first == "inputs/below/in.mtl");
+    const auto location = files_to_copy(aircraft_shown_by({folder / "m/m.obj"}), {});
+    REQUIRE(location.size() == 2);
+    CHECK(location[1].first == "inputs/below/in.mtl");
 }
 
 TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run") {
@@ -61,7 +61,7 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     write_file(
         folder / "m/jet.xml",
         "<PropertyList><path>body.ac</path><model><path>shared.ac</path></model></PropertyList>");
-    const auto hash = [&] { return input_hashes(flown_by({folder / "m/jet.xml"})); };
+    const auto hash = [&] { return input_hashes(aircraft_shown_by({folder / "m/jet.xml"})); };
     const auto before = hash();
     std::set<std::string> names;
     for (const auto& [name, value] : before) {
@@ -74,36 +74,36 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     CHECK(hash() != before);
     write_file(folder / "m/skin.png", "1");
     CHECK(hash() == before);
-    const auto kept = files_to_keep(flown_by({folder / "m/jet.xml"}), {});
-    CHECK(kept.size() == 4); // shared.ac lies above, and is only hashed
+    const auto location = files_to_copy(aircraft_shown_by({folder / "m/jet.xml"}), {});
+    CHECK(location.size() == 4); // shared.ac lies above, and is only hashed
     fs::create_directories(folder / "m/Textures");
     write_file(folder / "m/Textures/skin.png", "5");
     write_file(
         folder / "m/jet.xml",
         "<PropertyList><path>body.ac</path><texture-path>/Textures/</texture-path></PropertyList>");
-    CHECK(files_to_keep(flown_by({folder / "m/jet.xml"}), {}).size() == 4); // both pictures
+    CHECK(files_to_copy(aircraft_shown_by({folder / "m/jet.xml"}), {}).size() == 4); // both pictures
     write_file(folder / "m/part.bin", "4");
     write_file(folder / "m/a.gltf", R"({"buffers":[{"uri":"part.bin"},{"uri":"data:x"}]})");
-    CHECK(files_to_keep(flown_by({folder / "m/a.gltf"}), {}).size() == 2);
+    CHECK(files_to_copy(aircraft_shown_by({folder / "m/a.gltf"}), {}).size() == 2);
 }
 
 TEST_CASE("a file that names the ground's coordinate system is kept with the run") {
     const fs::path folder = empty_folder("inputs-system");
     write_file(folder / "utm.prj", "PROJCS");
-    ui::settings::RunSettings settings = flown_by({"f15"});
+    ui::settings::RunSettings settings = aircraft_shown_by({"f15"});
     settings.path.terrain_system = "EPSG:4326";
-    CHECK(files_to_keep(settings, {}).empty());
-    CHECK(as_recorded(settings, folder).path.terrain_system == "EPSG:4326");
+    CHECK(files_to_copy(settings, {}).empty());
+    CHECK(settings_in_recording(settings, folder).path.terrain_system == "EPSG:4326");
     settings.path.terrain_system = (folder / "utm.prj").string();
-    const auto kept = files_to_keep(settings, {});
-    REQUIRE(kept.size() == 1);
-    CHECK(kept[0].first == "inputs/utm.prj");
-    ui::settings::RunSettings again = as_recorded(settings, folder);
-    CHECK(again.path.terrain_system == "inputs/utm.prj");
+    const auto location = files_to_copy(settings, {});
+    REQUIRE(location.size() == 1);
+    CHECK(location[0].first == "inputs/utm.prj");
+    ui::settings::RunSettings repeat_option = settings_in_recording(settings, folder);
+    CHECK(repeat_option.path.terrain_system == "inputs/utm.prj");
     fs::create_directories(folder / "inputs");
     write_file(folder / "inputs/utm.prj", "PROJCS");
-    ui::settings::find_files_from(folder, again);
-    CHECK(again.path.terrain_system == (folder / "inputs/utm.prj").string());
+    ui::settings::resolve_paths_from(folder, repeat_option);
+    CHECK(repeat_option.path.terrain_system == (folder / "inputs/utm.prj").string());
 }
 
 TEST_CASE("models whose materials have one name keep their own") {
@@ -113,9 +113,9 @@ TEST_CASE("models whose materials have one name keep their own") {
         write_file(folder / name / (std::string(name) + ".obj"), model("m.mtl"));
         write_file(folder / name / "m.mtl", std::string("newmtl ") + name + "\n");
     }
-    const auto kept = files_to_keep(flown_by({folder / "a/a.obj", folder / "b/b.obj"}), {});
+    const auto location = files_to_copy(aircraft_shown_by({folder / "a/a.obj", folder / "b/b.obj"}), {});
     std::set<std::string> names;
-    for (const auto& [name, bytes] : kept) {
+    for (const auto& [name, bytes] : location) {
         names.insert(name);
     }
     CHECK(
@@ -126,13 +126,13 @@ TEST_CASE("models whose materials have one name keep their own") {
 TEST_CASE("a recording does not take the place of the terrain that it flies over") {
     const fs::path folder = empty_folder("inputs-terrain");
     fs::create_directories(folder / "rec/inputs/terrain");
-    ui::settings::RunSettings settings = flown_by({"f15"});
+    ui::settings::RunSettings settings = aircraft_shown_by({"f15"});
     settings.path.terrain = (folder / "rec/inputs/terrain/t.asc").string();
     write_file(
         settings.path.terrain,
         "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
     CHECK_THROWS_WITH(
-        as_recorded(settings, folder / "rec"),
+        settings_in_recording(settings, folder / "rec"),
         Catch::Contains("--record: expected another folder"));
-    CHECK_NOTHROW(as_recorded(settings, folder / "other"));
+    CHECK_NOTHROW(settings_in_recording(settings, folder / "other"));
 }

@@ -14,7 +14,7 @@
 
 using namespace octant;
 using ui::settings::RunSettings;
-using ui::world::DrawnBy;
+using ui::world::RenderDevice;
 using ui::world::World;
 
 namespace {
@@ -48,8 +48,8 @@ void age(const std::filesystem::path& file) {
         file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
 }
 
-World beside(const RunSettings& settings, const World& other) {
-    return ui::world::load_world(settings, DrawnBy::Processor, &other);
+World shared_world(const RunSettings& settings, const World& other) {
+    return ui::world::load_world(settings, RenderDevice::Cpu, &other);
 }
 
 } // namespace
@@ -62,33 +62,33 @@ TEST_CASE("a world shares with another what is loaded of the same inputs, and lo
     const World first = ui::world::load_world(settings);
 
     settings.path.name = "turn";
-    const World turn = beside(settings, first);
+    const World turn = shared_world(settings, first);
     CHECK(turn.scene.ground == first.scene.ground);
     CHECK(turn.scene.models.front() == first.scene.models.front());
     CHECK(turn.ground_name == first.ground_name);
 
     RunSettings elsewhere = settings;
     elsewhere.path.terrain = "none";
-    const World over_none = beside(elsewhere, first);
+    const World over_none = shared_world(elsewhere, first);
     CHECK(over_none.scene.ground != first.scene.ground);
     CHECK(over_none.scene.models.front() == first.scene.models.front());
-    CHECK(beside(settings, over_none).scene.ground != over_none.scene.ground);
+    CHECK(shared_world(settings, over_none).scene.ground != over_none.scene.ground);
 
     RunSettings textured = settings;
     textured.air.ground_shading = visuals::scene::GroundShading::Texture;
-    CHECK(beside(textured, first).scene.ground_texture);
+    CHECK(shared_world(textured, first).scene.ground_texture);
 
     settings.path.axes = "back,up,left";
-    CHECK(beside(settings, first).scene.models.front() != first.scene.models.front());
+    CHECK(shared_world(settings, first).scene.models.front() != first.scene.models.front());
     settings.path.axes = "auto";
     settings.path.terrain_height_scale = 2.0;
-    CHECK(beside(settings, first).scene.ground != first.scene.ground);
+    CHECK(shared_world(settings, first).scene.ground != first.scene.ground);
     settings.path.terrain_height_scale.reset();
 
     write_file(shape, corners + "f 1 2 3\n");
     age(shape);
     age(settings.path.terrain);
-    const World rewritten = beside(settings, first);
+    const World rewritten = shared_world(settings, first);
     CHECK(rewritten.scene.model_of(0).polygons.polygons.size() == 1);
     CHECK(rewritten.scene.ground != first.scene.ground);
 }
@@ -109,7 +109,7 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     settings.path.terrain = map.string();
     settings.path.aircraft = {shape.string()};
     const World first = ui::world::load_world(settings);
-    const World same = beside(settings, first);
+    const World same = shared_world(settings, first);
     CHECK(same.scene.ground == first.scene.ground);
     CHECK(same.scene.models.front() == first.scene.models.front());
 
@@ -117,7 +117,7 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     age(materials);
     rolling_ground("behind.tif", 500.0);
     age(heights);
-    const World anew = beside(settings, first);
+    const World anew = shared_world(settings, first);
     CHECK(anew.scene.models.front() != first.scene.models.front());
     CHECK(
         *anew.scene.ground->height_at(0.0, 0.0) > *first.scene.ground->height_at(0.0, 0.0) + 400.0);

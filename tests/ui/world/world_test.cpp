@@ -23,7 +23,7 @@
 
 using namespace octant;
 using ui::settings::RunSettings;
-using ui::world::DrawnBy;
+using ui::world::RenderDevice;
 
 namespace {
 
@@ -66,22 +66,22 @@ TEST_CASE("a model is framed alike however its hidden surfaces are removed") {
 TEST_CASE("no point of a detailed aircraft is farther from the plain one than its row says") {
     int detailed = 0;
     for (const sim::AircraftKind& kind : sim::aircraft_kinds()) {
-        if (kind.plain_name.empty()) {
+        if (kind.simple_type_name.empty()) {
             continue;
         }
         ++detailed;
-        const auto shape_of = [](std::string_view name) {
+        const auto aircraft_shape = [](std::string_view name) {
             const auto file = ui::base::aircraft_file(std::string(name));
-            return models::polygons::as_triangles(models::polygons::read_obj(file));
+            return models::polygons::mesh_from_polygons(models::polygons::read_obj(file));
         };
         models::measure::DistanceOptions options;
         options.tightness = 1.005;
         options.samples = 0;
         const models::measure::MeshDistance distance =
-            models::measure::distance(shape_of(kind.name), shape_of(kind.plain_name), options);
+            models::measure::distance(aircraft_shape(kind.name), aircraft_shape(kind.simple_type_name), options);
         INFO(kind.name << ": " << distance.max_hausdorff_m() << " m");
-        CHECK(distance.max_hausdorff_m() <= kind.plain_error_m);
-        CHECK(distance.min_hausdorff_m() > 0.95 * kind.plain_error_m); // no larger than need be
+        CHECK(distance.max_hausdorff_m() <= kind.simple_model_error_m);
+        CHECK(distance.min_hausdorff_m() > 0.95 * kind.simple_model_error_m); // no larger than need be
     }
     CHECK(detailed >= 2);
 }
@@ -205,9 +205,9 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
     const ui::world::World world = ui::world::load_world(settings);
     const ui::world::Flight& flight = world.flight;
     CHECK(flight.title == "f15 pop-up over rolling");
-    REQUIRE(flight.others.size() == 2);
-    const sim::Trajectory& turn = flight.others.at(1);
-    const sim::Trajectory& jinking = flight.others.at(3);
+    REQUIRE(flight.other_trajectories.size() == 2);
+    const sim::Trajectory& turn = flight.other_trajectories.at(1);
+    const sim::Trajectory& jinking = flight.other_trajectories.at(3);
     CHECK(turn.start_s() == 2.0);
     CHECK(jinking.start_s() == 0.0);
     const auto start = flight.trajectory.samples().front();
@@ -217,11 +217,11 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
 
     const ui::world::Formation formation = ui::world::formation_of(world.scene, flight);
     std::vector<sim::AircraftState> states(4);
-    ui::world::states_beside(flight, formation, start, 0.0, states);
+    ui::world::formation_states(flight, formation, start, 0.0, states);
     CHECK(states[1].position_m.z < -1e4);
-    CHECK(states[2].position_m == formation.wingman_of(start, 1).position_m);
+    CHECK(states[2].position_m == formation.wingman_state(start, 1).position_m);
     CHECK(states[3].position_m == jinking.samples().front().position_m);
-    ui::world::states_beside(flight, formation, start, 5.0, states);
+    ui::world::formation_states(flight, formation, start, 5.0, states);
     CHECK(states[1].position_m == turn.state_at(5.0).position_m);
     CHECK(states[1].time_s == start.time_s);
 
@@ -245,9 +245,9 @@ TEST_CASE("a tape's aircraft fly as they flew beside each other, each as what it
     const ui::world::World world = ui::world::load_world(settings);
     CHECK(world.scene.aircraft.size() == 2);
     CHECK(world.scene.model_of(1).polygons.name == "500md");
-    REQUIRE(world.flight.others.size() == 1);
+    REQUIRE(world.flight.other_trajectories.size() == 1);
     const sim::AircraftState& first = world.flight.trajectory.samples().front();
-    const sim::AircraftState& other = world.flight.others.at(1).samples().front();
+    const sim::AircraftState& other = world.flight.other_trajectories.at(1).samples().front();
     const glm::dvec3 apart_m = other.position_m - first.position_m;
     CHECK(apart_m.x == Approx(111.2).margin(0.1)); // north, turned to the east
     CHECK(apart_m.y == Approx(0.0).margin(1e-6));
@@ -280,13 +280,13 @@ TEST_CASE("what cannot be loaded is said before anything is flown") {
 
 TEST_CASE("a ground is loaded with what is to be said of it, and textured where that is asked") {
     RunSettings settings = over(rolling_ground());
-    const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, DrawnBy::Processor);
+    const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     CHECK(bare.texture == nullptr);
     CHECK(bare.notes.empty());
     CHECK_FALSE(bare.place);
     settings.air.ground_shading = visuals::scene::GroundShading::Texture;
     const ui::world::SceneGround textured =
-        ui::world::load_scene_ground(settings, DrawnBy::Processor);
+        ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     REQUIRE(textured.texture);
     CHECK(textured.texture->albedo.width == 257);
     CHECK(textured.name == bare.name + ", textured");
@@ -297,13 +297,13 @@ TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is 
     RunSettings settings = over("none");
     const ui::world::Flight flight = ui::world::load_world(settings).flight;
     settings.time.seconds = 2.0;
-    CHECK(ui::world::picture_times_of(settings, flight).at_s.size() == 121);
+    CHECK(ui::world::picture_times_of(settings, flight).times_s.size() == 121);
     settings.time.frame_per_sample = true;
     const ui::world::PictureTimes by_sample = ui::world::picture_times_of(settings, flight);
-    CHECK(by_sample.at_s.size() == 41);
+    CHECK(by_sample.times_s.size() == 41);
     CHECK(by_sample.rate_hz == 20.0);
     settings.time.frames = 7;
-    CHECK(ui::world::picture_times_of(settings, flight).at_s.size() == 7);
+    CHECK(ui::world::picture_times_of(settings, flight).times_s.size() == 7);
     settings.time.start_s = 1000.0;
     CHECK_THROWS_AS(ui::world::picture_times_of(settings, flight), Error);
 }

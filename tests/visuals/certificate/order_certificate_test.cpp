@@ -16,8 +16,8 @@
 
 using namespace octant;
 using visuals::certificate::OrderCertificate;
-using visuals::draworder::Method;
-using visuals::verify::Verdict;
+using visuals::draworder::OrderMethod;
+using visuals::verify::VerificationResult;
 
 namespace {
 
@@ -25,23 +25,23 @@ models::polygons::PolygonModel read(const std::string& file) {
     return models::polygons::read_obj(std::string(OCTANT_SOURCE_DIR) + "/" + file);
 }
 
-OrderCertificate certificate_of(const std::string& file, Method method = Method::Tree) {
+OrderCertificate certificate_of(const std::string& file, OrderMethod method = OrderMethod::Tree) {
     visuals::draworder::OrderOptions options;
     options.method = method;
     const auto ordered = visuals::draworder::ordered(read(file), options);
     return visuals::certificate::order_certificate(ordered.model, ordered.order, {});
 }
 
-Verdict verdict_of(const std::string& text) {
+VerificationResult verdict_of(const std::string& text) {
     const auto file = tests::scratch_folder() / "certificate.txt";
     write_file(file, text);
     return visuals::verify::verify(visuals::verify::read_certificate(file));
 }
 
-void check_proved(const std::string& file, Method method) {
+void check_proved(const std::string& file, OrderMethod method) {
     const OrderCertificate certificate = certificate_of(file, method);
-    const Verdict verdict = verdict_of(certificate.text);
-    INFO(file << ": " << (verdict.refused ? verdict.refused->what : ""));
+    const VerificationResult verdict = verdict_of(certificate.text);
+    INFO(file << ": " << (verdict.failure ? verdict.failure->what : ""));
     CHECK(certificate.unproved == 0);
     CHECK(verdict.proved());
     CHECK(verdict.pairs > 0);
@@ -83,7 +83,7 @@ std::string with_word(const std::string& line, std::size_t at, const std::string
 } // namespace
 
 TEST_CASE("the orders of the aircraft are proved, by cells and by parts") {
-    for (const Method method : {Method::Tree, Method::Bsp}) {
+    for (const OrderMethod method : {OrderMethod::Tree, OrderMethod::Bsp}) {
         check_proved("models/f15.obj", method);
         check_proved("models/500md.obj", method);
         check_proved("models/concave.obj", method);
@@ -100,15 +100,15 @@ TEST_CASE("the orders of models that are hard to order are proved") {
           "eighteen-polygons-far-away",
           "certificate-far-7001",
           "order-tiny-34"}) {
-        check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), Method::Tree);
-        check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), Method::Bsp);
+        check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), OrderMethod::Tree);
+        check_proved(fmt::format("tests/fuzz/corpus/{}.obj", name), OrderMethod::Bsp);
     }
 }
 
 TEST_CASE("sides that are parallel but for the last digits of a file are proved, and say so") {
     const OrderCertificate certificate =
         certificate_of("tests/visuals/certificate/parallel-but-for-a-digit.obj");
-    const Verdict verdict = verdict_of(certificate.text);
+    const VerificationResult verdict = verdict_of(certificate.text);
     CHECK(certificate.unproved == 0);
     CHECK(verdict.proved());
     CHECK(verdict.tolerance_sizes > 5e-8);
@@ -122,34 +122,34 @@ TEST_CASE("the same order gives the same certificate") {
 TEST_CASE("a certificate in which one thing was changed is refused") {
     const Lines good(certificate_of("models/f15.obj").text);
     REQUIRE(verdict_of(good.text()).proved());
-    const auto refused = [&](std::string_view beginning, const auto& change) {
+    const auto failure = [&](std::string_view beginning, const auto& change) {
         Lines changed = good;
         std::string& line = changed.all[changed.first(beginning)];
         line = change(line);
         INFO(line);
-        CHECK(verdict_of(changed.text()).refused);
+        CHECK(verdict_of(changed.text()).failure);
     };
-    refused("vertex", [](const std::string& line) { return with_word(line, 1, "0.5"); });
-    refused("polygon", [](const std::string& line) { return with_word(line, 5, "0.5"); });
-    refused("node choice", [](const std::string& line) { return with_word(line, 5, "0.5"); });
-    refused("list", [](const std::string& line) { return line.substr(0, line.rfind(' ')); });
-    refused("list", [](const std::string& line) {
+    failure("vertex", [](const std::string& line) { return with_word(line, 1, "0.5"); });
+    failure("polygon", [](const std::string& line) { return with_word(line, 5, "0.5"); });
+    failure("node choice", [](const std::string& line) { return with_word(line, 5, "0.5"); });
+    failure("list", [](const std::string& line) { return line.substr(0, line.rfind(' ')); });
+    failure("list", [](const std::string& line) {
         const auto words = split_words(line);
         const std::string first(words[1]);
         const std::string last(words.back());
         return with_word(with_word(line, 1, last), words.size() - 1, first);
     });
-    refused("pairs", [](const std::string& line) {
+    failure("pairs", [](const std::string& line) {
         std::string turned = line;
         for (std::size_t i = std::string("pairs node").size(); i < turned.size(); ++i) {
             turned[i] = turned[i] == 'e' ? 'l' : turned[i] == 'l' ? 'e' : turned[i];
         }
         return turned;
     });
-    refused("pairs", [](const std::string& line) { return line + " 1-"; });
-    refused("pairs", [](const std::string& line) { return "# " + line; });
-    refused("sum", [](const std::string& line) { return "# " + line; });
-    refused("sum", [](const std::string& line) { return with_word(line, 7, "1000"); });
-    refused("away", [](const std::string& line) { return "# " + line; });
-    refused("away", [](const std::string& line) { return with_word(line, 4, "1000"); });
+    failure("pairs", [](const std::string& line) { return line + " 1-"; });
+    failure("pairs", [](const std::string& line) { return "# " + line; });
+    failure("sum", [](const std::string& line) { return "# " + line; });
+    failure("sum", [](const std::string& line) { return with_word(line, 7, "1000"); });
+    failure("away", [](const std::string& line) { return "# " + line; });
+    failure("away", [](const std::string& line) { return with_word(line, 4, "1000"); });
 }

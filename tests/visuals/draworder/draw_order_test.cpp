@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "tests/paper_example.h"
 #include "visuals/draworder/draw_order.h"
 
@@ -39,7 +39,7 @@ TEST_CASE("one list serves every eye when there is one cell") {
 }
 
 TEST_CASE("file order lists every polygon once") {
-    const auto model = octant::models::made::background60();
+    const auto model = octant::models::procedural::background60();
     const DrawOrder order = file_order(model);
     REQUIRE(order.polygons().size() == 60);
     for (std::uint32_t i = 0; i < 60; ++i) {
@@ -57,11 +57,11 @@ TEST_CASE("an eye paints the far side of a parting, what faces it there, then it
     constexpr int nothing = DrawOrder::nothing;
     const std::vector<std::vector<std::uint32_t>> lists{{0}, {1}, {2}, {3, 4}, {5}};
     const DrawOrder order(
-        {{{{0, 0, 1}, 0}, 1, ~0, Kind::Parting, ~2, ~1},
+        {{{{0, 0, 1}, 0}, 1, ~0, Kind::PolygonSplit, ~2, ~1},
          {{}, ~3, 2, Kind::Sequence, nothing, nothing},
-         {{{1, 0, 0}, 0}, ~4, nothing, Kind::Choice, nothing, nothing}},
+         {{{1, 0, 0}, 0}, ~4, nothing, Kind::ViewSplit, nothing, nothing}},
         lists);
-    CHECK_FALSE(order.one_cell_an_eye());
+    CHECK_FALSE(order.has_one_cell_per_eye());
     DrawOrder::Walk walk;
     const auto painted = [&](const glm::dvec3& eye) {
         std::vector<std::uint32_t> list;
@@ -76,7 +76,7 @@ TEST_CASE("an eye paints the far side of a parting, what faces it there, then it
 
 TEST_CASE("where all nodes are choices each eye has one range, that of its cell") {
     const DrawOrder order(paper_orders(octant::tests::paper_example()));
-    CHECK(order.one_cell_an_eye());
+    CHECK(order.has_one_cell_per_eye());
     DrawOrder::Walk walk;
     for (int cell = 0; cell < 8; ++cell) {
         const auto ranges = order.ranges_of(octant_signs(cell), walk);

@@ -1,10 +1,10 @@
 #include "models/polygons/polygon_model.h"
 #include "sim/base/axes.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/paper_example.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_order.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@
 #include <utility>
 
 using namespace octant::visuals::draworder;
-using octant::Dice;
+using octant::RandomGenerator;
 using octant::tests::paper_example;
 using octant::visuals::orderfile::count_wrong_rays;
 
@@ -62,10 +62,10 @@ Order sorted(Order list) {
     return list;
 }
 
-std::vector<PaperOptions> all_readings() {
-    std::vector<PaperOptions> readings;
-    for (const Screen screen : {Screen::Parallel, Screen::Perspective}) {
-        for (const Listed listed : {Listed::FromOctant, Listed::FromPoint}) {
+std::vector<PaperOrderOptions> all_readings() {
+    std::vector<PaperOrderOptions> readings;
+    for (const ScreenProjection screen : {ScreenProjection::Parallel, ScreenProjection::Perspective}) {
+        for (const ListingRule listed : {ListingRule::FromOctant, ListingRule::FromPoint}) {
             readings.push_back({.screen = screen, .listed = listed});
         }
     }
@@ -101,7 +101,7 @@ TEST_CASE("octants have the names and signs of the paper") {
 }
 
 TEST_CASE("each octant lists the polygons of the paper's table 4, each once") {
-    for (const PaperOptions& options : all_readings()) {
+    for (const PaperOrderOptions& options : all_readings()) {
         const OctantOrders orders = paper_orders(paper_example(), options);
         for (const TableRow& row : table_4) {
             CHECK(sorted(list_of(orders, row.octant)) == sorted(row.polygons));
@@ -111,7 +111,7 @@ TEST_CASE("each octant lists the polygons of the paper's table 4, each once") {
 }
 
 TEST_CASE("the 12 precedences that the example needs are kept") {
-    for (const PaperOptions& options : all_readings()) {
+    for (const PaperOrderOptions& options : all_readings()) {
         const OctantOrders orders = paper_orders(paper_example(), options);
         int checked = 0;
         for (const TableRow& row : table_4) {
@@ -126,7 +126,7 @@ TEST_CASE("the 12 precedences that the example needs are kept") {
 }
 
 TEST_CASE("no ray from any octant of the example sees a wrong polygon") {
-    for (const PaperOptions& options : all_readings()) {
+    for (const PaperOrderOptions& options : all_readings()) {
         const DrawOrder order(paper_orders(paper_example(), options));
         for (int octant = 0; octant < 8; ++octant) {
             const auto count = count_wrong_rays(
@@ -163,18 +163,18 @@ TEST_CASE("a polygon is listed where it faces some eye, also where the viewpoint
     plate.polygons[0].corner_count = 3;
     plate.vertices_m = {{0, 0, 0}, {0, 0, 1}, {0.1, 1, 0}};
     REQUIRE(octant::models::polygons::normal_of(plate, 0).x < -0.9);
-    const auto listed = [&](Listed how) {
+    const auto listed = [&](ListingRule how) {
         return paper_orders(plate, {.listed = how}).lists[0].size();
     };
-    CHECK(listed(Listed::FromOctant) == 1);
-    CHECK(listed(Listed::FromPoint) == 0);
+    CHECK(listed(ListingRule::FromOctant) == 1);
+    CHECK(listed(ListingRule::FromPoint) == 0);
 }
 
 TEST_CASE("whatever a random eye outside the radius sees is in its octant's list once") {
     const auto model = paper_example();
     const double radius_m = octant::models::polygons::radius_m(model);
     const OctantOrders orders = paper_orders(model);
-    Dice dice(7);
+    RandomGenerator dice(7);
     for (int sample = 0; sample < 2000; ++sample) {
         const glm::dvec3 eye_m = dice.direction() * (radius_m * dice.between(1.0, 9.0));
         const Order& list = orders.lists[static_cast<std::size_t>(octant_of(eye_m))];
@@ -205,7 +205,7 @@ TEST_CASE("three bars, each over the next, cannot be ordered, and the result say
     }
     bars.corner_vertices = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
     REQUIRE(glm::dot(octant::models::polygons::normal_of(bars, 0), towards_eye) > 0.9);
-    const OctantOrders orders = paper_orders(bars, {.listed = Listed::FromPoint});
+    const OctantOrders orders = paper_orders(bars, {.listed = ListingRule::FromPoint});
     CHECK(orders.lists[0].size() == 3);
     CHECK(orders.broken_cycles >= 1);
     CHECK(count_wrong_rays(bars, DrawOrder(orders), {.octant = 0}).wrong > 0);

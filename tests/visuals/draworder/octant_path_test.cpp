@@ -14,11 +14,11 @@ TEST_CASE("children of an octant path are the parts of its triangle") {
         return std::ranges::equal(
             a, b, [](const auto& p, const auto& q) { return glm::distance(p, q) < 1e-15; });
     };
-    CHECK(close(corners_of_path("+-+"), {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}));
-    CHECK(close(corners_of_path("+++/0"), {glm::dvec3(1, 0, 0), {0.5, 0.5, 0}, {0.5, 0, 0.5}}));
-    CHECK(close(corners_of_path("+++/1"), {glm::dvec3(0.5, 0.5, 0), {0, 1, 0}, {0, 0.5, 0.5}}));
-    CHECK(close(corners_of_path("+++/2"), {glm::dvec3(0.5, 0, 0.5), {0, 0.5, 0.5}, {0, 0, 1}}));
-    CHECK(close(corners_of_path("+++/3"), {glm::dvec3(0, 0.5, 0.5), {0.5, 0, 0.5}, {0.5, 0.5, 0}}));
+    CHECK(close(octant_triangle("+-+"), {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}));
+    CHECK(close(octant_triangle("+++/0"), {glm::dvec3(1, 0, 0), {0.5, 0.5, 0}, {0.5, 0, 0.5}}));
+    CHECK(close(octant_triangle("+++/1"), {glm::dvec3(0.5, 0.5, 0), {0, 1, 0}, {0, 0.5, 0.5}}));
+    CHECK(close(octant_triangle("+++/2"), {glm::dvec3(0.5, 0, 0.5), {0, 0.5, 0.5}, {0, 0, 1}}));
+    CHECK(close(octant_triangle("+++/3"), {glm::dvec3(0, 0.5, 0.5), {0.5, 0, 0.5}, {0.5, 0.5, 0}}));
 }
 
 TEST_CASE("an octant path means the same eyes in the axes of any file") {
@@ -29,10 +29,10 @@ TEST_CASE("an octant path means the same eyes in the axes of any file") {
             CHECK(path_in_body(in_file, axes) == path);
             glm::dvec3 body(0.0);
             glm::dvec3 file(0.0);
-            for (const glm::dvec3& corner : corners_of_path(path)) {
+            for (const glm::dvec3& corner : octant_triangle(path)) {
                 body += corner;
             }
-            for (const glm::dvec3& corner : corners_of_path(in_file)) {
+            for (const glm::dvec3& corner : octant_triangle(in_file)) {
                 file += corner;
             }
             CHECK(glm::distance(axes.body_from_file(file), body) < 1e-15);

@@ -1,12 +1,12 @@
 #include "models/polygons/polygon_model.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/order_shapes.h"
 #include "visuals/draworder/order_proof.h"
-#include "visuals/draworder/order_trial.h"
+#include "visuals/draworder/order_ray_test.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/draworder/parted_order.h"
-#include "visuals/orderfile/cells_of_parts.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/draworder/bsp_order.h"
+#include "visuals/orderfile/bsp_cells.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -16,13 +16,13 @@
 #include "tried_models.h"
 
 using namespace octant::visuals::draworder;
-using octant::Dice;
+using octant::RandomGenerator;
 using octant::models::polygons::PolygonModel;
 using octant::tests::all_eyes;
 using octant::tests::by;
 using octant::tests::shipped;
 using octant::visuals::orderfile::count_wrong_rays;
-using octant::visuals::orderfile::EyeSamples;
+using octant::visuals::orderfile::RaySampling;
 
 namespace {
 
@@ -57,19 +57,19 @@ PolygonModel crossing_rotors() {
 } // namespace
 
 TEST_CASE("turning parts that meet are left unsplit, and a note tells of them") {
-    const OrderedModel found = by(Method::Tree, crossing_rotors());
+    const OrderedModel found = by(OrderMethod::Tree, crossing_rotors());
     CHECK(found.splits == 0);
     REQUIRE(found.notes.size() == 1);
     CHECK(found.notes[0] == "across and along meet as they turn; no order is right for them");
 }
 
 TEST_CASE("rings of bars and polygons that pass through one another are split") {
-    const OrderedModel bars = by(Method::Tree, octant::tests::three_bars());
+    const OrderedModel bars = by(OrderMethod::Tree, octant::tests::three_bars());
     CHECK(bars.splits >= 2);
     CHECK(bars.splits <= 4);
     CHECK(bars.model.polygons.size() == 6 + static_cast<std::size_t>(bars.splits));
     CHECK(count_wrong_rays(bars.model, bars.order, all_eyes(2000)).wrong == 0);
-    const OrderedModel crossed = by(Method::Tree, octant::tests::fig_14(true));
+    const OrderedModel crossed = by(OrderMethod::Tree, octant::tests::fig_14(true));
     CHECK(crossed.splits >= 2);
     CHECK(count_wrong_rays(crossed.model, crossed.order, all_eyes(2000)).wrong == 0);
 }
@@ -86,10 +86,10 @@ TEST_CASE("a model whose rings no cut resolves is drawn by parts") {
         {-0.311808, 0.908202, 1.758152}};
     model.corner_vertices = {0, 3, 2, 4, 1, 2, 3};
     model.polygons = {{0, 3, 0, 0}, {3, 4, 0, 0}};
-    const OrderedModel found = by(Method::Tree, model);
+    const OrderedModel found = by(OrderMethod::Tree, model);
     CHECK(count_wrong_rays(found.model, found.order, all_eyes(300)).wrong == 0);
-    CHECK(found.trial.rays > 1000);
-    CHECK(found.trial.wrong == 0);
+    CHECK(found.ray_test.rays > 1000);
+    CHECK(found.ray_test.wrong == 0);
 }
 
 TEST_CASE("a search that has no time left is replaced by parts, and a note tells of it") {
@@ -97,7 +97,7 @@ TEST_CASE("a search that has no time left is replaced by parts, and a note tells
     OrderOptions options;
     options.seconds = 0.001;
     const OrderedModel found = ordered(pile, options);
-    CHECK(found.drawn_by == DrawnBy::Parts);
+    CHECK(found.found_by == OrderSource::Parts);
     CHECK(found.cells.empty());
     REQUIRE(found.notes.size() == 1);
     CHECK(
@@ -116,9 +116,9 @@ TEST_CASE("cells that were found before the time was spent are kept, and the oth
             options.seconds = seconds;
             const OrderedModel found = ordered(model, options);
             INFO(model.name << " " << seconds);
-            CHECK(found.trial.wrong == 0);
+            CHECK(found.ray_test.wrong == 0);
             CHECK(count_wrong_rays(found.model, found.order, all_eyes(200)).wrong == 0);
-            kept += found.drawn_by == DrawnBy::TreeAndParts ? 1 : 0;
+            kept += found.found_by == OrderSource::TreeAndSplitPolygons ? 1 : 0;
         }
     }
     CHECK(kept >= 1);
@@ -132,26 +132,26 @@ TEST_CASE("parts and single polygons order crossing bars, rings and rotors for e
           octant::tests::torus(416),
           shipped("f15")}) {
         INFO(model.name);
-        const OrderedModel found = by(Method::Bsp, model);
+        const OrderedModel found = by(OrderMethod::Bsp, model);
         CHECK(found.notes.empty());
         CHECK(count_wrong_rays(found.model, found.order, all_eyes(400)).wrong == 0);
-        const PartedOrder single = parted_order(model, Parting::Single);
+        const BspOrder single = bsp_order(model, BspLeaves::Single);
         CHECK(count_wrong_rays(single.model, single.order, all_eyes(400)).wrong == 0);
     }
-    const OrderedModel turning = by(Method::Bsp, shipped("500md"));
-    CHECK(turning.trial.wrong == 0);
+    const OrderedModel turning = by(OrderMethod::Bsp, shipped("500md"));
+    CHECK(turning.ray_test.wrong == 0);
     for (int step = 0; step < 8; ++step) {
-        EyeSamples eyes = all_eyes(200);
+        RaySampling eyes = all_eyes(200);
         eyes.turn_rad = 0.7 * step;
         CHECK(count_wrong_rays(turning.model, turning.order, eyes).wrong == 0);
     }
 }
 
 TEST_CASE("an order by a few parts has cells, which hold the same orders") {
-    const OrderedModel found = by(Method::Bsp, octant::tests::three_bars());
-    const auto cells = octant::visuals::orderfile::cells_of_parts(found.model, found.order);
+    const OrderedModel found = by(OrderMethod::Bsp, octant::tests::three_bars());
+    const auto cells = octant::visuals::orderfile::bsp_cells(found.model, found.order);
     REQUIRE(cells);
-    Dice dice(4);
+    RandomGenerator dice(4);
     DrawOrder::Walk walk;
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 eye_m = dice.direction() * dice.between(0.1, 9.0);
@@ -180,7 +180,7 @@ TEST_CASE("a trial allows for rays that graze what lies within the tolerance of 
                 model.vertices_m.emplace_back(at_m, height_m);
             }
         }
-        return try_order(model, DrawOrder(std::vector<std::uint32_t>{1, 0}), {}).wrong;
+        return ray_test_order(model, DrawOrder(std::vector<std::uint32_t>{1, 0}), {}).wrong;
     };
     CHECK(wrong_at(2e-9) == 0);
     CHECK(wrong_at(2e-8) > 0);
@@ -188,34 +188,34 @@ TEST_CASE("a trial allows for rays that graze what lies within the tolerance of 
 
 TEST_CASE("a trial sees what is painted too early, off the origin and as a decal too") {
     PolygonModel model = octant::tests::plate_between_boxes();
-    OrderedModel found = by(Method::Tree, model);
-    CHECK(try_order(found.model, found.order, {}).wrong == 0);
-    CHECK(try_order(model, file_order(model), {}).wrong > 0);
+    OrderedModel found = by(OrderMethod::Tree, model);
+    CHECK(ray_test_order(found.model, found.order, {}).wrong == 0);
+    CHECK(ray_test_order(model, file_order(model), {}).wrong > 0);
     for (glm::dvec3& vertex_m : model.vertices_m) {
         vertex_m += glm::dvec3(1e6, -1e6, 0.0);
     }
-    const Trial far = try_order(model, file_order(model), {});
+    const RayTestResult far = ray_test_order(model, file_order(model), {});
     CHECK(far.rays > 1000);
     CHECK(far.wrong > 0);
     PolygonModel decal = octant::tests::fig_14();
     decal.polygons.push_back(decal.polygons[0]);
-    CHECK(try_order(decal, DrawOrder(std::vector<std::uint32_t>{2, 1, 0}), {}).wrong > 0);
+    CHECK(ray_test_order(decal, DrawOrder(std::vector<std::uint32_t>{2, 1, 0}), {}).wrong > 0);
 }
 
 TEST_CASE("orders are proved before they are used, by every exact method") {
-    for (const Method method : {Method::Cells, Method::Tree, Method::Bsp}) {
+    for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree, OrderMethod::Bsp}) {
         for (const auto& model :
              {shipped("f15"), shipped("500md"), shipped("concave"), octant::tests::three_bars()}) {
             const OrderedModel found = by(method, model);
             INFO(model.name << " by method " << static_cast<int>(method));
-            CHECK(found.trial.is_proof_whole);
-            CHECK(found.trial.unproved == 0);
+            CHECK(found.ray_test.is_proof_complete);
+            CHECK(found.ray_test.unproved == 0);
         }
     }
 }
 
 TEST_CASE("what rays see of polygons that changed places the proof sees too, and more") {
-    const OrderedModel found = by(Method::Tree, shipped("500md"));
+    const OrderedModel found = by(OrderMethod::Tree, shipped("500md"));
     std::vector<std::vector<std::uint32_t>> lists;
     for (int cell = 0; cell < found.order.cell_count(); ++cell) {
         const auto list = found.order.polygons_of(cell);
@@ -223,7 +223,7 @@ TEST_CASE("what rays see of polygons that changed places the proof sees too, and
     }
     int seen = 0;
     int unproved = 0;
-    Dice dice(3);
+    RandomGenerator dice(3);
     for (int i = 0; i < 40; ++i) {
         auto changed = lists;
         auto& list = changed[static_cast<std::size_t>(dice.between(0, double(lists.size())))];
@@ -231,13 +231,13 @@ TEST_CASE("what rays see of polygons that changed places the proof sees too, and
         std::swap(list[at], list[at + 3]);
         const auto nodes = found.order.nodes();
         const DrawOrder order({nodes.begin(), nodes.end()}, changed);
-        const bool is_open = order_proof(found.model, order, 10.0).unproved > 0;
-        const bool is_wrong = try_order(found.model, order, {.proof_s = 0.0}).wrong > 0;
+        const bool is_open = prove_order(found.model, order, 10.0).unproved > 0;
+        const bool is_wrong = ray_test_order(found.model, order, {.proof_s = 0.0}).wrong > 0;
         unproved += is_open ? 1 : 0;
         seen += is_wrong ? 1 : 0;
         CHECK((is_open || !is_wrong));
         if (is_open) { // rays aimed at the open pairs
-            CHECK(try_order(found.model, order, {.proof_s = 10.0}).unproved > 0);
+            CHECK(ray_test_order(found.model, order, {.proof_s = 10.0}).unproved > 0);
         }
     }
     CHECK(seen > 0);
@@ -245,14 +245,14 @@ TEST_CASE("what rays see of polygons that changed places the proof sees too, and
 }
 
 TEST_CASE("a proof ends when its work is spent, the same each time") {
-    const OrderedModel found = by(Method::Tree, octant::tests::torus(416));
-    CHECK(order_proof(found.model, found.order, 10.0).is_whole);
-    CHECK_FALSE(order_proof(found.model, found.order, 1e-5).is_whole);
-    CHECK(try_order(found.model, found.order, {.proof_s = 1e-5}).wrong == 0);
+    const OrderedModel found = by(OrderMethod::Tree, octant::tests::torus(416));
+    CHECK(prove_order(found.model, found.order, 10.0).is_complete);
+    CHECK_FALSE(prove_order(found.model, found.order, 1e-5).is_complete);
+    CHECK(ray_test_order(found.model, found.order, {.proof_s = 1e-5}).wrong == 0);
     OrderOptions options;
     options.seconds = 0.3;
     const OrderedModel once = ordered(shipped("f15"), options);
     const OrderedModel again = ordered(shipped("f15"), options);
-    CHECK(once.trial.is_proof_whole == again.trial.is_proof_whole);
-    CHECK(once.trial.unproved == again.trial.unproved);
+    CHECK(once.ray_test.is_proof_complete == again.ray_test.is_proof_complete);
+    CHECK(once.ray_test.unproved == again.ray_test.unproved);
 }

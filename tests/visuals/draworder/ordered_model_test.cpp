@@ -1,11 +1,11 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/polygons/polygon_model.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/units.h"
 #include "tests/order_shapes.h"
 #include "tests/paper_example.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -18,20 +18,20 @@
 #include "tried_models.h"
 
 using namespace octant::visuals::draworder;
-using octant::Dice;
+using octant::RandomGenerator;
 using octant::models::polygons::PolygonModel;
 using octant::tests::all_eyes;
 using octant::tests::by;
 using octant::tests::paper_example;
 using octant::tests::shipped;
 using octant::visuals::orderfile::count_wrong_rays;
-using octant::visuals::orderfile::EyeSamples;
+using octant::visuals::orderfile::RaySampling;
 
 namespace {
 
 void check_tree(const PolygonModel& model, int eyes, int max_cells) {
     INFO(model.name);
-    const OrderedModel found = by(Method::Tree, model);
+    const OrderedModel found = by(OrderMethod::Tree, model);
     const auto count = count_wrong_rays(found.model, found.order, all_eyes(eyes));
     CHECK(count.hits > eyes);
     CHECK(count.wrong == 0);
@@ -77,7 +77,7 @@ constexpr std::array<PrecedenceOfTable, 4> precedences_of_table_4{
 
 TEST_CASE("the paper's method names its eight octants and keeps its lists") {
     const OctantOrders orders = paper_orders(paper_example());
-    const OrderedModel model = by(Method::Paper, paper_example());
+    const OrderedModel model = by(OrderMethod::Paper, paper_example());
     REQUIRE(model.cells.size() == 8);
     for (int octant = 0; octant < 8; ++octant) {
         const OrderCell& cell = model.cells[static_cast<std::size_t>(octant)];
@@ -98,7 +98,7 @@ TEST_CASE("one list is right for every eye of the paper's example") {
 }
 
 TEST_CASE("lists by cells and by the tree keep the precedences that the paper's example needs") {
-    for (const Method method : {Method::Cells, Method::Tree}) {
+    for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree}) {
         const OrderedModel found = by(method, paper_example());
         for (int i = 0; i < 4; ++i) {
             const PrecedenceOfTable& row = precedences_of_table_4.at(static_cast<std::size_t>(i));
@@ -111,8 +111,8 @@ TEST_CASE("lists by cells and by the tree keep the precedences that the paper's 
                 CHECK(std::ranges::count(list, later) == 1);
             }
         }
-        const double beyond = method == Method::Cells ? 2.0 : 0.05;
-        const EyeSamples eyes{.eyes = 1000, .rays_per_eye = 30, .min_distance_radii = beyond};
+        const double beyond = method == OrderMethod::Cells ? 2.0 : 0.05;
+        const RaySampling eyes{.eyes = 1000, .rays_per_eye = 30, .min_distance_radii = beyond};
         CHECK(count_wrong_rays(found.model, found.order, eyes).wrong == 0);
     }
 }
@@ -122,8 +122,8 @@ TEST_CASE("the shipped aircraft have a right list for every eye, and few of them
     check_tree(shipped("500md"), 1500, 10);
     check_tree(shipped("f15-detailed"), 1500, 80);
     check_tree(shipped("500md-detailed"), 1500, 140);
-    CHECK(by(Method::Tree, shipped("f15")).splits == 0);
-    CHECK(by(Method::Tree, shipped("500md")).splits == 0);
+    CHECK(by(OrderMethod::Tree, shipped("f15")).splits == 0);
+    CHECK(by(OrderMethod::Tree, shipped("500md")).splits == 0);
 }
 
 TEST_CASE("concave, thin and round shapes have a right list for every eye") {
@@ -134,7 +134,7 @@ TEST_CASE("concave, thin and round shapes have a right list for every eye") {
 }
 
 TEST_CASE("a pile whose bodies hide one another in rings is ordered with few splits") {
-    const OrderedModel pile = by(Method::Tree, octant::tests::pile(1989, 25));
+    const OrderedModel pile = by(OrderMethod::Tree, octant::tests::pile(1989, 25));
     CHECK(pile.splits >= 1);
     CHECK(pile.splits <= 3);
     CHECK(count_wrong_rays(pile.model, pile.order, all_eyes(300)).wrong == 0);
@@ -149,7 +149,7 @@ TEST_CASE("octant paths give right lists from twice the radius outwards") {
         {octant::tests::three_bars(), 80}};
     for (const auto& [model, max_cells] : models) {
         INFO(model.name);
-        const OrderedModel found = by(Method::Cells, model);
+        const OrderedModel found = by(OrderMethod::Cells, model);
         CHECK(found.order.cell_count() <= max_cells);
         REQUIRE(found.cells.size() == static_cast<std::size_t>(found.order.cell_count()));
         const double max_radii = (found.min_distance_m + glm::length(found.centre_m)) /
@@ -164,9 +164,9 @@ TEST_CASE("octant paths give right lists from twice the radius outwards") {
 }
 
 TEST_CASE("an eye lies in front of all planes of its cell, and its cell's path is its octant's") {
-    for (const Method method : {Method::Paper, Method::Cells, Method::Tree}) {
+    for (const OrderMethod method : {OrderMethod::Paper, OrderMethod::Cells, OrderMethod::Tree}) {
         const OrderedModel found = by(method, shipped("f15"));
-        Dice dice(3);
+        RandomGenerator dice(3);
         for (int i = 0; i < 1000; ++i) {
             const glm::dvec3 from_centre_m = dice.direction() * dice.between(25.0, 80.0);
             const glm::dvec3 eye_m = found.centre_m + from_centre_m;
@@ -175,7 +175,7 @@ TEST_CASE("an eye lies in front of all planes of its cell, and its cell's path i
             for (const octant::Plane& plane : cell.planes) {
                 CHECK(octant::distance_m(plane, eye_m) > -1e-6);
             }
-            if (method != Method::Tree) {
+            if (method != OrderMethod::Tree) {
                 for (int axis = 0; axis < 3; ++axis) {
                     const char sign = from_centre_m[axis] < 0.0 ? '-' : '+';
                     CHECK(cell.path[static_cast<std::size_t>(axis)] == sign);
@@ -187,21 +187,21 @@ TEST_CASE("an eye lies in front of all planes of its cell, and its cell's path i
 
 TEST_CASE("the orders hold while the rotors turn") {
     const PolygonModel still = shipped("500md");
-    const OrderedModel tree = by(Method::Tree, still);
-    const OrderedModel cells = by(Method::Cells, still);
+    const OrderedModel tree = by(OrderMethod::Tree, still);
+    const OrderedModel cells = by(OrderMethod::Cells, still);
     REQUIRE(tree.splits + cells.splits == 0);
     CHECK(tree.notes.empty());
     for (int step = 0; step < 24; ++step) {
         const PolygonModel turned = turned_by(still, octant::rad_from_deg(15.0 * step + 4.0));
         CHECK(count_wrong_rays(turned, tree.order, all_eyes(100)).wrong == 0);
-        const EyeSamples far{.eyes = 100, .rays_per_eye = 30, .min_distance_radii = 4.0};
+        const RaySampling far{.eyes = 100, .rays_per_eye = 30, .min_distance_radii = 4.0};
         CHECK(count_wrong_rays(turned, cells.order, far).wrong == 0);
     }
 }
 
 TEST_CASE("a list names a polygon that faces some eye of its cell once, and no other") {
-    const OrderedModel found = by(Method::Tree, shipped("f15"));
-    Dice dice(5);
+    const OrderedModel found = by(OrderMethod::Tree, shipped("f15"));
+    RandomGenerator dice(5);
     for (int i = 0; i < 500; ++i) {
         const glm::dvec3 eye_m = dice.direction() * dice.between(1.0, 40.0);
         const auto list = found.order.polygons_of(found.order.cell_of(eye_m));
@@ -216,8 +216,8 @@ TEST_CASE("a list names a polygon that faces some eye of its cell once, and no o
 }
 
 TEST_CASE("the same model gives the same cells and lists") {
-    const OrderedModel once = by(Method::Tree, shipped("f15"));
-    const OrderedModel twice = by(Method::Tree, shipped("f15"));
+    const OrderedModel once = by(OrderMethod::Tree, shipped("f15"));
+    const OrderedModel twice = by(OrderMethod::Tree, shipped("f15"));
     CHECK(std::ranges::equal(once.order.polygons(), twice.order.polygons()));
     REQUIRE(once.cells.size() == twice.cells.size());
     for (std::size_t i = 0; i < once.cells.size(); ++i) {
@@ -233,7 +233,7 @@ TEST_CASE("progress rises while cells are searched for") {
         rises = rises && share >= last;
         last = share;
     };
-    CHECK(ordered(shipped("f15"), options).drawn_by == DrawnBy::Tree);
+    CHECK(ordered(shipped("f15"), options).found_by == OrderSource::Tree);
     CHECK(rises);
     CHECK(last > 0.0);
     CHECK(last < 1.0);
@@ -241,14 +241,14 @@ TEST_CASE("progress rises while cells are searched for") {
 
 TEST_CASE("neither place nor size of a model matters to its order") {
     const PolygonModel model = octant::tests::three_bars();
-    const OrderedModel still = by(Method::Tree, model);
+    const OrderedModel still = by(OrderMethod::Tree, model);
     for (const auto& [scale, away] :
          {std::pair{1.0, 1e6}, std::pair{1e-6, 0.0}, std::pair{1e6, 0.0}}) {
         PolygonModel other = model;
         for (glm::dvec3& vertex_m : other.vertices_m) {
             vertex_m = vertex_m * scale + away;
         }
-        const OrderedModel moved = by(Method::Tree, other);
+        const OrderedModel moved = by(OrderMethod::Tree, other);
         INFO(scale << " times, " << away << " m away");
         CHECK(moved.splits == still.splits);
         REQUIRE(moved.order.cell_count() == still.order.cell_count());
@@ -269,8 +269,8 @@ TEST_CASE("a model that is turned has the same lists") {
         for (glm::dvec3& vertex_m : other.vertices_m) {
             vertex_m = turn * vertex_m;
         }
-        const OrderedModel still = by(Method::Tree, model);
-        const OrderedModel turned = by(Method::Tree, other);
+        const OrderedModel still = by(OrderMethod::Tree, model);
+        const OrderedModel turned = by(OrderMethod::Tree, other);
         INFO(model.name);
         CHECK(turned.splits == still.splits);
         REQUIRE(turned.order.cell_count() == still.order.cell_count());
@@ -285,8 +285,8 @@ TEST_CASE("a pile of 60 bodies has a tree of nearly no cuts within a tenth of th
     OrderOptions options;
     options.seconds = 2.0;
     const OrderedModel found = ordered(octant::tests::pile(1989, 60), options);
-    CHECK(found.drawn_by == DrawnBy::Tree);
+    CHECK(found.found_by == OrderSource::Tree);
     CHECK(found.splits <= 12);
-    CHECK(found.trial.wrong == 0);
+    CHECK(found.ray_test.wrong == 0);
     CHECK(found.notes.empty());
 }

@@ -7,8 +7,8 @@ using namespace octant::visuals::draworder;
 
 TEST_CASE("the pile of 174 bodies has its whole tree within the usual search") {
     const OrderedModel found = ordered(octant::tests::big_pile());
-    CHECK(found.drawn_by == DrawnBy::Tree);
+    CHECK(found.found_by == OrderSource::Tree);
     CHECK(found.splits <= 31);
-    CHECK(found.trial.wrong == 0);
+    CHECK(found.ray_test.wrong == 0);
     CHECK(found.notes.empty());
 }

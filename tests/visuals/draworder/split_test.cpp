@@ -266,7 +266,7 @@ TEST_CASE("the test shapes have the polygons they promise, convex, planar and fa
 }
 
 TEST_CASE("the three bars overlap in a circle from both sides") {
-    const OctantOrders orders = paper_orders(three_bars(), {.listed = Listed::FromPoint});
+    const OctantOrders orders = paper_orders(three_bars(), {.listed = ListingRule::FromPoint});
     CHECK(orders.lists[0].size() == 3);
     CHECK(orders.lists[7].size() == 3);
     CHECK(orders.broken_cycles >= 2);
@@ -292,9 +292,9 @@ TEST_CASE("the bodies of a pile face outward, lie close together and are the sam
 
 TEST_CASE("pieces go into a list behind what they were cut from, the latest first") {
     std::vector<std::uint32_t> list{5, 1, 3};
-    add_pieces(list, {}, 6);
+    insert_cut_pieces(list, {}, 6);
     CHECK(list == std::vector<std::uint32_t>{5, 1, 3});
     const std::vector<std::uint32_t> cut_from{1, 6, 0, 1}; // of the pieces 6 to 9
-    add_pieces(list, cut_from, 6);
+    insert_cut_pieces(list, cut_from, 6);
     CHECK(list == std::vector<std::uint32_t>{5, 1, 9, 6, 7, 3});
 }

@@ -11,11 +11,11 @@ models::polygons::PolygonModel shipped(const std::string& name) {
 }
 
 visuals::draworder::OrderedModel
-by(visuals::draworder::Method method, models::polygons::PolygonModel model) {
+by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model) {
     return visuals::draworder::ordered(std::move(model), {.method = method, .paper = {}});
 }
 
-visuals::orderfile::EyeSamples all_eyes(int eyes) {
+visuals::orderfile::RaySampling all_eyes(int eyes) {
     return {.eyes = eyes, .rays_per_eye = 30, .min_distance_radii = 0.05};
 }
 

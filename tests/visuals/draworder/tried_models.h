@@ -2,7 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <string>
 
@@ -12,9 +12,9 @@ namespace octant::tests {
 models::polygons::PolygonModel shipped(const std::string& name);
 
 visuals::draworder::OrderedModel
-by(visuals::draworder::Method method, models::polygons::PolygonModel model);
+by(visuals::draworder::OrderMethod method, models::polygons::PolygonModel model);
 
 /// From inside the model outwards.
-visuals::orderfile::EyeSamples all_eyes(int eyes);
+visuals::orderfile::RaySampling all_eyes(int eyes);
 
 } // namespace octant::tests

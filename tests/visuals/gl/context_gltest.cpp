@@ -81,14 +81,14 @@ TEST_CASE("renderers take turns in a thread whichever of their contexts was curr
     second.renderer().resize({16, 16}, 1);
     second.renderer().warm_up();
     CHECK(middle(second.picture(plan_of(green))) == green_px);
-    std::unique_ptr<scene::Renderer> beside = first.renderer().beside({8, 8}, 1);
+    std::unique_ptr<scene::Renderer> sibling = first.renderer().sibling({8, 8}, 1);
     second.renderer().finish();
-    beside->draw(plan_of(blue));
+    sibling->draw(plan_of(blue));
     scene::Picture picture;
-    beside->finish_and_read(picture);
+    sibling->finish_and_read(picture);
     CHECK(middle(picture) == blue_px);
     second.renderer().draw(plan_of(green));
-    beside.reset(); // its objects are those of another context than the one that draws
+    sibling.reset(); // its objects are those of another context than the one that draws
     CHECK(hash_of_full_scene(first) == hash);
     second.renderer().finish_and_read(picture);
     CHECK(middle(picture) == green_px);

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/visuals/gl/small_scene.h"
 
 #include <catch2/catch.hpp>
@@ -292,7 +292,7 @@ TEST_CASE("depth is cleared inside its box only") {
 TEST_CASE("slivers of ground keep their numbers to the last bit") {
     // Corners hundreds of metres apart in depth, on one line of the picture but for 1e-5 of it.
     Studio studio;
-    Dice dice(5);
+    RandomGenerator dice(5);
     Triangles slivers;
     constexpr std::uint32_t number = 0xff1ebde2U;
     for (std::uint32_t i = 0; i < 30000; ++i) {

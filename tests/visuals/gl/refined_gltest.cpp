@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "tests/visuals/gl/small_scene.h"
 
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ constexpr int picture_px = 160;
 /// A coloured torus, each triangle with three corners of its own, lit at its corners and as a
 /// whole.
 std::vector<scene::ModelVertex> torus_corners() {
-    const models::polygons::PolygonModel quads = models::made::torus();
+    const models::polygons::PolygonModel quads = models::procedural::torus();
     std::vector<scene::ModelVertex> corners;
     const auto add = [&](const std::array<std::uint32_t, 3>& triangle) {
         std::array<glm::dvec3, 3> at_m;

@@ -27,7 +27,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
-using terrain::ground_of;
+using terrain::make_ground_tiles;
 using terrain::GroundPrefetcher;
 using terrain::NodePart;
 
@@ -76,7 +76,7 @@ bool same_ground(const GroundTiles& a, const GroundTiles& b) {
     return a.memory().size() == b.memory().size() &&
            a.shape().height_base_m == b.shape().height_base_m &&
            a.shape().height_unit_m == b.shape().height_unit_m &&
-           a.shape().spacing_m == b.shape().spacing_m && a.facts().mean_m == b.facts().mean_m &&
+           a.shape().spacing_m == b.shape().spacing_m && a.metadata().mean_m == b.metadata().mean_m &&
            std::memcmp(a.memory().data(), b.memory().data(), a.memory().size()) == 0;
 }
 
@@ -104,9 +104,9 @@ void flip_byte(const path& file, std::uintmax_t at) {
 TEST_CASE("an imported file is the ground of its field, byte for byte") {
     const Made made;
     const GroundTiles ground = imported({made.whole("whole.tif")}, "whole.ground");
-    CHECK(same_ground(ground, ground_of(made.field)));
-    CHECK(ground.facts().filled_voids == 0);
-    CHECK(ground.facts().name == "whole.tif");
+    CHECK(same_ground(ground, make_ground_tiles(made.field)));
+    CHECK(ground.metadata().filled_voids == 0);
+    CHECK(ground.metadata().name == "whole.tif");
     CHECK_FALSE(std::filesystem::exists(scratch("whole.ground.part")));
     CHECK_NOTHROW(verify_ground(scratch("whole.ground")));
 }
@@ -119,18 +119,18 @@ TEST_CASE("fractions of a metre are imported as the field has them") {
     const models::heights::HeightField field(90, 70, 12.5, heights_m);
     models::heights::write_height_field(scratch("fractions.tif"), field);
     const GroundTiles ground = imported({scratch("fractions.tif")}, "fractions.ground");
-    CHECK(same_ground(ground, ground_of(field)));
+    CHECK(same_ground(ground, make_ground_tiles(field)));
 }
 
 TEST_CASE("an imported map keeps its coordinate system as the field does") {
     Made made;
-    made.field.place = GeoPlace{36.0, -112.0};
+    made.field.place = GeoPosition{36.0, -112.0};
     const path file = scratch("placed.tif");
     models::heights::write_height_field(file, made.field);
     const models::heights::HeightField field = models::heights::read_height_field(file);
     const GroundTiles ground = imported({file}, "placed.ground");
     REQUIRE(field.system);
-    for (const auto& system : {ground.facts().system, ground_of(field).facts().system}) {
+    for (const auto& system : {ground.metadata().system, make_ground_tiles(field).metadata().system}) {
         REQUIRE(system);
         CHECK(system->wkt == field.system->wkt);
         CHECK(system->centre_x == field.system->centre_x);
@@ -195,9 +195,9 @@ TEST_CASE("voids and gaps between files are filled from their rims and counted")
     const path west = write_tiff("holed.tif", {0, 100, 0, 80}, holed);
     const path east = write_tiff("beyond.tif", {104, 160, 0, 80}, holed);
     const GroundTiles ground = imported({west, east}, "holed.ground");
-    CHECK(ground.facts().filled_voids == 50 + 4 * 80);
-    CHECK(ground.facts().lowest_m == 100.0F);
-    CHECK(ground.facts().highest_m == 100.0F);
+    CHECK(ground.metadata().filled_voids == 50 + 4 * 80);
+    CHECK(ground.metadata().lowest_m == 100.0F);
+    CHECK(ground.metadata().highest_m == 100.0F);
     CHECK(ground.error_code(0, NodePart::Centre, 0, 0) == 0);
 }
 
@@ -261,9 +261,9 @@ TEST_CASE("fetching ahead changes nothing and ends at once") {
     const GroundTiles ground = imported({made.whole("ahead.tif")}, "ahead.ground");
     GroundPrefetcher prefetcher(ground);
     for (double x_m = -20000.0; x_m < 20000.0; x_m += 500.0) {
-        prefetcher.go_to({x_m, 0.3 * x_m});
+        prefetcher.prefetch_around({x_m, 0.3 * x_m});
     }
-    CHECK(same_ground(ground, ground_of(made.field)));
+    CHECK(same_ground(ground, make_ground_tiles(made.field)));
 }
 
 } // namespace octant::visuals::groundfile

@@ -5,8 +5,8 @@
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/ground_import.h"
-#include "visuals/terrain/error_mesher.h"
-#include "visuals/terrain/ground_assembly.h"
+#include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/ground_assembler.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ namespace {
 using Catch::Matchers::Contains;
 using std::filesystem::path;
 using terrain::NodePart;
-using terrain::Room;
+using terrain::MorphMargin;
 
 const auto never_save = [](ImportStage, double) { return false; };
 
@@ -64,7 +64,7 @@ bool is_taken(const std::function<void(GroundHeader&)>& change) {
     GroundHeader header = sound_header();
     change(header);
     try {
-        read_header("header", page_of(header));
+        read_header("header", header_page(header));
     } catch (const Error&) {
         return false;
     }
@@ -72,9 +72,9 @@ bool is_taken(const std::function<void(GroundHeader&)>& change) {
 }
 
 std::string name_read(const std::string& name) {
-    GroundFacts facts;
-    facts.name = name;
-    return facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).name;
+    GroundMetadata metadata;
+    metadata.name = name;
+    return metadata_of(header_of({40, 30, 30.0, 7.0, 1.0}, metadata)).name;
 }
 
 /// The file of an earlier version, as a shape tells, that is made of a field.
@@ -82,7 +82,7 @@ void write_earlier_version(
     const path& file,
     const models::heights::HeightField& field,
     const GroundShape& shape,
-    const GroundFacts& facts) {
+    const GroundMetadata& metadata) {
     std::vector<std::int16_t> numbers;
     for (int row = 0; row < shape.rows; ++row) {
         for (int column = 0; column < shape.columns; ++column) {
@@ -90,7 +90,7 @@ void write_earlier_version(
         }
     }
     const GroundLayout layout(shape);
-    const GroundFilePlan plan(layout);
+    const GroundFileLayout plan(layout);
     std::vector<std::byte> bytes(plan.file_bytes);
     const auto memory = std::span(bytes).subspan(GroundHeader::bytes, layout.total_bytes());
     const auto checksums = std::span(bytes).subspan(plan.checksums);
@@ -98,8 +98,8 @@ void write_earlier_version(
         std::memcpy(&checksums[8 * index], &checksum, sizeof checksum);
     };
     const terrain::StoredHeights heights = terrain::stored_heights(numbers, shape, false);
-    terrain::GroundAssembly assembly(shape, layout, heights, memory, 1);
-    assembly.put_outline();
+    terrain::GroundAssembler assembly(shape, layout, heights, memory, 1);
+    assembly.write_overview();
     for (std::size_t tile = 0; tile < assembly.tiles();) {
         tile = assembly.build(tile, 1, [&](std::size_t index, std::size_t offset, auto made) {
             std::copy(
@@ -108,10 +108,10 @@ void write_earlier_version(
         });
     }
     put_checksum(0, checksum_of(memory.first(layout.first_tile())));
-    GroundHeader header = header_of(shape, facts);
-    header.progress.stage = GroundProgress::Stage::Complete;
+    GroundHeader header = header_of(shape, metadata);
+    header.progress.stage = ImportProgress::Stage::Complete;
     header.checksums = checksum_of(checksums);
-    const auto page = page_of(header);
+    const auto page = header_page(header);
     std::copy(page.begin(), page.end(), bytes.begin());
     std::ofstream(file, std::ios::binary)
         .write(
@@ -160,7 +160,7 @@ TEST_CASE("a second import to the same file is refused while the first goes on u
         return false;
     });
     CHECK(refused >= 3);
-    CHECK(open_ground(out).facts().highest_m == 7.0F);
+    CHECK(open_ground(out).metadata().highest_m == 7.0F);
     CHECK_NOTHROW(verify_ground(out));
 }
 
@@ -201,29 +201,29 @@ TEST_CASE("a header whose checksum is right but whose numbers are not believed i
 }
 
 TEST_CASE("a header keeps the coordinate system, and one of the first version has none") {
-    GroundFacts facts;
-    facts.system = models::heights::MapSystem{"LOCAL_CS[\"plan\"]", 12.5, -7.0, 0.3048};
-    const GroundHeader header = header_of({40, 30, 30.0, 7.0, 1.0}, facts);
-    const GroundFacts kept = facts_of(read_header("header", page_of(header)));
+    GroundMetadata metadata;
+    metadata.system = models::heights::CoordinateSystem{"LOCAL_CS[\"plan\"]", 12.5, -7.0, 0.3048};
+    const GroundHeader header = header_of({40, 30, 30.0, 7.0, 1.0}, metadata);
+    const GroundMetadata kept = metadata_of(read_header("header", header_page(header)));
     REQUIRE(kept.system);
-    CHECK(kept.system->wkt == facts.system->wkt);
+    CHECK(kept.system->wkt == metadata.system->wkt);
     CHECK(kept.system->centre_x == 12.5);
     CHECK(kept.system->centre_y == -7.0);
     CHECK(kept.system->unit_m == 0.3048);
-    auto spoilt = page_of(header);
+    auto spoilt = header_page(header);
     spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
     CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
 
-    GroundHeader first = header_of({33, 33, 30.0, 7.0, 1.0, false, false}, facts);
+    GroundHeader first = header_of({33, 33, 30.0, 7.0, 1.0, false, false}, metadata);
     first.version = 1;
-    auto page = page_of(first);
+    auto page = header_page(first);
     std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
-    CHECK_FALSE(facts_of(read_header("header", page)).system);
+    CHECK_FALSE(metadata_of(read_header("header", page)).system);
     first.version = 7;
-    CHECK_THROWS_WITH(read_header("header", page_of(first)), Contains("got version 7"));
+    CHECK_THROWS_WITH(read_header("header", header_page(first)), Contains("got version 7"));
 
-    facts.system->wkt.assign(4000, 'x');
-    CHECK_FALSE(facts_of(header_of({40, 30, 30.0, 7.0, 1.0}, facts)).system);
+    metadata.system->wkt.assign(4000, 'x');
+    CHECK_FALSE(metadata_of(header_of({40, 30, 30.0, 7.0, 1.0}, metadata)).system);
 }
 
 TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts the square") {
@@ -233,40 +233,40 @@ TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts 
             GroundHeader header =
                 header_of({columns, rows, 30.0, 7.0, 1.0, version > 3, version > 4}, {});
             header.version = version;
-            CHECK_THROWS_WITH(read_header("header", page_of(header)), Contains("import it again"));
+            CHECK_THROWS_WITH(read_header("header", header_page(header)), Contains("import it again"));
         }
         CHECK_NOTHROW(
-            read_header("header", page_of(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
+            read_header("header", header_page(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
     }
     GroundHeader whole = header_of({33, 33, 30.0, 7.0, 1.0}, {});
     whole.version = 5;
-    CHECK_NOTHROW(read_header("header", page_of(whole)));
+    CHECK_NOTHROW(read_header("header", header_page(whole)));
 }
 
 TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
     const models::heights::HeightField field(33, 33, 30.0, tests::rough_heights(33, 33));
-    const GroundTiles today = terrain::ground_of(field);
+    const GroundTiles today = terrain::make_ground_tiles(field);
     const path file = scratch("third.ground");
     GroundShape shape = today.shape();
-    shape.has_own_codes = false;
-    write_earlier_version(scratch("fourth.ground"), field, shape, today.facts());
+    shape.has_unit_codes = false;
+    write_earlier_version(scratch("fourth.ground"), field, shape, today.metadata());
     const GroundTiles fourth = open_ground(scratch("fourth.ground"));
-    shape.has_both_rooms = false;
-    write_earlier_version(file, field, shape, today.facts());
+    shape.has_both_margins = false;
+    write_earlier_version(file, field, shape, today.metadata());
     const GroundTiles third = open_ground(file);
     CHECK_NOTHROW(verify_ground(file));
-    CHECK_FALSE(third.layout().has_both_rooms());
+    CHECK_FALSE(third.layout().has_both_margins());
     int beyond = 0;
     for (int level = 0; level < today.levels(); ++level) {
         const GroundLayout::Level& at = today.layout().level(level);
         for (int row = 0; row < at.rows; ++row) {
             for (int column = 0; column < at.columns; ++column) {
-                const auto code = [&](const GroundTiles& ground, Room room) {
-                    return ground.error_code(level, NodePart::Centre, column, row, room);
+                const auto code = [&](const GroundTiles& ground, MorphMargin morph_margin) {
+                    return ground.error_code(level, NodePart::Centre, column, row, morph_margin);
                 };
-                CHECK(code(third, Room::Full) == code(fourth, Room::Full));
-                CHECK(code(third, Room::None) == code(fourth, Room::Full));
-                beyond += code(fourth, Room::Full) > code(fourth, Room::None) ? 1 : 0;
+                CHECK(code(third, MorphMargin::Full) == code(fourth, MorphMargin::Full));
+                CHECK(code(third, MorphMargin::None) == code(fourth, MorphMargin::Full));
+                beyond += code(fourth, MorphMargin::Full) > code(fourth, MorphMargin::None) ? 1 : 0;
             }
         }
     }
@@ -283,18 +283,18 @@ TEST_CASE("a ground of version 4 is read, and its wider steps between errors cos
             9.0 * std::sin(0.43 * x - 0.31 * y) + 1.5 * std::sin(1.3 * x + 1.7 * y)));
     }
     const models::heights::HeightField field(257, 257, 30.0, heights_m);
-    const GroundTiles today = terrain::ground_of(field);
+    const GroundTiles today = terrain::make_ground_tiles(field);
     GroundShape shape = today.shape();
-    shape.has_own_codes = false;
+    shape.has_unit_codes = false;
     const path file = scratch("fourth.ground");
-    write_earlier_version(file, field, shape, today.facts());
+    write_earlier_version(file, field, shape, today.metadata());
     const GroundTiles fourth = open_ground(file);
     CHECK_NOTHROW(verify_ground(file));
     CHECK(fourth.codes().metres(1) == 0.01F);
     terrain::MeshView view;
     view.eye_m = {200.0, -300.0, 2000.0};
     const auto triangles = [&view](const GroundTiles& ground) {
-        terrain::ErrorMesher mesher(ground);
+        terrain::BisectionMesher mesher(ground);
         return mesher.mesh(view, {4.0, terrain::any_triangles, true}).counters.triangles;
     };
     CHECK(triangles(today) > 2000);

@@ -4,7 +4,7 @@
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/terrain/conformity.h"
-#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
 
 #include <catch2/catch.hpp>
 
@@ -21,7 +21,7 @@ namespace {
 
 using std::filesystem::path;
 using terrain::ConformityCheck;
-using terrain::ErrorMesher;
+using terrain::BisectionMesher;
 using terrain::GroundMesh;
 using terrain::GroundSamples;
 using terrain::MeshView;
@@ -61,10 +61,10 @@ std::string faults_of_mesh(const GroundTiles& ground) {
     MeshView view;
     view.eye_m = {500.0, -700.0, 600.0};
     view.focal_px = 800.0;
-    ErrorMesher mesher(ground);
+    BisectionMesher mesher(ground);
     const GroundMesh mesh = mesher.mesh(view, {0.5, terrain::any_triangles, true});
     const terrain::Conformity found = ConformityCheck(GroundSamples(ground)).check(mesh, view);
-    return found.is_whole() ? "" : found.text();
+    return found.is_conforming() ? "" : found.text();
 }
 
 /// The sound file with noise over one tile.

@@ -56,7 +56,7 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
             for (std::size_t part = 0; part < 3; ++part) {
                 const float expected = static_cast<float>((lit[at] >> (8 * part)) & 255U);
                 const float shown = std::min(
-                    static_cast<float>(own[part]) * light_on(normal, day)[static_cast<int>(part)],
+                    static_cast<float>(own[part]) * illumination(normal, day)[static_cast<int>(part)],
                     255.0F);
                 CHECK(shown == Approx(expected).margin(4.0));
             }

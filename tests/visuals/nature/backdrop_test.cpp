@@ -15,7 +15,7 @@ constexpr double mean_m = 500.0;
 const glm::vec3 mean_colour(0.4F, 0.5F, 0.3F);
 
 /// Ground that rises to the east, brighter there, over 4 x 2 km.
-MapFacts slope(std::vector<glm::dvec2>* asked = nullptr) {
+BackdropSource slope(std::vector<glm::dvec2>* asked = nullptr) {
     return {
         {2000.0, 1000.0},
         mean_m,
@@ -38,14 +38,14 @@ double outside_m(const glm::dvec3& at_m) {
 } // namespace
 
 TEST_CASE("the land around a map begins under its border and ends at its mean height and colour") {
-    const Backdrop land = backdrop_of(slope());
+    const Backdrop land = make_backdrop(slope());
     double farthest_m = 0.0;
-    for (const Backdrop::Corner& corner : land.corners) {
+    for (const Backdrop::BackdropVertex& corner : land.vertices) {
         farthest_m = std::max(farthest_m, outside_m(corner.at_m));
     }
     CHECK(farthest_m > 2500.0);
     int under = 0;
-    for (const Backdrop::Corner& corner : land.corners) {
+    for (const Backdrop::BackdropVertex& corner : land.vertices) {
         if (outside_m(corner.at_m) < 0.0) {
             ++under;
             CHECK(corner.at_m.z < mean_m + 0.1 * corner.at_m.x - 10.0);
@@ -61,7 +61,7 @@ TEST_CASE("the land around a map begins under its border and ends at its mean he
 
 TEST_CASE("only places on the map are asked for, whatever its shape") {
     std::vector<glm::dvec2> asked;
-    backdrop_of(slope(&asked));
+    make_backdrop(slope(&asked));
     for (const glm::dvec2& at_m : asked) {
         REQUIRE(std::abs(at_m.x) <= 2000.0);
         REQUIRE(std::abs(at_m.y) <= 1000.0);
@@ -69,12 +69,12 @@ TEST_CASE("only places on the map are asked for, whatever its shape") {
 }
 
 TEST_CASE("seen from above the land faces up and covers everything around the map once") {
-    const Backdrop land = backdrop_of(slope());
+    const Backdrop land = make_backdrop(slope());
     double area_m2 = 0.0;
     for (std::size_t i = 0; i < land.indices.size(); i += 3) {
-        const glm::dvec2 a(land.corners[land.indices[i]].at_m);
-        const glm::dvec2 b(land.corners[land.indices[i + 1]].at_m);
-        const glm::dvec2 c(land.corners[land.indices[i + 2]].at_m);
+        const glm::dvec2 a(land.vertices[land.indices[i]].at_m);
+        const glm::dvec2 b(land.vertices[land.indices[i + 1]].at_m);
+        const glm::dvec2 c(land.vertices[land.indices[i + 2]].at_m);
         const double twice_m2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         REQUIRE(twice_m2 > 0.0);
         area_m2 += 0.5 * twice_m2;

@@ -125,7 +125,7 @@ TEST_CASE("clouds lie at their height, sink over a round earth and end where the
 TEST_CASE("clouds are white at noon, dark where thick from below, warm under a low sun") {
     const auto mean_colour = [](double elevation_rad, double eye_m) {
         CloudLayer layer(0.7);
-        layer.light_by(Daylight({0.4, elevation_rad, {0.62F, 0.72F, 0.84F}}));
+        layer.set_daylight(Daylight({0.4, elevation_rad, {0.62F, 0.72F, 0.84F}}));
         glm::dvec3 sum(0.0);
         double weight = 0.0;
         for (const auto& vertex : layer.seen_from({0.0, 0.0, eye_m}, layer_m, 0.0).vertices) {

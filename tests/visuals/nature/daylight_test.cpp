@@ -33,8 +33,8 @@ TEST_CASE("the zenith's luminance and colour are the model's own") {
 }
 
 TEST_CASE("sunlight is lost in the air, blue first, and more of it under a low sun") {
-    const glm::dvec3 high = sunlight_left(rad_from_deg(70.0), 2.6);
-    const glm::dvec3 low = sunlight_left(rad_from_deg(2.0), 2.6);
+    const glm::dvec3 high = sunlight_transmittance(rad_from_deg(70.0), 2.6);
+    const glm::dvec3 low = sunlight_transmittance(rad_from_deg(2.0), 2.6);
     for (int part = 0; part < 3; ++part) {
         CHECK(low[part] < 0.05 * high[part]);
         CHECK(high[part] < 1.0);
@@ -87,7 +87,7 @@ TEST_CASE("the sky meets the horizon's haze without a step, and glare ends witho
     for (double around = 0.0; around < 6.0; around += 0.5) {
         const glm::dvec3 level(std::sin(around), std::cos(around), 0.0);
         const glm::vec3 sky = day.sky(level);
-        const glm::vec3 haze = day.horizon(glm::dot(glm::dvec2(level), day.to_sun_level()));
+        const glm::vec3 haze = day.horizon(glm::dot(glm::dvec2(level), day.horizontal_to_sun()));
         CHECK(glm::length(sky - haze) < 1e-5F);
     }
     CHECK(glm::length(day.glare(Daylight::glare_rad)) == 0.0F);

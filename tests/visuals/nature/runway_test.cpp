@@ -16,25 +16,25 @@ namespace {
 
 constexpr float length_m = 1800.0F;
 
-std::vector<RunwayPatch> markings(double heading_deg) {
-    std::vector<RunwayPatch> patches = runway_patches(1800.0, 45.0, rad_from_deg(heading_deg));
-    std::erase_if(patches, [](const RunwayPatch& patch) { return !patch.is_painted; });
+std::vector<RunwayRectangle> markings(double heading_deg) {
+    std::vector<RunwayRectangle> patches = runway_rectangles(1800.0, 45.0, rad_from_deg(heading_deg));
+    std::erase_if(patches, [](const RunwayRectangle& patch) { return !patch.is_painted; });
     return patches;
 }
 
 /// The patches of such a size that begin between two places along the runway, from left to right.
-std::vector<RunwayPatch>
-of_size(std::vector<RunwayPatch> patches, const glm::vec2& size_m, float from_m, float to_m) {
-    std::erase_if(patches, [&](const RunwayPatch& patch) {
+std::vector<RunwayRectangle>
+of_size(std::vector<RunwayRectangle> patches, const glm::vec2& size_m, float from_m, float to_m) {
+    std::erase_if(patches, [&](const RunwayRectangle& patch) {
         const glm::vec2 off_m = glm::abs(patch.max_m - patch.min_m - size_m);
         return off_m.x > 1e-3F || off_m.y > 1e-3F || patch.min_m.x < from_m ||
                patch.min_m.x > to_m;
     });
-    std::ranges::sort(patches, {}, [](const RunwayPatch& patch) { return -patch.min_m.y; });
+    std::ranges::sort(patches, {}, [](const RunwayRectangle& patch) { return -patch.min_m.y; });
     return patches;
 }
 
-double area_m2(const RunwayPatch& patch) {
+double area_m2(const RunwayRectangle& patch) {
     const glm::vec2 size_m = patch.max_m - patch.min_m;
     return static_cast<double>(size_m.x) * static_cast<double>(size_m.y);
 }
@@ -54,8 +54,8 @@ TEST_CASE("a runway's ends are called by tenths of their headings") {
 
 TEST_CASE("a runway's surface is all of it once, and markings lie on it apart from each other") {
     double surface_m2 = 0.0;
-    const std::vector<RunwayPatch> all = runway_patches(1800.0, 45.0, rad_from_deg(83.0));
-    for (const RunwayPatch& patch : all) {
+    const std::vector<RunwayRectangle> all = runway_rectangles(1800.0, 45.0, rad_from_deg(83.0));
+    for (const RunwayRectangle& patch : all) {
         CHECK(patch.min_m.x >= 0.0F);
         CHECK(patch.max_m.x <= length_m);
         CHECK(std::max(-patch.min_m.y, patch.max_m.y) <= 22.5F);
@@ -76,7 +76,7 @@ TEST_CASE("a runway's surface is all of it once, and markings lie on it apart fr
 }
 
 TEST_CASE("markings are as long, wide and far apart as Annex 14 has them") {
-    const std::vector<RunwayPatch> all = markings(83.0);
+    const std::vector<RunwayRectangle> all = markings(83.0);
     const auto stripes = of_size(all, {30.0F, 1.75F}, 0.0F, 900.0F);
     REQUIRE(stripes.size() == 12);
     for (std::size_t i = 0; i + 1 < stripes.size(); ++i) {
@@ -96,8 +96,8 @@ TEST_CASE("markings are as long, wide and far apart as Annex 14 has them") {
 }
 
 TEST_CASE("the centre line is even from one number to the other") {
-    std::vector<RunwayPatch> dashes = of_size(markings(83.0), {30.0F, 0.9F}, 0.0F, length_m);
-    std::ranges::sort(dashes, {}, [](const RunwayPatch& patch) { return patch.min_m.x; });
+    std::vector<RunwayRectangle> dashes = of_size(markings(83.0), {30.0F, 0.9F}, 0.0F, length_m);
+    std::ranges::sort(dashes, {}, [](const RunwayRectangle& patch) { return patch.min_m.x; });
     REQUIRE(dashes.size() > 30);
     const float step_m = dashes[1].min_m.x - dashes[0].min_m.x;
     CHECK(step_m >= 50.0F);
@@ -110,12 +110,12 @@ TEST_CASE("the centre line is even from one number to the other") {
 
 TEST_CASE("who turns around finds the same runway but for its number") {
     // 83 and 263 degrees are 08 and 26: the first runway's far end is the second one's near end.
-    const std::vector<RunwayPatch> there = markings(83.0);
-    const std::vector<RunwayPatch> back = markings(263.0);
+    const std::vector<RunwayRectangle> there = markings(83.0);
+    const std::vector<RunwayRectangle> back = markings(263.0);
     REQUIRE(there.size() == back.size());
-    for (const RunwayPatch& patch : there) {
+    for (const RunwayRectangle& patch : there) {
         const glm::vec2 end(length_m, 0.0F);
-        CHECK(std::ranges::any_of(back, [&](const RunwayPatch& other) {
+        CHECK(std::ranges::any_of(back, [&](const RunwayRectangle& other) {
             const glm::vec2 off_m = glm::abs(other.min_m - (end - patch.max_m)) +
                                     glm::abs(other.max_m - (end - patch.min_m));
             return off_m.x + off_m.y < 1e-2F;

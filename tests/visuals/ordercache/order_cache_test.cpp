@@ -27,7 +27,7 @@ using models::polygons::PolygonModel;
 using octant::tests::check_same;
 using octant::tests::crossing_plates;
 using octant::tests::shipped_model;
-using visuals::draworder::Method;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
 using visuals::draworder::OrderOptions;
 
@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const OrderOptions by_bsp{.method = Method::Bsp, .paper = {}};
+const OrderOptions by_bsp{.method = OrderMethod::Bsp, .paper = {}};
 
 using octant::tests::empty_folder;
 
@@ -73,7 +73,7 @@ std::string with_checksum(std::string bytes) {
 std::string note_about(const Kept& kept, const std::string& bytes) {
     write_file(kept.file, bytes);
     const CachedOrder found = cached_order(kept.folder, crossing_plates(), by_bsp);
-    REQUIRE_FALSE(found.was_kept);
+    REQUIRE_FALSE(found.was_cached);
     REQUIRE(found.notes.size() == 1);
     REQUIRE(read_file(kept.file) == kept.bytes);
     const std::string& note = found.notes.front();
@@ -90,9 +90,9 @@ TEST_CASE("a model is ordered once and read from then on, with the same result")
     for (const char* name : {"f15", "500md"}) {
         const PolygonModel model = shipped_model(name);
         const CachedOrder cold = cached_order(folder, model, {});
-        CHECK_FALSE(cold.was_kept);
+        CHECK_FALSE(cold.was_cached);
         const CachedOrder warm = cached_order(folder, model, {});
-        CHECK(warm.was_kept);
+        CHECK(warm.was_cached);
         CHECK(warm.notes.empty());
         check_same(cold.ordered, ordered(model));
         check_same(warm.ordered, cold.ordered);
@@ -105,10 +105,10 @@ TEST_CASE("another model or another option is another order") {
     cached_order(folder, crossing_plates(), by_bsp);
     PolygonModel moved = crossing_plates();
     moved.vertices_m[4].x -= 0.25;
-    CHECK_FALSE(cached_order(folder, moved, by_bsp).was_kept);
-    CHECK_FALSE(cached_order(folder, crossing_plates(), {}).was_kept);
-    CHECK(cached_order(folder, moved, by_bsp).was_kept);
-    CHECK(cached_order(folder, crossing_plates(), by_bsp).was_kept);
+    CHECK_FALSE(cached_order(folder, moved, by_bsp).was_cached);
+    CHECK_FALSE(cached_order(folder, crossing_plates(), {}).was_cached);
+    CHECK(cached_order(folder, moved, by_bsp).was_cached);
+    CHECK(cached_order(folder, crossing_plates(), by_bsp).was_cached);
     CHECK(files_in(folder) == 3);
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("a model in other colours shares the order and keeps its colours") {
     PolygonModel green = crossing_plates();
     green.materials[0] = {"green", {0, 1, 0}};
     const CachedOrder found = cached_order(folder, green, by_bsp);
-    CHECK(found.was_kept);
+    CHECK(found.was_cached);
     CHECK(found.ordered.model.materials[0].name == "green");
     check_same(found.ordered, ordered(green, by_bsp));
 }
@@ -220,6 +220,6 @@ TEST_CASE("threads that order one model at once all get it, and one whole file s
             check_same(one->ordered, found.front()->ordered);
         }
         CHECK(files_in(folder) == 1);
-        CHECK(cached_order(folder, crossing_plates(), by_bsp).was_kept);
+        CHECK(cached_order(folder, crossing_plates(), by_bsp).was_cached);
     }
 }

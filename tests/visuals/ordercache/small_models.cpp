@@ -1,7 +1,7 @@
 #include "tests/visuals/ordercache/small_models.h"
 
 #include "models/polygons/obj_reader.h"
-#include "visuals/ordercache/order_bytes.h"
+#include "visuals/ordercache/order_file_format.h"
 
 #include <catch2/catch.hpp>
 
@@ -38,11 +38,11 @@ PolygonModel crossing_plates() {
 
 void check_same(
     const visuals::draworder::OrderedModel& one, const visuals::draworder::OrderedModel& other) {
-    using visuals::ordercache::order_bytes;
-    CHECK(order_bytes(one) == order_bytes(other));
+    using visuals::ordercache::encode_order;
+    CHECK(encode_order(one) == encode_order(other));
     CHECK(std::ranges::equal(one.order.polygons(), other.order.polygons()));
     CHECK(one.order.list_count() == other.order.list_count());
-    CHECK(one.order.one_cell_an_eye() == other.order.one_cell_an_eye());
+    CHECK(one.order.has_one_cell_per_eye() == other.order.has_one_cell_per_eye());
     CHECK(one.notes == other.notes);
     CHECK(one.model.name == other.model.name);
     CHECK(one.model.parts == other.model.parts);

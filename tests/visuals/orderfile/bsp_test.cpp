@@ -1,7 +1,7 @@
 #include "tests/order_shapes.h"
 #include "tests/paper_example.h"
 #include "visuals/orderfile/bsp_tree.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,19 +17,19 @@ namespace {
 
 std::vector<std::uint32_t> painted(const BspTree& tree, const glm::dvec3& eye_m) {
     std::vector<std::uint32_t> list;
-    std::vector<int> to_do;
-    append_painted(tree, eye_m, list, to_do);
+    std::vector<int> pending;
+    append_painted(tree, eye_m, list, pending);
     return list;
 }
 
 /// Wrong rays of the lists that the tree gives to some eyes, each eye with its own list.
-RayCount rays_of(const BspTree& tree) {
+RayTestCounts rays_of(const BspTree& tree) {
     std::vector<std::uint32_t> list;
-    const PaintedFrom painted_from = [&](const glm::dvec3& eye_m) {
+    const PaintedListOfEye painted_from = [&](const glm::dvec3& eye_m) {
         list = painted(tree, eye_m);
         return std::span<const std::uint32_t>(list);
     };
-    const EyeSamples samples{
+    const RaySampling samples{
         .eyes = 150,
         .rays_per_eye = 100,
         .min_distance_radii = 0.1,
@@ -68,7 +68,7 @@ TEST_CASE("a tree paints what faces the eye, far before near, inside the model t
         std::ranges::sort(all);
         CHECK(all.size() == tree.model.polygons.size());
         CHECK(std::ranges::adjacent_find(all) == all.end());
-        const RayCount count = rays_of(tree);
+        const RayTestCounts count = rays_of(tree);
         INFO(model.name);
         CHECK(count.hits > 1000);
         CHECK(count.wrong == 0);

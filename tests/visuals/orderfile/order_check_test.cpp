@@ -5,7 +5,7 @@
 #include "tests/scratch.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_text.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 #include "visuals/separation/separation.h"
 
 #include <catch2/catch.hpp>
@@ -17,7 +17,7 @@
 using namespace octant;
 using namespace octant::visuals::orderfile;
 using namespace octant::visuals::separation;
-using visuals::draworder::Method;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
 using visuals::draworder::OrderedModel;
 
@@ -72,8 +72,8 @@ TEST_CASE("of two plates one above the other only the lower may be painted first
     CHECK(check_order(plates, one_cell({}, {0, 1}, 2)).good());
     const OrderCheck wrong = check_order(plates, one_cell({}, {1, 0}, 2));
     CHECK(wrong.pairs == 1);
-    CHECK(wrong.pairs_open == 1);
-    CHECK(wrong.doubts == std::vector<Doubt>{{0, 1, 0}});
+    CHECK(wrong.pairs_unproved == 1);
+    CHECK(wrong.first_unproved == std::vector<UnprovedPair>{{0, 1, 0}});
 }
 
 TEST_CASE("two slanted plates side by side need a plane that none of them has") {
@@ -115,19 +115,19 @@ TEST_CASE("a polygon may be left out only where no eye sees its front") {
     CHECK(check_order(plates, one_cell({below}, {}, 2)).good());
     const OrderCheck check = check_order(plates, one_cell({above}, {1}, 2));
     CHECK(check.unlisted == 1);
-    CHECK(check.doubts == std::vector<Doubt>{{0, 0, 0}});
+    CHECK(check.first_unproved == std::vector<UnprovedPair>{{0, 0, 0}});
     CellOrders from_below = one_cell({below}, {}, 2);
     from_below.two_sided = {1};
-    CHECK(check_order(plates, from_below).doubts == std::vector<Doubt>{{0, 1, 1}});
+    CHECK(check_order(plates, from_below).first_unproved == std::vector<UnprovedPair>{{0, 1, 1}});
 }
 
 TEST_CASE("the paper's table is certified beyond the model's radius, and no other order is") {
     const auto model = tests::paper_example();
-    const CellOrders orders = cell_orders(ordered(model, {.method = Method::Paper, .paper = {}}));
+    const CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}}));
     const OrderCheck check = check_order(model, orders);
     CHECK(check.good());
     CHECK(check.pairs == 4 * 10 + 2 * 15 + 2 * 6);
-    CHECK(check.by_plane + check.by_programme == check.pairs);
+    CHECK(check.by_plane + check.by_linear_program == check.pairs);
     // Whatever two neighbours change places: the certificate and the rays agree.
     for (std::size_t cell = 0; cell < 8; ++cell) {
         for (std::size_t place = 0; place + 1 < orders.cells[cell].list.size(); ++place) {
@@ -142,11 +142,11 @@ TEST_CASE("the paper's table is certified beyond the model's radius, and no othe
 
 TEST_CASE("rays find eyes that no cell has") {
     const auto model = tests::paper_example();
-    CellOrders orders = cell_orders(ordered(model, {.method = Method::Paper, .paper = {}}));
-    CHECK(count_wrong_rays(model, orders, {.eyes = 200}).eyes_in_gap == 0);
+    CellOrders orders = cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}}));
+    CHECK(count_wrong_rays(model, orders, {.eyes = 200}).eyes_without_cell == 0);
     orders.cells.erase(orders.cells.begin());
-    const RayCount count = count_wrong_rays(model, orders, {.eyes = 200});
-    CHECK(count.eyes_in_gap > 5);
+    const RayTestCounts count = count_wrong_rays(model, orders, {.eyes = 200});
+    CHECK(count.eyes_without_cell > 5);
     CHECK(count.eyes > 100);
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
           tests::three_bars(),
           tests::fig_14(true),
           tests::pile(3, 4)}) {
-        for (const Method method : {Method::Cells, Method::Tree}) {
+        for (const OrderMethod method : {OrderMethod::Cells, OrderMethod::Tree}) {
             const OrderedModel found = ordered(model, {.method = method, .paper = {}});
             const CellOrders orders = cell_orders(found);
             INFO(model.name << " " << static_cast<int>(method));
@@ -201,11 +201,11 @@ TEST_CASE("orders found for all kinds of shapes are certified, and come back fro
             write_file(path, order_text(orders));
             const CellOrders read = read_order_file(path, found.model.polygons.size());
             CHECK(check_order(found.model, read).good());
-            const RayCount rays =
+            const RayTestCounts rays =
                 count_wrong_rays(found.model, read, {.eyes = 300, .min_distance_radii = 0.1});
             CHECK(rays.hits > 100);
             CHECK(rays.wrong == 0);
-            CHECK(rays.eyes_in_gap == 0);
+            CHECK(rays.eyes_without_cell == 0);
         }
     }
 }

@@ -7,7 +7,7 @@
 
 using namespace octant;
 using namespace octant::visuals::orderfile;
-using visuals::draworder::Method;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
 
 namespace {
@@ -19,7 +19,7 @@ const auto plain_axes = models::polygons::FileAxes::from_text("forward,right,dow
 TEST_CASE("orders are shown in the form of the paper's table 4") {
     const auto model = tests::paper_example();
     const auto rows = order_table(
-        model, cell_orders(ordered(model, {.method = Method::Paper, .paper = {}})), plain_axes);
+        model, cell_orders(ordered(model, {.method = OrderMethod::Paper, .paper = {}})), plain_axes);
     REQUIRE(rows.size() == 8);
     CHECK(rows[0].cell == "+++");
     CHECK(rows[1].cell == "++-");
@@ -30,7 +30,7 @@ TEST_CASE("orders are shown in the form of the paper's table 4") {
 
 TEST_CASE("a region is told by polygons, axes and sums") {
     auto model = tests::paper_example();
-    CHECK(region_in_words({}, model, plain_axes) == "everywhere");
+    CHECK(region_description({}, model, plain_axes) == "everywhere");
     model.vertices_m[0].x = -120; // tips P1, P5 and others
     const Plane p5 = models::polygons::plane_of(model, 4);
     const std::vector<Plane> planes{
@@ -40,8 +40,8 @@ TEST_CASE("a region is told by polygons, axes and sums") {
         {-p5.normal, -p5.offset_m},
         {glm::normalize(glm::dvec3(3, -4, 0)), -1}};
     CHECK(
-        region_in_words(planes, model, plain_axes) ==
+        region_description(planes, model, plain_axes) ==
         "y > 2.5, z < 3, in front of P5, behind P5, 0.600 x - 0.800 y > 1");
     // right, up, back: the file's x is the body's y, its y is up.
-    CHECK(region_in_words({planes.data(), 2}, model, {}) == "x > 2.5, y > -3");
+    CHECK(region_description({planes.data(), 2}, model, {}) == "x > 2.5, y > -3");
 }

@@ -1,5 +1,5 @@
 #include "models/polygons/polygon_model.h"
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "tests/paper_example.h"
@@ -14,7 +14,7 @@
 using namespace octant;
 using namespace octant::visuals::orderfile;
 using visuals::draworder::DrawOrder;
-using visuals::draworder::Method;
+using visuals::draworder::OrderMethod;
 using visuals::draworder::ordered;
 
 namespace {
@@ -77,11 +77,11 @@ TEST_CASE("a file is read into cells, planes, distances and lists") {
 
 TEST_CASE("the octant orders of a model and its exported file choose the same lists") {
     const auto ordered_example =
-        ordered(tests::paper_example(), {.method = Method::Paper, .paper = {}});
+        ordered(tests::paper_example(), {.method = OrderMethod::Paper, .paper = {}});
     const models::polygons::FileAxes axes;
     const auto path = file_with(order_text(cell_orders(ordered_example), axes));
     const CellOrders orders = read_order_file(path, 10, axes);
-    Dice dice(3);
+    RandomGenerator dice(3);
     for (int i = 0; i < 1000; ++i) {
         const glm::dvec3 eye_m = dice.direction() * 1000.0;
         const auto cell = cell_of(orders, eye_m);

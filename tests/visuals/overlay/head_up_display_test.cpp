@@ -22,8 +22,8 @@ namespace {
 
 constexpr glm::ivec2 size_px(1280, 720);
 
-HeadUpInputs flying(const EulerAngles& attitude, double speed_mps, double climb_rad) {
-    HeadUpInputs inputs;
+InstrumentReadings flying(const EulerAngles& attitude, double speed_mps, double climb_rad) {
+    InstrumentReadings inputs;
     inputs.state.body_to_world = body_to_world_from_euler(attitude);
     inputs.state.velocity_mps =
         speed_mps * (std::cos(climb_rad) * direction_from_heading(attitude.heading_rad) +
@@ -33,10 +33,10 @@ HeadUpInputs flying(const EulerAngles& attitude, double speed_mps, double climb_
     return inputs;
 }
 
-const HeadUpInputs level = flying({1.0, 0.0, 0.0}, 100.0, 0.0);
+const InstrumentReadings level = flying({1.0, 0.0, 0.0}, 100.0, 0.0);
 
 Camera
-cockpit_camera(const HeadUpInputs& inputs, double azimuth_deg = 0, double elevation_deg = 0) {
+cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0, double elevation_deg = 0) {
     Settings settings;
     settings.view.kind = View::Cockpit;
     settings.view.azimuth_deg = azimuth_deg;
@@ -62,7 +62,7 @@ std::vector<glm::vec2> places(const OverlayDraw& draw) {
     return places;
 }
 
-std::vector<glm::vec2> drawn_places(const HeadUpInputs& inputs) {
+std::vector<glm::vec2> drawn_places(const InstrumentReadings& inputs) {
     HeadUpDisplay display;
     return places(display.draw(inputs, cockpit_camera(inputs), size_px));
 }
@@ -73,7 +73,7 @@ TEST_CASE("the horizon lies on the world's in any bank, climb and look") {
     HeadUpDisplay display;
     for (const double roll_rad : {0.0, 0.9, -2.4}) {
         for (const double pitch_rad : {0.0, 0.12, -0.1}) {
-            const HeadUpInputs inputs = flying({1.0, pitch_rad, roll_rad}, 200.0, pitch_rad);
+            const InstrumentReadings inputs = flying({1.0, pitch_rad, roll_rad}, 200.0, pitch_rad);
             for (const double look_deg : {0.0, 14.0}) {
                 const Camera camera = cockpit_camera(inputs, look_deg, -0.5 * look_deg);
                 const OverlayDraw draw = display.draw(inputs, camera, size_px);
@@ -112,7 +112,7 @@ TEST_CASE("a rung lies at its pitch, whole above the horizon and dashed below") 
 TEST_CASE("the flight-path marker rings where the flight goes") {
     HeadUpDisplay display;
     for (const double roll_rad : {0.0, 1.2, 3.0}) {
-        const HeadUpInputs inputs = flying({1.0, 0.12, roll_rad}, 200.0, 0.05);
+        const InstrumentReadings inputs = flying({1.0, 0.12, roll_rad}, 200.0, 0.05);
         const Camera camera = cockpit_camera(inputs);
         const OverlayDraw draw = display.draw(inputs, camera, size_px);
         const glm::vec2 at = seen_at(camera, inputs.state.velocity_mps);
@@ -131,27 +131,27 @@ TEST_CASE("the flight-path marker rings where the flight goes") {
 }
 
 TEST_CASE("a flight path beyond the display is marked at its edge, one behind not at all") {
-    const auto farthest_down = [](const HeadUpInputs& inputs) {
+    const auto farthest_down = [](const InstrumentReadings& inputs) {
         float most = 0.0F;
         for (const glm::vec2& place : drawn_places(inputs)) {
             most = std::max(most, place.y);
         }
         return most;
     };
-    const HeadUpInputs falling = flying({1.0, 0.0, 0.0}, 100.0, -0.6);
+    const InstrumentReadings falling = flying({1.0, 0.0, 0.0}, 100.0, -0.6);
     CHECK(farthest_down(falling) < 0.86F * static_cast<float>(size_px.y));
-    const HeadUpInputs backing = flying({1.0, 0.0, 0.0}, -20.0, 0.0);
-    const HeadUpInputs still = flying({1.0, 0.0, 0.0}, 0.0, 0.0);
+    const InstrumentReadings backing = flying({1.0, 0.0, 0.0}, -20.0, 0.0);
+    const InstrumentReadings still = flying({1.0, 0.0, 0.0}, 0.0, 0.0);
     CHECK(drawn_places(falling).size() > drawn_places(level).size()); // crossed out
     CHECK(drawn_places(backing).size() < drawn_places(level).size());
     CHECK(drawn_places(still).size() < drawn_places(level).size());
 }
 
 TEST_CASE("speed is shown in whole knots, height in tens of feet, load in tenths") {
-    HeadUpInputs inputs = level;
+    InstrumentReadings inputs = level;
     inputs.state.velocity_mps *= mps_from_kt(90.2) / 100.0;
     const auto as_shown = drawn_places(inputs);
-    HeadUpInputs other = inputs;
+    InstrumentReadings other = inputs;
     other.state.velocity_mps *= 90.4 / 90.2;
     other.height_m += m_from_ft(0.5);
     other.state.load_factor = 1.02;
@@ -207,7 +207,7 @@ TEST_CASE("the display is as large in a larger picture, and drawn at all in a sm
 TEST_CASE("straight up and straight down something is drawn, all of it finite") {
     HeadUpDisplay display;
     for (const double pitch_deg : {90.0, 89.9, -90.0, 85.0, -84.0}) {
-        const HeadUpInputs inputs =
+        const InstrumentReadings inputs =
             flying({1.0, rad_from_deg(pitch_deg), 0.3}, 200.0, rad_from_deg(pitch_deg));
         const auto drawn = places(display.draw(inputs, cockpit_camera(inputs), size_px));
         CHECK(drawn.size() > 500);

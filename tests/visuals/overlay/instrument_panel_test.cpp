@@ -20,11 +20,11 @@ namespace {
 constexpr glm::ivec2 size_px(1280, 720);
 constexpr double dial_radius_m = 0.04;
 
-using Shows = Dial::Shows;
+using Quantity = Dial::Quantity;
 
-HeadUpInputs
+InstrumentReadings
 flying(const EulerAngles& attitude, double speed_kt, double height_ft, double load_factor) {
-    HeadUpInputs inputs;
+    InstrumentReadings inputs;
     inputs.state.body_to_world = body_to_world_from_euler(attitude);
     inputs.state.velocity_mps =
         mps_from_kt(speed_kt) * direction_from_heading(attitude.heading_rad);
@@ -33,7 +33,7 @@ flying(const EulerAngles& attitude, double speed_kt, double height_ft, double lo
     return inputs;
 }
 
-Camera cockpit_camera(const HeadUpInputs& inputs, double azimuth_deg = 0.0) {
+Camera cockpit_camera(const InstrumentReadings& inputs, double azimuth_deg = 0.0) {
     ViewSettings view;
     view.kind = View::Cockpit;
     view.azimuth_deg = azimuth_deg;
@@ -41,9 +41,9 @@ Camera cockpit_camera(const HeadUpInputs& inputs, double azimuth_deg = 0.0) {
     return camera_of(view, inputs.state, {}, {}, {}, no_ground);
 }
 
-InstrumentLayout one_dial(Shows shows) {
+InstrumentLayout one_dial(Quantity quantity) {
     return {
-        {{shows, {0.78, 0.1, 0.2}, dial_radius_m}},
+        {{quantity, {0.78, 0.1, 0.2}, dial_radius_m}},
         speed_scale_kt(mps_from_kt(800.0)),
         load_scale_g(-3.0, 7.33)};
 }
@@ -74,9 +74,9 @@ colour_at(const OverlayDraw& draw, const glm::dvec2& radii, std::uint32_t nothin
 }
 
 /// Whether a hand lies half-way out at an angle clockwise from the top, and none opposite.
-bool points_at(Shows shows, const HeadUpInputs& inputs, double angle_deg) {
+bool points_at(Quantity quantity, const InstrumentReadings& inputs, double angle_deg) {
     InstrumentPanel panel;
-    const OverlayDraw draw = panel.draw(one_dial(shows), inputs, cockpit_camera(inputs), size_px);
+    const OverlayDraw draw = panel.draw(one_dial(quantity), inputs, cockpit_camera(inputs), size_px);
     const double angle_rad = rad_from_deg(angle_deg);
     const glm::dvec2 out(std::sin(angle_rad), -std::cos(angle_rad));
     const auto is_light = [&](const glm::dvec2& at) {
@@ -94,26 +94,26 @@ bool is_blue(std::uint32_t colour) {
 TEST_CASE("the hands of dials point at what known states are") {
     const EulerAngles north{};
     // 300 degrees of turn, from 150 degrees left of the top, for 800 kt and for -4 to 9 g.
-    CHECK(points_at(Shows::Speed, flying(north, 400.0, 0.0, 1.0), 0.0));
-    CHECK(points_at(Shows::Speed, flying(north, 480.0, 0.0, 1.0), 30.0));
-    CHECK(points_at(Shows::Speed, flying(north, 160.0, 0.0, 1.0), -90.0));
-    CHECK(points_at(Shows::LoadFactor, flying(north, 300.0, 0.0, 2.5), 0.0));
-    CHECK(points_at(Shows::LoadFactor, flying(north, 300.0, 0.0, 5.1), 60.0));
-    CHECK(points_at(Shows::LoadFactor, flying(north, 300.0, 0.0, -4.0), -150.0));
+    CHECK(points_at(Quantity::Speed, flying(north, 400.0, 0.0, 1.0), 0.0));
+    CHECK(points_at(Quantity::Speed, flying(north, 480.0, 0.0, 1.0), 30.0));
+    CHECK(points_at(Quantity::Speed, flying(north, 160.0, 0.0, 1.0), -90.0));
+    CHECK(points_at(Quantity::LoadFactor, flying(north, 300.0, 0.0, 2.5), 0.0));
+    CHECK(points_at(Quantity::LoadFactor, flying(north, 300.0, 0.0, 5.1), 60.0));
+    CHECK(points_at(Quantity::LoadFactor, flying(north, 300.0, 0.0, -4.0), -150.0));
     // 2,750 ft: three quarters of a turn of the long hand, a little over a quarter of the other's.
-    CHECK(points_at(Shows::Altitude, flying(north, 300.0, 2000.0, 1.0), 72.0));
+    CHECK(points_at(Quantity::Altitude, flying(north, 300.0, 2000.0, 1.0), 72.0));
     CHECK(altitude_hand_rad(m_from_ft(2750.0), 1000.0) == Approx(1.5 * pi));
     CHECK(altitude_hand_rad(m_from_ft(2750.0), 10000.0) == Approx(0.55 * pi));
     CHECK(altitude_hand_rad(m_from_ft(-250.0), 1000.0) == Approx(1.5 * pi));
-    CHECK_FALSE(points_at(Shows::Speed, flying(north, 400.0, 0.0, 1.0), 20.0));
+    CHECK_FALSE(points_at(Quantity::Speed, flying(north, 400.0, 0.0, 1.0), 20.0));
 }
 
 TEST_CASE("the horizon of the attitude dial lies as the world's does") {
     InstrumentPanel panel;
     const auto is_sky = [&](const EulerAngles& attitude, const glm::dvec2& radii) {
-        const HeadUpInputs inputs = flying(attitude, 300.0, 1000.0, 1.0);
+        const InstrumentReadings inputs = flying(attitude, 300.0, 1000.0, 1.0);
         return is_blue(colour_at(
-            panel.draw(one_dial(Shows::Attitude), inputs, cockpit_camera(inputs), size_px), radii));
+            panel.draw(one_dial(Quantity::Attitude), inputs, cockpit_camera(inputs), size_px), radii));
     };
     const EulerAngles level{};
     CHECK(is_sky(level, {0.3, -0.3}));
@@ -134,18 +134,18 @@ TEST_CASE("scales hold the limits of the aircraft and have few round numbers") {
     CHECK(speed_scale_kt(mps_from_kt(152.0)) == DialScale{0.0, 160.0});
     CHECK(load_scale_g(-3.0, 7.33) == DialScale{-4.0, 9.0});
     CHECK(load_scale_g(0.3, 2.0) == DialScale{-1.0, 3.0});
-    CHECK(number_step(speed_scale_kt(mps_from_kt(390.0))) == 100.0);
-    CHECK(number_step({0.0, 8000.0}) == 1000.0);
-    CHECK(number_step({0.0, 800.0}) == 100.0);
-    CHECK(number_step({0.0, 160.0}) == 40.0);
-    CHECK(number_step({-1.0, 3.0}) == 1.0);
+    CHECK(label_step(speed_scale_kt(mps_from_kt(390.0))) == 100.0);
+    CHECK(label_step({0.0, 8000.0}) == 1000.0);
+    CHECK(label_step({0.0, 800.0}) == 100.0);
+    CHECK(label_step({0.0, 160.0}) == 40.0);
+    CHECK(label_step({-1.0, 3.0}) == 1.0);
     CHECK(scale_hand_rad(2000.0, {0.0, 800.0}) == Approx(rad_from_deg(150.0)));
 }
 
 TEST_CASE("dials stay on the panel: a look aside moves them out of the picture") {
     InstrumentPanel panel;
-    const HeadUpInputs inputs = flying({1.0, 0.1, 0.3}, 400.0, 2500.0, 1.0);
-    const InstrumentLayout layout = one_dial(Shows::Heading);
+    const InstrumentReadings inputs = flying({1.0, 0.1, 0.3}, 400.0, 2500.0, 1.0);
+    const InstrumentLayout layout = one_dial(Quantity::Heading);
     CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs), size_px).indices.empty());
     CHECK_FALSE(panel.draw(layout, inputs, cockpit_camera(inputs, 20.0), size_px).indices.empty());
     for (const double azimuth_deg : {90.0, 180.0, -60.0}) {

@@ -1,5 +1,5 @@
 #include "visuals/overlay/overlay_canvas.h"
-#include "visuals/overlay/stroke_letters.h"
+#include "visuals/overlay/stroke_font.h"
 
 #include <catch2/catch.hpp>
 
@@ -31,21 +31,21 @@ TEST_CASE("every letter of the font lies on its grid and looks different from th
     std::vector<std::vector<int>> seen;
     for (const char letter : letters) {
         INFO(letter);
-        const auto strokes = strokes_of(letter);
+        const auto strokes = glyph_strokes(letter);
         REQUIRE(strokes.size() >= 2);
         CHECK(strokes.front().begins_stroke);
         CHECK_FALSE(strokes.back().begins_stroke);
         std::vector<int> drawing;
-        for (const LetterPoint& point : strokes) {
-            CHECK((point.x >= 0 && point.x <= letter_width));
-            CHECK((point.y >= 0 && point.y <= letter_height));
+        for (const GlyphPoint& point : strokes) {
+            CHECK((point.x >= 0 && point.x <= glyph_width));
+            CHECK((point.y >= 0 && point.y <= glyph_height));
             drawing.insert(drawing.end(), {point.x, point.y, point.begins_stroke ? 1 : 0});
         }
         CHECK((letter == 'O' || std::ranges::find(seen, drawing) == seen.end()));
         seen.push_back(drawing);
     }
-    CHECK(strokes_of(' ').empty());
-    CHECK(strokes_of('\xe9').empty());
+    CHECK(glyph_strokes(' ').empty());
+    CHECK(glyph_strokes('\xe9').empty());
 }
 
 TEST_CASE("a line is opaque in its width, fades over a pixel and has a shade around it") {

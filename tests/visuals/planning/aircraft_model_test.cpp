@@ -1,4 +1,4 @@
-#include "models/planar/side_corners.h"
+#include "models/planar/t_junctions.h"
 #include "models/polygons/obj_reader.h"
 #include "tests/visuals/planning/small_world.h"
 #include "visuals/planning/aircraft_model.h"
@@ -44,7 +44,7 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
         with_five += aircraft.index_count_of(i) == 9 ? 1 : 0;
     }
     CHECK(with_five == 2); // the sides of two squares meet there
-    CHECK(models::planar::side_corners(as_drawn(aircraft)).empty());
+    CHECK(models::planar::t_junctions(as_drawn(aircraft)).empty());
     CHECK(aircraft.polygons.corner_vertices == model.corner_vertices); // that the order speaks of
     CHECK(aircraft.buffers.vertices.size() == 6 * 4 + 2 + 3);
     CHECK(aircraft.file_order.index_count == 3 * (2 * 3 + 4 * 2 + 1));
@@ -54,10 +54,10 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
 TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {
     const auto given =
         models::polygons::read_obj(std::filesystem::path(OCTANT_SOURCE_DIR) / "models" / "f15.obj");
-    REQUIRE(models::planar::side_corners(given).size() == 6);
+    REQUIRE(models::planar::t_junctions(given).size() == 6);
     const auto aircraft = tests::convex_aircraft(given);
     CHECK(aircraft.polygons.polygons.size() == given.polygons.size());
-    CHECK(models::planar::side_corners(as_drawn(aircraft)).empty());
+    CHECK(models::planar::t_junctions(as_drawn(aircraft)).empty());
 }
 
 TEST_CASE("no triangle of a polygon with several corners on one side is a sliver") {

@@ -86,8 +86,8 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
         const std::uint32_t beyond =
             plan.aircraft[plan.steps[static_cast<std::size_t>(first)].first].first_part;
         CHECK(beyond == (eye_m > clouds_m ? 0U : 1U));
-        CHECK(counts.veil_triangles > 0);
-        CHECK(plan.overlay.indices.size() == 3 * static_cast<std::size_t>(counts.veil_triangles));
+        CHECK(counts.transparent_triangles > 0);
+        CHECK(plan.overlay.indices.size() == 3 * static_cast<std::size_t>(counts.transparent_triangles));
     }
 }
 
@@ -103,6 +103,6 @@ TEST_CASE("pictures of numbers have no clouds, and without clouds nothing is see
     const Settings clear = plain_settings();
     Planner planner(scene, clear);
     const auto [plan, counts] = planner.plan({camera, states});
-    CHECK(counts.veil_triangles == 0);
+    CHECK(counts.transparent_triangles == 0);
     CHECK(std::ranges::count(plan.steps, PaintStep::What::Veil, &PaintStep::what) == 0);
 }

@@ -276,7 +276,7 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     const Total total = paint_scenes(
         60,
         5,
-        ground_from_field({65, 65, 12.5, heights_m}, settings.ground, settings.air),
+        make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
         [](PlaceDice& dice) {
             const glm::dvec3 at = dice.in_box({300, 300, 0});
             return glm::dvec3(at.x, at.y, rugged(at.x, at.y) + dice.between(0.0, 60.0));

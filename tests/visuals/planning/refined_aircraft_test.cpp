@@ -238,7 +238,7 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
     };
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
-    CHECK(drawn_at(1000.0) == static_cast<int>(model.as_polygons()));
+    CHECK(drawn_at(1000.0) == static_cast<int>(model.polygons_from_mesh()));
 }
 
 TEST_CASE(

@@ -126,7 +126,7 @@ TEST_CASE("with a ribbon among them ground and aircraft are painted in the right
         const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
         seen += count.seen;
         wrong += count.wrong;
-        veils += counts.veil_triangles;
+        veils += counts.transparent_triangles;
         for (std::size_t step = 0; step + 1 < plan.steps.size(); ++step) {
             hidden_again += plan.steps[step].what == PaintStep::What::Veil &&
                                     plan.steps[step + 1].what == PaintStep::What::GroundAgain

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/planning/ground_frame.h"
@@ -42,15 +42,15 @@ models::heights::HeightField valleys() {
 
 const std::shared_ptr<const landscape::Ground>& shared_ground() {
     static const auto ground =
-        landscape::ground_from_tiles(terrain::ground_of(valleys()), scene::AirSettings());
+        landscape::make_bisection_ground(terrain::make_ground_tiles(valleys()), scene::AirSettings());
     return ground;
 }
 
 /// A place 60 m over a road, and where that road leads.
 scene::Camera over_a_road(double height_m, std::size_t number = 3) {
-    const roads::RoadPiece& piece = shared_ground()->road_network()->pieces()[number];
-    const glm::dvec2 from_m = piece.levels[0].front().at_m;
-    const glm::dvec2 to_m = piece.levels[0].back().at_m;
+    const roads::RoadSection& section = shared_ground()->road_network()->sections()[number];
+    const glm::dvec2 from_m = section.levels[0].front().at_m;
+    const glm::dvec2 to_m = section.levels[0].back().at_m;
     const double ground_m = shared_ground()->height_at(from_m.x, from_m.y).value();
     return scene::camera_looking_at(
         {from_m, ground_m + height_m}, {to_m, ground_m + 0.2 * height_m});
@@ -115,21 +115,21 @@ TEST_CASE("each piece of a road lies in the plane of a triangle of the ground") 
 
 TEST_CASE("a road near the eye is painted wherever the ground below it is in view") {
     const PaintedRoads world(over_a_road(60.0));
-    Dice dice(3);
+    RandomGenerator dice(3);
     int seen = 0;
     SightPolygon placed;
-    const auto& pieces = shared_ground()->road_network()->pieces();
+    const auto& sections = shared_ground()->road_network()->sections();
     for (int i = 0; i < 20000; ++i) {
         const auto number =
-            static_cast<std::size_t>(dice.between(0.0, static_cast<double>(pieces.size())));
-        const std::vector<roads::RoadPoint>& line = pieces[number].levels[0];
+            static_cast<std::size_t>(dice.between(0.0, static_cast<double>(sections.size())));
+        const std::vector<roads::RoadPoint>& line = sections[number].levels[0];
         const auto stretch =
             1 + static_cast<std::size_t>(dice.between(0.0, static_cast<double>(line.size() - 1)));
         const double share = dice.next();
         const double aside = dice.between(-0.9, 0.9);
         const glm::dvec2 plan =
             glm::mix(line[stretch - 1].at_m, line[stretch].at_m, share) +
-            aside * glm::mix(line[stretch - 1].left_m, line[stretch].left_m, share) -
+            aside * glm::mix(line[stretch - 1].to_left_edge_m, line[stretch].to_left_edge_m, share) -
             glm::dvec2(world.camera.eye_m);
         if (glm::length(plan) > 600.0) {
             continue;

@@ -130,9 +130,9 @@ TEST_CASE("each piece of a runway lies on its triangle, within it but for roundi
 TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than its surface") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     const double pixel_rad = world.view().pixel_rad;
-    const auto patches = nature::runway_patches(1800.0, 45.0, world.strip->heading_rad);
-    const auto is_within = [&](const glm::dvec3& at_m, const nature::RunwayPatch& patch) {
-        const glm::dvec2 on_m = world.strip->on_strip(glm::dvec2(at_m + world.camera.eye_m));
+    const auto patches = nature::runway_rectangles(1800.0, 45.0, world.strip->heading_rad);
+    const auto is_within = [&](const glm::dvec3& at_m, const nature::RunwayRectangle& patch) {
+        const glm::dvec2 on_m = world.strip->strip_from_world(glm::dvec2(at_m + world.camera.eye_m));
         return glm::all(glm::greaterThan(on_m, glm::dvec2(patch.min_m) + 0.5)) &&
                glm::all(glm::lessThan(on_m, glm::dvec2(patch.max_m) - 0.5));
     };
@@ -156,7 +156,7 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
             const glm::dvec3& to_m = placed[static_cast<std::size_t>((place + 1) % 3)].at_m;
             const glm::dvec3 at_m = glm::mix(from_m, to_m, (place / 3 + 0.5) / 20.0);
             const glm::dvec3 outward = glm::normalize(glm::cross(from_m, to_m)) * pixel_rad;
-            for (const nature::RunwayPatch& patch : patches) {
+            for (const nature::RunwayRectangle& patch : patches) {
                 if (is_within(at_m, patch)) {
                     ++(patch.is_painted ? on_marking : on_surface);
                     const double beyond_px = patch.is_painted ? 0.0199 : 0.0099;
@@ -181,8 +181,8 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     CHECK(surface_m2 > 1800.0 * 45.0);
     CHECK(surface_m2 < 1.005 * 1800.0 * 45.0);
     double expected_m2 = 0.0;
-    for (const nature::RunwayPatch& patch :
-         nature::runway_patches(1800.0, 45.0, world.strip->heading_rad)) {
+    for (const nature::RunwayRectangle& patch :
+         nature::runway_rectangles(1800.0, 45.0, world.strip->heading_rad)) {
         const glm::vec2 size_m = patch.max_m - patch.min_m;
         expected_m2 += patch.is_painted ? static_cast<double>(size_m.x * size_m.y) : 0.0;
     }

@@ -58,7 +58,7 @@ scene::Camera camera_at(int frame) {
 std::vector<int> flown(planning::Planner& planner, const std::function<void()>& between) {
     std::vector<int> triangles;
     const std::array there{state_at({0, 0, 100})};
-    planner.settle(camera_at(0));
+    planner.reset_detail(camera_at(0));
     for (int frame = 0; frame < 12; ++frame) {
         triangles.push_back(planner.plan({camera_at(frame), there}).counts.ground.triangles);
         between();
@@ -70,7 +70,7 @@ std::vector<int> flown(planning::Planner& planner, const std::function<void()>& 
 struct TwoPlanners {
     scene::Settings settings = plain_settings();
     planning::Scene scene =
-        scene_over(landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air));
+        scene_over(landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air));
     planning::Planner ahead{scene, settings};
     planning::Planner at_once{scene, settings};
 };
@@ -80,7 +80,7 @@ struct TwoPlanners {
 TEST_CASE("a second view of the same ground does not disturb the detail control of the first") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
-        scene_over(landscape::ground_from_field(rough_field(), settings.ground, settings.air));
+        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
     planning::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
@@ -88,7 +88,7 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
     coarse.ground.triangles = 100;
     planning::Planner first(scene, settings);
     planning::Planner second(scene, coarse);
-    second.settle(scene::camera_looking_at({500, 500, 900}, {0, 0, 0}));
+    second.reset_detail(scene::camera_looking_at({500, 500, 900}, {0, 0, 0}));
     const std::array there{state_at({0, 0, 100})};
     int of_second = 0;
     const std::vector<int> triangles = flown(first, [&] {
@@ -103,20 +103,20 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
 TEST_CASE("a planner that is given the last one's mesher goes on with its detail") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
-        scene_over(landscape::ground_from_field(rough_field(), settings.ground, settings.air));
+        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
     planning::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
     const std::array there{state_at({0, 0, 100})};
     auto planner = std::make_unique<planning::Planner>(scene, settings);
-    planner->settle(camera_at(0));
+    planner->reset_detail(camera_at(0));
     std::vector<int> triangles;
     for (int frame = 0; frame < 12; ++frame) {
         triangles.push_back(planner->plan({camera_at(frame), there}).counts.ground.triangles);
         planner = std::make_unique<planning::Planner>(
             scene,
             settings,
-            landscape::mesher_after(
+            landscape::reuse_or_make_mesher(
                 planner->take_mesher(), *scene.ground, landscape::mesh_settings(settings, false)));
     }
     CHECK(triangles == expected);
@@ -129,7 +129,7 @@ TEST_CASE("meshes made ahead and meshes made when they are asked for are the sam
     const std::array there{state_at({0, 0, 100})};
     for (int frame = 0; frame < 6; ++frame) {
         const int target = 300 + 50 * frame;
-        ahead.prepare(camera_at(frame), target);
+        ahead.begin_next_mesh(camera_at(frame), target);
         const auto [a, counts_a] = ahead.plan({camera_at(frame), there, target});
         const auto [b, counts_b] = at_once.plan({camera_at(frame), there, target});
         CHECK(counts_a.ground.triangles == counts_b.ground.triangles);
@@ -147,9 +147,9 @@ TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one a
         const scene::FramePlan& drawn = ahead.plan({camera_at(frame), there, 500}).plan;
         const std::vector<std::uint32_t> indices(
             drawn.ground.indices.begin(), drawn.ground.indices.end());
-        ahead.prepare(camera_at(frame + 3), 500);
-        ahead.prepare(camera_at(frame + 1), 300 + 50 * frame);
-        ahead.prepare(camera_at(frame + 2), 500);
+        ahead.begin_next_mesh(camera_at(frame + 3), 500);
+        ahead.begin_next_mesh(camera_at(frame + 1), 300 + 50 * frame);
+        ahead.begin_next_mesh(camera_at(frame + 2), 500);
         ahead.wait();
         CHECK(std::ranges::equal(drawn.ground.indices, indices));
         const scene::FramePlan& expected = at_once.plan({camera_at(frame), there, 500}).plan;
@@ -160,24 +160,24 @@ TEST_CASE("a mesh asked for ahead twice is begun once and leaves the drawn one a
 TEST_CASE("a mesher of tiles goes on over them in other colours, not over others") {
     scene::Settings settings = plain_settings();
     const auto tiles =
-        landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air);
+        landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
     std::unique_ptr<landscape::GroundMesher> mesher =
         tiles->mesher(landscape::mesh_settings(settings, false));
     const landscape::GroundMesher* const before = mesher.get();
-    const landscape::GroundRequest request{camera_at(0), 1.0, 500};
+    const landscape::MeshRequest request{camera_at(0), 1.0, 500};
     landscape::GroundCounts counts;
     mesher->triangles(request, counts);
-    mesher->prepare({camera_at(1), 1.0, 500}, nullptr);
+    mesher->begin_next_mesh({camera_at(1), 1.0, 500}, nullptr);
 
     settings.air.sun_elevation_deg = 70.0;
     settings.air.palette = scene::Palette::Arid;
-    const auto lit = tiles->remade(settings.ground, settings.air);
+    const auto lit = tiles->with_settings(settings.ground, settings.air);
     mesher =
-        landscape::mesher_after(std::move(mesher), *lit, landscape::mesh_settings(settings, false));
+        landscape::reuse_or_make_mesher(std::move(mesher), *lit, landscape::mesh_settings(settings, false));
     CHECK(mesher.get() == before);
     CHECK(&mesher->ground() == lit.get());
     for (const int frame : {0, 1, 1, 2}) {
-        const landscape::GroundRequest next{camera_at(frame), 1.0, 500};
+        const landscape::MeshRequest next{camera_at(frame), 1.0, 500};
         const scene::TriangleDraw drawn = mesher->triangles(next, counts);
         const auto fresh = lit->mesher(landscape::mesh_settings(settings, false));
         const scene::TriangleDraw expected = fresh->triangles(next, counts);
@@ -191,34 +191,34 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
         CHECK(colours(drawn) == colours(expected));
     }
     const auto others =
-        landscape::ground_from_tiles(terrain::ground_of(rough_field()), settings.air);
-    CHECK_FALSE(mesher->move_to(others));
+        landscape::make_bisection_ground(terrain::make_ground_tiles(rough_field()), settings.air);
+    CHECK_FALSE(mesher->switch_ground(others));
     CHECK(&mesher->ground() == lit.get());
 }
 
 TEST_CASE("ground says which settings it suits and is made anew of its heights for others") {
     scene::Settings settings = damped();
-    const auto field = landscape::ground_from_field(rough_field(), settings.ground, settings.air);
-    CHECK(field->suits(settings.ground, settings.air));
+    const auto field = landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air);
+    CHECK(field->matches_settings(settings.ground, settings.air));
     settings.ground.triangles = 50;
     settings.view.size_px = {320, 200};
-    CHECK(field->suits(settings.ground, settings.air));
+    CHECK(field->matches_settings(settings.ground, settings.air));
 
     scene::Settings other_sun = settings;
     other_sun.air.sun_elevation_deg = 70.0;
-    CHECK_FALSE(field->suits(other_sun.ground, other_sun.air));
-    const auto lit = field->remade(other_sun.ground, other_sun.air);
+    CHECK_FALSE(field->matches_settings(other_sun.ground, other_sun.air));
+    const auto lit = field->with_settings(other_sun.ground, other_sun.air);
     REQUIRE(lit);
-    CHECK(lit->suits(other_sun.ground, other_sun.air));
+    CHECK(lit->matches_settings(other_sun.ground, other_sun.air));
     CHECK(lit->height_at(33.0, -210.0) == field->height_at(33.0, -210.0));
     CHECK(lit->mean_colour() != field->mean_colour());
 
     const scene::Settings by_error = plain_settings();
-    const auto tiles = field->remade(by_error.ground, by_error.air);
+    const auto tiles = field->with_settings(by_error.ground, by_error.air);
     REQUIRE(tiles);
-    CHECK(tiles->suits(by_error.ground, by_error.air));
+    CHECK(tiles->matches_settings(by_error.ground, by_error.air));
     CHECK(*tiles->height_at(33.0, -210.0) == Approx(*field->height_at(33.0, -210.0)).margin(0.01));
-    CHECK(tiles->remade(settings.ground, settings.air) == nullptr);
+    CHECK(tiles->with_settings(settings.ground, settings.air) == nullptr);
 }
 
 TEST_CASE("whoever measures is called once a frame, before the ground is meshed") {

@@ -67,7 +67,7 @@ public:
     const landscape::Ground& ground() const override { return *ground_; }
 
     scene::TriangleDraw
-    triangles(const landscape::GroundRequest& request, landscape::GroundCounts& counts) override {
+    triangles(const landscape::MeshRequest& request, landscape::GroundCounts& counts) override {
         eye_m_ = request.camera.eye_m;
         vertices_.clear();
         indices_.clear();
@@ -174,7 +174,7 @@ public:
     const landscape::Ground& ground() const override { return *ground_; }
 
     scene::TriangleDraw
-    triangles(const landscape::GroundRequest& request, landscape::GroundCounts& counts) override {
+    triangles(const landscape::MeshRequest& request, landscape::GroundCounts& counts) override {
         vertices_.clear();
         indices_.clear();
         for (const GroundTriangle& triangle : ground_->triangles()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "visuals/planning/planner.h"
 
 #include <array>
@@ -12,9 +12,9 @@
 namespace octant::tests {
 
 /// Random places and attitudes.
-class PlaceDice : public Dice {
+class PlaceDice : public RandomGenerator {
 public:
-    using Dice::Dice;
+    using RandomGenerator::RandomGenerator;
 
     glm::dvec3 in_box(const glm::dvec3& half) {
         return {between(-half.x, half.x), between(-half.y, half.y), between(-half.z, half.z)};

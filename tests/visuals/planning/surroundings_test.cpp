@@ -137,7 +137,7 @@ TEST_CASE("below the horizon the plain fades into the haze with distance") {
 
 TEST_CASE("past the land around a map the plain begins where that land ends") {
     visuals::nature::Backdrop land;
-    land.corners = {{{-30000.0, -20000.0, 0.0}, {}, 0.0F}, {{30000.0, 20000.0, 0.0}, {}, 0.0F}};
+    land.vertices = {{{-30000.0, -20000.0, 0.0}, {}, 0.0F}, {{30000.0, 20000.0, 0.0}, {}, 0.0F}};
     Sky sky(sun_at(90.0, 35.0), land);
     const Haze haze{{1.0F, 1.0F, 1.0F}, 20000.0F};
     const auto lowest = [&](const glm::dvec3& eye_m) {
@@ -162,7 +162,7 @@ TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
         Approx(1.0 - std::exp(-mean)).epsilon(1e-4));
     CHECK(seen_through(haze, {6000.0, 0.0, -800.0}, black).x > level.x * 0.6F);
     haze.falloff_per_m = 0.0F;
-    haze.to_sun_level = {1.0F, 0.0F};
+    haze.horizontal_to_sun = {1.0F, 0.0F};
     haze.sunward = {1.0F, 0.5F, 0.0F};
     CHECK(seen_through(haze, {1e7, 0.0, 0.0}, black).y == Approx(0.5));
     CHECK(seen_through(haze, {-1e7, 0.0, 0.0}, black).y == Approx(1.0));

@@ -15,7 +15,7 @@ constexpr std::uint32_t black = 0xff000000U;
 
 /// Triangles of one depth each that lie over each other in any order.
 std::vector<FlatTriangle> many_triangles(std::uint64_t seed) {
-    Dice dice(seed);
+    RandomGenerator dice(seed);
     std::vector<FlatTriangle> triangles;
     for (int i = 0; i < 400; ++i) {
         FlatTriangle triangle;

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/visuals/raster/reference_picture.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ namespace {
 constexpr glm::ivec2 size_px{128, 64}; // powers of two: corners come out where they are put
 
 /// Corners at 1/256 pixel, some far outside the picture, some on pixel middles.
-glm::vec2 any_place(Dice& dice) {
+glm::vec2 any_place(RandomGenerator& dice) {
     const auto along = [&](int most) {
         const bool on_middle = below(dice, 4) == 0;
         const int from = static_cast<int>(below(dice, static_cast<std::uint64_t>(most + 60))) - 30;
@@ -27,7 +27,7 @@ glm::vec2 any_place(Dice& dice) {
 }
 
 std::vector<FlatTriangle> any_triangles(std::uint64_t seed, int count) {
-    Dice dice(seed);
+    RandomGenerator dice(seed);
     std::vector<FlatTriangle> triangles;
     for (int i = 0; i < count; ++i) {
         FlatTriangle triangle;
@@ -98,7 +98,7 @@ TEST_CASE("no line shows between neighbours, whatever their corners and samples"
     for (const int samples : {1, 4, 16}) {
         for (std::uint64_t seed = 1; seed <= 10; ++seed) {
             // A fan around any place inside, its rim outside the picture.
-            Dice dice(seed);
+            RandomGenerator dice(seed);
             const glm::vec2 middle(
                 static_cast<float>(below(dice, 128 * 256)) / 256.0F,
                 static_cast<float>(below(dice, 64 * 256)) / 256.0F);

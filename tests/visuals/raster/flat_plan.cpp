@@ -61,7 +61,7 @@ scene::Picture drawn(
     return picture;
 }
 
-std::uint64_t below(Dice& dice, std::uint64_t most) {
+std::uint64_t below(RandomGenerator& dice, std::uint64_t most) {
     return static_cast<std::uint64_t>(dice.next() * static_cast<double>(most));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "visuals/raster/renderer.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/ground_texture.h"
@@ -60,7 +60,7 @@ scene::Picture drawn(
     const scene::GroundTexture* texture = nullptr);
 
 /// A whole number 0 .. most - 1.
-std::uint64_t below(Dice& dice, std::uint64_t most);
+std::uint64_t below(RandomGenerator& dice, std::uint64_t most);
 
 /// Red, green and blue of a pixel.
 glm::ivec3 pixel(const scene::Picture& picture, int x, int y);

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "tests/visuals/raster/flat_plan.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ constexpr glm::ivec2 size_px{128, 96};
 
 /// Triangles of all sizes and colours, with and without depth, cut by planes, near and far.
 void paint_much(FlatPlan& plan) {
-    Dice dice(5);
+    RandomGenerator dice(5);
     for (int step = 0; step < 24; ++step) {
         std::vector<FlatTriangle> triangles;
         for (int i = 0; i < 200; ++i) {
@@ -58,13 +58,13 @@ void put_in_haze(FlatPlan& plan) {
         .colour = glm::vec3(0.6F, 0.7F, 0.8F),
         .visibility_m = 60.0F,
         .falloff_per_m = 0.02F,
-        .to_sun_level = glm::vec2(0.6F, 0.8F),
+        .horizontal_to_sun = glm::vec2(0.6F, 0.8F),
         .sunward = glm::vec3(0.9F, 0.8F, 0.6F)};
 }
 
 /// A texture of noise, and where it lies under the plan's triangles.
 scene::GroundTexture put_on_noise(FlatPlan& plan) {
-    Dice dice(9);
+    RandomGenerator dice(9);
     const auto noise = [&](int width, int height, int values) {
         scene::GroundImage image{.width = width, .height = height, .texels = {}};
         for (int i = 0; i < width * height * values; ++i) {

@@ -105,7 +105,7 @@ TEST_CASE("what lies over the picture lies over its veils") {
 
 TEST_CASE("many veils among triangles have the same bytes on any number of threads") {
     constexpr glm::ivec2 size_px(200, 150);
-    Dice dice(5);
+    RandomGenerator dice(5);
     FlatPlan plan(size_px);
     Sheet sheet;
     const auto somewhere = [&](std::uint64_t width, std::uint64_t height) {

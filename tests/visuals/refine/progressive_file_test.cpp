@@ -42,9 +42,9 @@ NamedFaces all_faces(const ProgressiveMesh& mesh) {
 void check_same(const ProgressiveMesh& a, const ProgressiveMesh& b) {
     CHECK(a.parts().name == b.parts().name);
     CHECK(a.parts().origin_m == b.parts().origin_m);
-    CHECK(a.whole_parts().positions_m == b.whole_parts().positions_m);
-    CHECK(a.whole_parts().normals == b.whole_parts().normals);
-    CHECK(a.whole_parts().colours == b.whole_parts().colours);
+    CHECK(a.full_data().positions_m == b.full_data().positions_m);
+    CHECK(a.full_data().normals == b.full_data().normals);
+    CHECK(a.full_data().colours == b.full_data().colours);
     CHECK(a.parts().faces == b.parts().faces);
     CHECK(a.parts().original_faces == b.parts().original_faces);
     CHECK(a.parts().face_materials == b.parts().face_materials);

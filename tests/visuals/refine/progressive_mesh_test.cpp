@@ -37,7 +37,7 @@ TEST_CASE("a strip of two triangles collapses once, and its cut vertices are its
     CHECK(mesh.position_m(4) == glm::vec3(0.5F, 0.5F, 0.0F));
     CHECK(glm::distance(mesh.normal(4), glm::vec3(0.0F, 0.0F, 1.0F)) < 1e-4F);
     CHECK(mesh.cone_rad(4) < 0.001F);
-    CHECK(drawn_colour(mesh.packed_colour(4)) == 0xffffffffU);
+    CHECK(packed_rgba8(mesh.packed_colour(4)) == 0xffffffffU);
     // 0.707 to a child and sqrt(2) from there to the farthest corner of its faces.
     CHECK(mesh.radius_m(4) == Approx(1.5 * std::numbers::sqrt2).epsilon(1e-4));
 }
@@ -48,7 +48,7 @@ TEST_CASE("leaves below a node follow one another") {
     std::vector<std::uint32_t> sizes(mesh.node_count(), 1);
     for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count();
          ++node) {
-        const Split split = mesh.split_of(node);
+        const VertexSplit split = mesh.split_of(node);
         sizes[node] = sizes[split.first] + sizes[split.second];
         CHECK(mesh.first_leaf(split.first) == mesh.first_leaf(node));
         CHECK(mesh.first_leaf(split.second) == mesh.first_leaf(node) + sizes[split.first]);
@@ -93,5 +93,5 @@ TEST_CASE("packed normals and colours come back") {
         CHECK(glm::distance(unpacked(packed(unit)), unit) < 1e-4F);
     }
     CHECK(unpacked(packed(glm::vec3(0.0F))) == glm::vec3(0.0F, 0.0F, 1.0F));
-    CHECK(unpacked(packed_parts(glm::vec3(0.0F, 1.0F, 2.0F))) == glm::vec3(0.0F, 1.0F, 1.0F));
+    CHECK(unpacked(packed_rgb16(glm::vec3(0.0F, 1.0F, 2.0F))) == glm::vec3(0.0F, 1.0F, 1.0F));
 }

@@ -17,7 +17,7 @@ ProgressiveTree pairs(std::uint32_t roots) {
         node.end = 2 * root + 2;
         CHECK(tree.add_root(node));
     }
-    CHECK(tree.roots_cover(2 * roots));
+    CHECK(tree.roots_cover_leaves(2 * roots));
     return tree;
 }
 

@@ -42,7 +42,7 @@ void walk(SelectiveRefiner& refiner, int operations, std::uint64_t seed) {
         if (refiner.is_active(node)) {
             done += refiner.split(node) > 0 ? 1 : 0;
         } else if (refiner.is_split(node)) {
-            const Split split = refiner.mesh().split_of(node);
+            const VertexSplit split = refiner.mesh().split_of(node);
             const bool ready = refiner.is_active(split.first) && refiner.is_active(split.second);
             done += ready ? 1 : 0;
             refiner.collapse(node);
@@ -114,7 +114,7 @@ TEST_CASE("everything split is the original, face for face") {
             SelectiveRefiner refiner(hierarchy(sequence), {.repair = repair});
             split_all(refiner);
             CHECK(refiner.repair() == 0);
-            CHECK(refiner.turned_faces() == 0);
+            CHECK(refiner.flipped_faces() == 0);
             CHECK(refiner.counts().forced_by_rule == 0);
             NamedFaces original;
             for (models::Triangle face : made.triangles) {
@@ -189,10 +189,10 @@ TEST_CASE("repair leaves no face turned over") {
     std::size_t turned = 0;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         walk(bare, 300, seed);
-        turned += bare.turned_faces();
+        turned += bare.flipped_faces();
         walk(repaired, 300, seed);
         repaired.repair();
-        CHECK(repaired.turned_faces() == 0);
+        CHECK(repaired.flipped_faces() == 0);
     }
     CHECK(turned > 0);
     CHECK(bare.repair() == 0);
@@ -223,11 +223,11 @@ TEST_CASE("the earlier rules give the same meshes for more splits") {
 TEST_CASE("only what was written since the last look is dirty") {
     SelectiveRefiner refiner(hierarchy(collapsed(made_sphere(4))));
     split_all(refiner);
-    std::vector<PlaceRange> ranges;
+    std::vector<SlotRange> ranges;
     refiner.take_dirty_vertices(ranges);
-    CHECK(ranges == std::vector<PlaceRange>{{0, refiner.vertices().size()}});
+    CHECK(ranges == std::vector<SlotRange>{{0, refiner.vertices().size()}});
     refiner.take_dirty_faces(ranges);
-    CHECK(ranges == std::vector<PlaceRange>{{0, refiner.indices().size() / 3}});
+    CHECK(ranges == std::vector<SlotRange>{{0, refiner.indices().size() / 3}});
     refiner.take_dirty_vertices(ranges);
     CHECK(ranges.empty());
     const std::vector<std::uint32_t> before(refiner.indices().begin(), refiner.indices().end());
@@ -235,7 +235,7 @@ TEST_CASE("only what was written since the last look is dirty") {
     refiner.take_dirty_faces(ranges);
     REQUIRE(!ranges.empty());
     for (std::size_t place = 0; 3 * place < before.size(); ++place) {
-        const bool dirty = std::ranges::any_of(ranges, [&](const PlaceRange& range) {
+        const bool dirty = std::ranges::any_of(ranges, [&](const SlotRange& range) {
             return place >= range.first && place < range.end;
         });
         CHECK(
@@ -307,12 +307,12 @@ TEST_CASE("what a split will force is what it forces") {
         std::mt19937 numbers(5);
         std::vector<std::uint32_t> forced;
         for (int round = 0; round < 20; ++round) {
-            SelectiveRefiner refiner(mesh, {.remember_splits = true, .repair = false});
+            SelectiveRefiner refiner(mesh, {.records_splits = true, .repair = false});
             std::uint32_t leaf = static_cast<std::uint32_t>(numbers() % mesh->leaf_count());
             while (!refiner.is_active(leaf)) {
                 const std::uint32_t node = refiner.active_ancestor(leaf);
-                refiner.nodes_forced_by(node, forced);
-                refiner.forget_recent_splits();
+                refiner.find_forced_splits(node, forced);
+                refiner.clear_recent_splits();
                 refiner.split(node);
                 all += forced.size();
                 forced.push_back(node);

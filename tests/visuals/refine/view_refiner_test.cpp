@@ -32,18 +32,18 @@ RefineView on_path(double frame) {
     return view_from(away_m * glm::dvec3(std::cos(turn), std::sin(turn), 0.3));
 }
 
-void settle(ViewRefiner& refiner, const RefineView& view) {
+void refine_fully(ViewRefiner& refiner, const RefineView& view) {
     for (int frame = 0; frame < 2000 && !refiner.update(view).settled; ++frame) {
     }
 }
 
 /// Pixels right of and above the middle of the picture; the point is ahead.
 glm::dvec2 pixel(const RefineView& view, const glm::dvec3& point_m) {
-    const glm::dvec3 right = glm::normalize(glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0)));
-    const glm::dvec3 up = glm::cross(right, view.ahead);
+    const glm::dvec3 right = glm::normalize(glm::cross(view.forward, glm::dvec3(0.0, 0.0, 1.0)));
+    const glm::dvec3 up = glm::cross(right, view.forward);
     const glm::dvec3 seen_m = point_m - view.eye_m;
     return glm::dvec2(glm::dot(right, seen_m), glm::dot(up, seen_m)) *
-           (view.focal_px / glm::dot(view.ahead, seen_m));
+           (view.focal_px / glm::dot(view.forward, seen_m));
 }
 
 } // namespace
@@ -85,11 +85,11 @@ TEST_CASE("no node shows a larger error than its parent") {
 TEST_CASE("for a standing eye the mesh settles, and then nothing happens") {
     ViewRefiner refiner(sphere(4), {.error_px = 8.0});
     const RefineView view = on_path(0);
-    settle(refiner, view);
+    refine_fully(refiner, view);
     const RefinerCounts counts = refiner.front().counts();
     CHECK(refiner.front().active_count() > 30);
     CHECK(refiner.front().active_count() < refiner.front().mesh().leaf_count());
-    std::vector<PlaceRange> dirty;
+    std::vector<SlotRange> dirty;
     refiner.front().take_dirty_vertices(dirty);
     for (int frame = 0; frame < 20; ++frame) {
         const RefinedFrame done = refiner.update(view);
@@ -99,7 +99,7 @@ TEST_CASE("for a standing eye the mesh settles, and then nothing happens") {
     refiner.front().take_dirty_vertices(dirty);
     CHECK(dirty.empty());
     CHECK(refiner.front().counts().blocked == counts.blocked);
-    CHECK(refiner.front().turned_faces() == 0);
+    CHECK(refiner.front().flipped_faces() == 0);
 }
 
 TEST_CASE("settled, every node that shows too large an error is split") {
@@ -107,7 +107,7 @@ TEST_CASE("settled, every node that shows too large an error is split") {
         ViewRefiner refiner(sphere(4), {.error_px = 6.0, .geomorphs = geomorphs});
         for (int frame = 0; frame < 400; frame += 80) {
             const RefineView view = on_path(frame);
-            settle(refiner, view);
+            refine_fully(refiner, view);
             const ProgressiveMesh& mesh = refiner.front().mesh();
             for (auto node = static_cast<std::uint32_t>(mesh.leaf_count());
                  node < mesh.node_count();
@@ -115,7 +115,7 @@ TEST_CASE("settled, every node that shows too large an error is split") {
                 const double error_px = projected_error_px(mesh, node, view);
                 CHECK((error_px <= 6.0 || refiner.front().is_split(node)));
             }
-            CHECK(refiner.front().turned_faces() == 0);
+            CHECK(refiner.front().flipped_faces() == 0);
         }
     }
 }
@@ -153,7 +153,7 @@ TEST_CASE("along a path no node is split and merged, or merged and split, within
 TEST_CASE("a node that was merged is split at once when the eye jumps near") {
     ViewRefiner refiner(sphere(4), {.error_px = 6.0, .geomorphs = false});
     const RefineView near = view_from({3.0, 0.0, 0.0});
-    settle(refiner, near);
+    refine_fully(refiner, near);
     const std::size_t fine = refiner.front().active_count();
     const RefineView far = view_from({60.0, 0.0, 0.0});
     while (refiner.front().active_count() > fine / 2) {
@@ -168,7 +168,7 @@ TEST_CASE("settle makes the mesh fit a view at once, and then its frame does not
         ViewRefiner refiner(sphere(4), {.error_px = 6.0, .operations = 3, .geomorphs = geomorphs});
         for (const double frame : {0.0, 300.0, 40.0}) {
             const RefineView view = on_path(frame);
-            refiner.settle(view);
+            refiner.refine_fully(view);
             const ProgressiveMesh& mesh = refiner.front().mesh();
             for (auto node = static_cast<std::uint32_t>(mesh.leaf_count());
                  node < mesh.node_count();
@@ -185,7 +185,7 @@ TEST_CASE("settle makes the mesh fit a view at once, and then its frame does not
             const RefinedFrame done = refiner.update(view);
             CHECK(done.splits + done.collapses + done.moving == 0);
             CHECK(done.settled);
-            CHECK(refiner.front().turned_faces() == 0);
+            CHECK(refiner.front().flipped_faces() == 0);
         }
     }
 }
@@ -193,7 +193,7 @@ TEST_CASE("settle makes the mesh fit a view at once, and then its frame does not
 TEST_CASE("with geomorphs no vertex moves by a pixel in one frame, seen from one eye") {
     ViewRefiner refiner(sphere(4), {.error_px = 4.0});
     const ProgressiveMesh& mesh = refiner.front().mesh();
-    settle(refiner, on_path(0));
+    refine_fully(refiner, on_path(0));
     double largest_px = 0.0;
     std::size_t moved = 0;
     for (int frame = 1; frame < 500; ++frame) {

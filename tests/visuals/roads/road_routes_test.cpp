@@ -58,13 +58,13 @@ double bumpy(const glm::dvec2& at_m) {
 } // namespace
 
 TEST_CASE("a road from one basin to the other goes over the pass") {
-    const RoadGround ground(GroundSamples(field_of(401, two_basins)), {});
+    const RoadCostGrid ground(GroundSamples(field_of(401, two_basins)), {});
     std::vector<std::size_t> towns;
     for (const double x_m : {-3050.0, 2950.0}) {
         towns.push_back(ground.cell(
             static_cast<int>((x_m + 5000.0) / 100.0), static_cast<int>((5000.0 - 1550.0) / 100.0)));
     }
-    const std::vector<Route> routes = road_routes(ground, towns);
+    const std::vector<Route> routes = find_routes(ground, towns);
     REQUIRE(routes.size() == 1);
     CHECK(std::set{routes[0].front(), routes[0].back()} == std::set{towns[0], towns[1]});
     const bool over_pass = std::ranges::any_of(routes[0], [&](std::size_t cell) {
@@ -72,16 +72,16 @@ TEST_CASE("a road from one basin to the other goes over the pass") {
     });
     CHECK(over_pass);
     for (const std::size_t cell : routes[0]) {
-        CHECK(ground.above_valley_m(cell) < 120.0);
+        CHECK(ground.height_above_valley_m(cell) < 120.0);
     }
 }
 
 TEST_CASE("roads join all towns that can be joined, and no step is in two of them") {
-    const RoadWish wish{90.0, 1500.0, nullptr};
-    const RoadGround ground(GroundSamples(field_of(1201, bumpy)), wish);
-    const std::vector<std::size_t> towns = road_towns(ground, wish);
+    const RoadConstraints constraints{90.0, 1500.0, nullptr};
+    const RoadCostGrid ground(GroundSamples(field_of(1201, bumpy)), constraints);
+    const std::vector<std::size_t> towns = find_towns(ground, constraints);
     REQUIRE(towns.size() > 20);
-    const std::vector<Route> routes = road_routes(ground, towns);
+    const std::vector<Route> routes = find_routes(ground, towns);
     std::vector<Step> steps = steps_of(routes);
     const auto groups = groups_of(steps);
     std::set<std::size_t> different;
@@ -100,9 +100,9 @@ TEST_CASE("roads join all towns that can be joined, and no step is in two of the
 }
 
 TEST_CASE("a route goes on where two roads meet in a line, and ends where three do") {
-    const RoadWish wish{90.0, 1500.0, nullptr};
-    const RoadGround ground(GroundSamples(field_of(1201, bumpy)), wish);
-    const std::vector<Route> routes = road_routes(ground, road_towns(ground, wish));
+    const RoadConstraints constraints{90.0, 1500.0, nullptr};
+    const RoadCostGrid ground(GroundSamples(field_of(1201, bumpy)), constraints);
+    const std::vector<Route> routes = find_routes(ground, find_towns(ground, constraints));
     std::map<std::size_t, int> ends;
     std::set<std::size_t> inner;
     for (const Route& route : routes) {
@@ -118,24 +118,24 @@ TEST_CASE("a route goes on where two roads meet in a line, and ends where three 
 }
 
 TEST_CASE("nobody lives on steep ground, on water, high above a valley or above the trees") {
-    const RoadWish wish{90.0, 150.0, nullptr};
-    const RoadGround ground(GroundSamples(field_of(1201, bumpy)), wish);
-    for (const std::size_t town : road_towns(ground, wish)) {
+    const RoadConstraints constraints{90.0, 150.0, nullptr};
+    const RoadCostGrid ground(GroundSamples(field_of(1201, bumpy)), constraints);
+    for (const std::size_t town : find_towns(ground, constraints)) {
         CHECK(ground.is_free(town));
         CHECK(ground.slope(town) <= 0.1);
-        CHECK(ground.above_valley_m(town) <= 90.0);
+        CHECK(ground.height_above_valley_m(town) <= 90.0);
         CHECK(ground.height_m(town) <= 240.0);
     }
     const auto steep = field_of(401, [](const glm::dvec2& at_m) { return 3000.0 + 0.5 * at_m.x; });
-    CHECK(road_towns(RoadGround(GroundSamples(steep), {}), {}).empty());
-    CHECK(road_routes(RoadGround(GroundSamples(steep), {}), {}).empty());
+    CHECK(find_towns(RoadCostGrid(GroundSamples(steep), {}), {}).empty());
+    CHECK(find_routes(RoadCostGrid(GroundSamples(steep), {}), {}).empty());
 }
 
 TEST_CASE("what lies beyond water is not joined") {
     const auto strait =
         field_of(801, [](const glm::dvec2& at_m) { return std::abs(at_m.x) < 60.0 ? -5.0 : 20.0; });
-    const RoadGround ground(GroundSamples(strait), {});
-    const std::vector<Route> routes = road_routes(ground, road_towns(ground, {}));
+    const RoadCostGrid ground(GroundSamples(strait), {});
+    const std::vector<Route> routes = find_routes(ground, find_towns(ground, {}));
     REQUIRE_FALSE(routes.empty());
     for (const Route& route : routes) {
         const bool is_west = ground.place_m(route.front()).x < 0.0;

@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "visuals/separation/matrix_game.h"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ double worst(const Payoffs& payoffs, const std::vector<double>& shares) {
     return least;
 }
 
-Payoffs random_payoffs(Dice& dice, std::size_t choices, std::size_t cases) {
+Payoffs random_payoffs(RandomGenerator& dice, std::size_t choices, std::size_t cases) {
     Payoffs payoffs{choices, {}};
     for (std::size_t i = 0; i < choices * cases; ++i) {
         payoffs.values.push_back(dice.between(-1.0, 1.0));
@@ -53,7 +53,7 @@ TEST_CASE("a choice that always gives most is taken alone, also where all lose")
 // By the minimax theorem shares are best exactly if the other side, who sees them and has shares
 // over the cases, can hold every choice down to the same value.
 TEST_CASE("no shares are better than those found, by the other side's shares") {
-    Dice dice(11);
+    RandomGenerator dice(11);
     for (int round = 0; round < 300; ++round) {
         const auto choices = static_cast<std::size_t>(dice.between(1, 20));
         const auto cases = static_cast<std::size_t>(dice.between(1, 14));

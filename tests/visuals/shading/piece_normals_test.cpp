@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "visuals/shading/piece_normals.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -44,7 +44,7 @@ TEST_CASE("the halves of a cut square keep its normals and have the middle one a
         {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {1, 2, 0}},
         {{0, 4, 5, 3}, {4, 1, 2, 5}});
     pieces.parents = {0, 0};
-    const auto made = normals_of_pieces(whole, normals, pieces);
+    const auto made = piece_normals(whole, normals, pieces);
     const glm::vec3 up(0.0F, 0.0F, 1.0F);
     const std::vector expected{left, up, up, left, up, right, right, up};
     REQUIRE(made.size() == expected.size());
@@ -57,7 +57,7 @@ TEST_CASE("a quarter of the way along a side the normal is a quarter of the way 
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
     models::polygons::PolygonModel pieces =
         model_of({{0.5, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
-    const auto made = normals_of_pieces(whole, std::vector{left, right, right, left}, pieces);
+    const auto made = piece_normals(whole, std::vector{left, right, right, left}, pieces);
     CHECK(near(made[0], glm::normalize(0.75F * left + 0.25F * right)));
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("in the middle of a square all corners count the same") {
     const models::polygons::PolygonModel whole = model_of(square_m, {{0, 1, 2, 3}});
     const models::polygons::PolygonModel piece =
         model_of({{1, 1, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 2}});
-    const auto made = normals_of_pieces(whole, std::vector{left, right, right, left}, piece);
+    const auto made = piece_normals(whole, std::vector{left, right, right, left}, piece);
     CHECK(near(made[0], {0.0F, 0.0F, 1.0F}));
     CHECK(near(made[1], right));
 }
@@ -78,13 +78,13 @@ TEST_CASE("a piece belongs to the polygon around it where two have the same pare
     models::polygons::PolygonModel piece = model_of({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}}, {{0, 1, 2}});
     piece.parents = {7};
     const std::vector normals{left, left, left, left, right, right, right, right};
-    CHECK(near(normals_of_pieces(whole, normals, piece)[0], right));
+    CHECK(near(piece_normals(whole, normals, piece)[0], right));
 }
 
 TEST_CASE("a model that was not cut keeps its normals") {
-    const models::polygons::PolygonModel torus = models::made::torus();
+    const models::polygons::PolygonModel torus = models::procedural::torus();
     const auto normals = corner_normals(torus);
-    const auto made = normals_of_pieces(torus, normals, torus);
+    const auto made = piece_normals(torus, normals, torus);
     for (std::size_t corner = 0; corner < made.size(); ++corner) {
         CHECK(near(made[corner], normals[corner]));
     }

@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "visuals/shading/shaded_polygons.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -51,7 +51,7 @@ TEST_CASE("corners that look the same share a point, in the order in which they 
 }
 
 TEST_CASE("the torus has 416 polygons and 416 points to light") {
-    const models::polygons::PolygonModel torus = models::made::torus();
+    const models::polygons::PolygonModel torus = models::procedural::torus();
     const ShadedPolygons shaded = shaded_polygons(torus, corner_normals(torus, rad_from_deg(60.0)));
     CHECK(shaded.size() == 416);
     CHECK(shaded.points.size() == 416);

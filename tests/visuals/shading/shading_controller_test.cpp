@@ -1,4 +1,4 @@
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "visuals/shading/shading_controller.h"
 
 #include <catch2/catch.hpp>
@@ -27,14 +27,14 @@ struct Course {
     std::vector<double> share; ///< of smooth polygons, a frame
     int over = 0;
     double changes = 0.0; ///< class changes per polygon
-    bool no_gain = false;
+    bool has_no_gain = false;
 };
 
 class Drive {
 public:
     Drive(int polygons, double budget_ms)
-        : state_(starting_shading(polygons)) {
-        control_.share_ms = budget_ms;
+        : state_(initial_shading_state(polygons)) {
+        control_.target_frame_ms = budget_ms;
     }
 
     Course frames(const Machine& machine, int count) {
@@ -44,42 +44,42 @@ public:
             const double n = state_.polygons;
             const double slow = dice_.next() < machine.slow_share ? 1.6 : 1.0;
             const double ms =
-                machine.mean_ms(smooth / n) * slow * (1.0 + machine.noise * dice_.bell());
+                machine.mean_ms(smooth / n) * slow * (1.0 + machine.noise * dice_.normal_deviate());
             course.share.push_back(smooth / n);
-            course.over += ms > control_.share_ms ? 1 : 0;
-            state_ = next_shading(
+            course.over += ms > control_.target_frame_ms ? 1 : 0;
+            state_ = update_shading(
                 state_, control_, {ms, state_.polygons - smooth, smooth}, state_.polygons);
             course.changes += std::abs(state_.smooth - smooth) / n;
         }
-        course.no_gain = state_.no_gain;
+        course.has_no_gain = state_.has_no_gain;
         return course;
     }
 
-    ShadingControl& control() { return control_; }
+    ShadingControllerSettings& control() { return control_; }
 
     const ShadingState& state() const { return state_; }
 
 private:
     ShadingState state_;
-    ShadingControl control_;
-    octant::Dice dice_{2008};
+    ShadingControllerSettings control_;
+    octant::RandomGenerator dice_{2008};
 };
 
 /// Where the expected time lies as far below the budget as the control aims.
-double best_share(const Machine& machine, const ShadingControl& control) {
+double best_share(const Machine& machine, const ShadingControllerSettings& control) {
     if (machine.smooth_ms <= 0.0) {
         return 1.0;
     }
     const double flat_ms = machine.mean_ms(0.0);
-    const double room_ms = control.share_ms * (1.0 - control.aim_sds * machine.noise) - flat_ms;
+    const double room_ms = control.target_frame_ms * (1.0 - control.target_margin_sds * machine.noise) - flat_ms;
     return std::clamp(room_ms / machine.smooth_ms, 0.0, 1.0);
 }
 
 /// Frames before the share is near the best one for good: within a tenth, two polygons, or what
 /// the noise hides.
 int frames_to_settle(
-    const Course& course, const Machine& machine, const ShadingControl& control, int polygons) {
-    const double noise_ms = machine.noise * control.share_ms;
+    const Course& course, const Machine& machine, const ShadingControllerSettings& control, int polygons) {
+    const double noise_ms = machine.noise * control.target_frame_ms;
     const double hidden = machine.smooth_ms > 0.0 ? 2.5 * noise_ms / machine.smooth_ms : 0.0;
     const double near = std::max({0.1, hidden, 2.0 / polygons});
     int settled = 0;
@@ -119,7 +119,7 @@ TEST_CASE(
                                  << " ms, rest " << rest_ms);
                     CHECK(frames_to_settle(course, machine, drive.control(), polygons) <= 30);
                     const double fits_ms =
-                        budget_ms * (1.0 - drive.control().aim_sds * machine.noise);
+                        budget_ms * (1.0 - drive.control().target_margin_sds * machine.noise);
                     CHECK((machine.mean_ms(0.0) > fits_ms || course.over <= 30));
                     ++cases;
                 }
@@ -147,9 +147,9 @@ TEST_CASE("another budget is followed at once") {
     Drive drive(416, 33.3);
     const Machine machine{.smooth_ms = 20.0};
     drive.frames(machine, 300);
-    drive.control().share_ms = 12.0;
+    drive.control().target_frame_ms = 12.0;
     CHECK(frames_to_settle(drive.frames(machine, 300), machine, drive.control(), 416) <= 30);
-    drive.control().share_ms = 20.0;
+    drive.control().target_frame_ms = 20.0;
     CHECK(frames_to_settle(drive.frames(machine, 300), machine, drive.control(), 416) <= 30);
 }
 
@@ -160,18 +160,18 @@ TEST_CASE("where smooth polygons cost nothing, all are smooth and the state says
             const Course course = drive.frames({.smooth_ms = smooth_ms}, 600);
             INFO(budget_ms << " ms, " << smooth_ms << " ms");
             CHECK(course.share.back() == 1.0);
-            CHECK(course.no_gain);
+            CHECK(course.has_no_gain);
         }
     }
 }
 
 TEST_CASE("a number that changes by what is in view is followed") {
-    ShadingState state = starting_shading(400);
-    const ShadingControl control{.share_ms = 12.0};
+    ShadingState state = initial_shading_state(400);
+    const ShadingControllerSettings control{.target_frame_ms = 12.0};
     for (int frame = 0; frame < 400; ++frame) {
         const int n = frame % 200 < 100 ? 400 : 200;
         const double ms = 3.0 + 3.0 * state.polygons / 400.0 + 6.0 * state.smooth / 400.0;
-        state = next_shading(state, control, {ms, state.polygons - state.smooth, state.smooth}, n);
+        state = update_shading(state, control, {ms, state.polygons - state.smooth, state.smooth}, n);
         CHECK(state.smooth <= n);
         CHECK(ms <= 12.0);
     }

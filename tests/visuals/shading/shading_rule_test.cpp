@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "visuals/shading/shading_rule.h"
 #include "visuals/shading/vertex_normals.h"
 
@@ -48,12 +48,12 @@ std::vector<int> smooth_ones(std::span<const std::uint8_t> smooth) {
 }
 
 std::vector<int> chosen(const ShadedPolygons& polygons, ShadingRule rule, int count) {
-    ShadingSelector selector(polygons, without_memory(rule));
+    ShadingSelector selector(polygons, without_hysteresis(rule));
     return smooth_ones(selector.choose(high_m, from_above, count).smooth);
 }
 
 ShadedPolygons shaded_torus() {
-    const models::polygons::PolygonModel torus = models::made::torus();
+    const models::polygons::PolygonModel torus = models::procedural::torus();
     return shaded_polygons(torus, corner_normals(torus, rad_from_deg(60.0)));
 }
 
@@ -136,20 +136,20 @@ TEST_CASE("an eye that stays within the stated angle and distance changes nothin
     ShadingSelector selector(torus);
     selector.choose({5.0, 0.0, 0.0}, from_above, 100);
     const ShadingChoice near = selector.choose({5.2, 0.14, 0.0}, from_above, 100);
-    CHECK_FALSE(near.anew);
+    CHECK_FALSE(near.was_reranked);
     CHECK(near.changed == 0);
     CHECK(near.smooth_count == 100);
-    CHECK(selector.choose({5.0, 0.2, 0.0}, from_above, 100).anew);
-    CHECK(selector.choose({5.5, 0.2, 0.0}, from_above, 100).anew);
+    CHECK(selector.choose({5.0, 0.2, 0.0}, from_above, 100).was_reranked);
+    CHECK(selector.choose({5.5, 0.2, 0.0}, from_above, 100).was_reranked);
     ShadingLight turned = from_above;
     turned.to_light = {0.05F, 0.0F, 0.99875F};
-    CHECK(selector.choose({5.5, 0.2, 0.0}, turned, 100).anew);
+    CHECK(selector.choose({5.5, 0.2, 0.0}, turned, 100).was_reranked);
     CHECK(selector.choose({5.5, 0.2, 0.0}, turned, 101).changed == 1);
 }
 
 TEST_CASE("a smooth polygon gives way only to one that is clearly more wrong") {
     ShadedPolygons polygons = row({1, 1}, {0.30F, 0.29F});
-    ShadingSelector selector(polygons, {.hold = 1.5F, .reselect_rad = 0.0});
+    ShadingSelector selector(polygons, {.hysteresis = 1.5F, .reselect_rad = 0.0});
     CHECK(smooth_ones(selector.choose(high_m, from_above, 1).smooth) == std::vector{0});
     polygons = row({1, 1}, {0.30F, 0.35F}); // 0.35^2 / 0.30^2 = 1.36
     CHECK(selector.choose(high_m + 1.0, from_above, 1).changed == 0);
@@ -160,8 +160,8 @@ TEST_CASE("a smooth polygon gives way only to one that is clearly more wrong") {
 
 TEST_CASE("holding on makes fewer changes around the torus") {
     const ShadedPolygons torus = shaded_torus();
-    const auto changes = [&](float hold) {
-        ShadingSelector selector(torus, {.hold = hold});
+    const auto changes = [&](float hysteresis) {
+        ShadingSelector selector(torus, {.hysteresis = hysteresis});
         int sum = 0;
         for (int step = 0; step < 200; ++step) {
             const double angle_rad = 0.04 * step;

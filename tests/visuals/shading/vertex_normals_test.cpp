@@ -1,4 +1,4 @@
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <catch2/catch.hpp>
@@ -91,7 +91,7 @@ TEST_CASE("a triangle without area changes nobody's normal") {
 }
 
 TEST_CASE("normals of the torus point away from the middle of its tube") {
-    const models::polygons::PolygonModel torus = models::made::torus();
+    const models::polygons::PolygonModel torus = models::procedural::torus();
     const auto normals = corner_normals(torus, rad_from_deg(60.0));
     for (std::size_t corner = 0; corner < normals.size(); ++corner) {
         const glm::dvec3& at_m = torus.vertices_m[torus.corner_vertices[corner]];

@@ -87,7 +87,7 @@ long checked_count_in(
 
 MeshCopy::MeshCopy(const GroundMesh& mesh)
     : vertices(mesh.vertices.begin(), mesh.vertices.end())
-    , origins(mesh.origins.begin(), mesh.origins.end())
+    , morphs(mesh.morphs.begin(), mesh.morphs.end())
     , indices(mesh.indices.begin(), mesh.indices.end())
     , triangles(mesh.counters.triangles)
     , fans(mesh.counters.fans)
@@ -95,7 +95,7 @@ MeshCopy::MeshCopy(const GroundMesh& mesh)
     , error_px(mesh.error_px) {}
 
 bool MeshCopy::operator==(const MeshCopy& other) const {
-    return same_bytes(vertices, other.vertices) && same_bytes(origins, other.origins) &&
+    return same_bytes(vertices, other.vertices) && same_bytes(morphs, other.morphs) &&
            indices == other.indices && triangles == other.triangles && fans == other.fans &&
            resolution == other.resolution && error_px == other.error_px;
 }

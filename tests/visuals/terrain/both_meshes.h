@@ -56,7 +56,7 @@ struct MeshCopy {
     bool operator==(const MeshCopy& other) const;
 
     std::vector<models::ColourVertex> vertices;
-    std::vector<VertexOrigin> origins;
+    std::vector<VertexMorph> morphs;
     std::vector<std::uint32_t> indices;
     int triangles;
     int fans;

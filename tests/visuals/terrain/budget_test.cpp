@@ -1,7 +1,7 @@
 #include "models/heights/height_field_import.h"
 #include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>
 
@@ -31,7 +31,7 @@ TEST_CASE("a budget is kept by hand's count on four quadrants") {
     Ground ground(level_field(5, 5));
     MeshView view;
     view.eye_m = {-2.0, -2.0, 0.0};
-    const Detail detail{0.0, 5.0, FanKind::Partial};
+    const QuadtreeDetail detail{0.0, 5.0, FanKind::Partial};
     CHECK(ground.mesher.mesh_within(view, detail, {24, 500.0}).counters.triangles == 24);
     const GroundMesh short_of_32 = ground.mesher.mesh_within(view, detail, {31, 500.0});
     CHECK(short_of_32.counters.triangles == 24);
@@ -50,7 +50,7 @@ TEST_CASE("a budget is kept by hand's count on four quadrants") {
         CHECK(under.resolution == Approx(2.1));
     }
     SECTION("full fans come all at once, within 4 m times C of the root's centre") {
-        const Detail full{0.0, 5.0, FanKind::Full};
+        const QuadtreeDetail full{0.0, 5.0, FanKind::Full};
         view.eye_m = {-2.0, -2.0, 16.0};
         CHECK(ground.mesher.mesh_within(view, full, {31, 500.0}).counters.triangles == 8);
         CHECK(ground.mesher.mesh_within(view, full, {32, 500.0}).counters.triangles == 32);
@@ -67,10 +67,10 @@ TEST_CASE("the counted steps are those of the meshes, for all grounds, views and
         Ground ground(
             numbers.coin() ? rough_field(columns, rows, seed) : spiky_field(columns, rows, seed),
             random_options(numbers));
-        Mesher plain(ground.tree, ground.colours);
+        QuadtreeMesher plain(ground.tree, ground.colours);
         for (int k = 0; k < 20; ++k) {
             const MeshView view = random_view(numbers, ground.field);
-            Detail detail{
+            QuadtreeDetail detail{
                 0.0, numbers.between(0.0, 10.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
             const TriangleBudget budget{
                 10 + static_cast<int>(numbers.next() % 1500), numbers.coin() ? 500.0 : 20.0};
@@ -100,9 +100,9 @@ TEST_CASE("a mesh within a budget does not depend on the meshes before") {
         const MeshView view = random_view(numbers, ground.field);
         const TriangleBudget budget{
             200 + static_cast<int>(numbers.next() % 20000), numbers.coin() ? 500.0 : 30.0};
-        const Detail detail{
+        const QuadtreeDetail detail{
             0.0, numbers.between(0.0, 20.0), numbers.coin() ? FanKind::Partial : FanKind::Full};
-        Mesher fresh(ground.tree, ground.colours);
+        QuadtreeMesher fresh(ground.tree, ground.colours);
         const MeshCopy expected(fresh.mesh_within(view, detail, budget));
         REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
         REQUIRE(MeshCopy(ground.mesher.mesh_within(view, detail, budget)) == expected);
@@ -111,7 +111,7 @@ TEST_CASE("a mesh within a budget does not depend on the meshes before") {
 
 TEST_CASE("along a path every mesh spends its budget to a few triangles") {
     Ground ground = wide_ground();
-    const Detail detail{0.0, 20.0, FanKind::Partial};
+    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
     double missing = 0.0;
     for (int frame = 0; frame < 300; ++frame) {
         const GroundMesh mesh = ground.mesher.mesh_within(circling(frame), detail, wide_budget);
@@ -124,7 +124,7 @@ TEST_CASE("along a path every mesh spends its budget to a few triangles") {
 
 TEST_CASE("a view that swings from ground to sky and back spends its budget at once") {
     Ground ground = wide_ground();
-    const Detail detail{0.0, 20.0, FanKind::Partial};
+    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
     for (int swing = 0; swing < 10; ++swing) {
         for (int frame = 0; frame < 3; ++frame) {
             const GroundMesh sky = ground.mesher.mesh_within(into_the_sky(), detail, wide_budget);
@@ -140,7 +140,7 @@ TEST_CASE("a view that swings from ground to sky and back spends its budget at o
 
 TEST_CASE("a larger budget never coarsens the mesh") {
     Ground ground = wide_ground();
-    const Detail detail{0.0, 20.0, FanKind::Partial};
+    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
     MeshCopy last(ground.mesher.mesh_within(circling(7), detail, {100, 500.0}));
     for (int triangles = 150; triangles < 200000; triangles += triangles / 7) {
         const MeshCopy mesh(ground.mesher.mesh_within(circling(7), detail, {triangles, 500.0}));
@@ -153,7 +153,7 @@ TEST_CASE("a larger budget never coarsens the mesh") {
 
 TEST_CASE("a lens that magnifies spends the same budget at a smaller C") {
     Ground ground = wide_ground();
-    const Detail detail{0.0, 20.0, FanKind::Partial};
+    const QuadtreeDetail detail{0.0, 20.0, FanKind::Partial};
     MeshView view = circling(3);
     const MeshCopy plain(ground.mesher.mesh_within(view, detail, wide_budget));
     view.magnification = 2.0;

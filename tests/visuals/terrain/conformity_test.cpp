@@ -1,6 +1,6 @@
 #include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -35,13 +35,13 @@ HeightField random_field(const Size& size, std::uint32_t kind, std::uint64_t see
 
 /// One random field with its tree, and random looks at it.
 struct Scene {
-    Scene(const Size& size, Propagation propagation, std::uint64_t seed)
+    Scene(const Size& size, RoughnessPropagation propagation, std::uint64_t seed)
         : numbers(seed)
         , field(random_field(size, numbers.next(), seed))
         , colours(numbered_colours(field))
         , tree(
               field,
-              {numbers.coin() ? Roughness::Literal : Roughness::Midpoint,
+              {numbers.coin() ? Roughness::Printed : Roughness::Midpoint,
                propagation,
                numbers.coin() ? 2.0 : 1.6})
         , mesher(tree, colours) {}
@@ -54,7 +54,7 @@ struct Scene {
             numbers.between(-10.0, numbers.coin() ? 10.0 : 80.0)};
     }
 
-    Detail random_detail() {
+    QuadtreeDetail random_detail() {
         // Mostly coarse meshes, where levels meet.
         return {
             numbers.next() % 4 == 0 ? numbers.between(2.0, 64.0) : numbers.between(2.0, 4.0),
@@ -66,7 +66,7 @@ struct Scene {
     HeightField field;
     std::vector<std::uint32_t> colours;
     Quadtree tree;
-    Mesher mesher;
+    QuadtreeMesher mesher;
 };
 
 /// A triangle's corners, eye subtracted.
@@ -103,7 +103,7 @@ TEST_CASE("the unculled mesh covers the field once, edge to edge, from any eye a
         std::unique_ptr<Scene> scene;
         for (int k = 0; k < size.cases; ++k, ++cases) {
             if (k % 5 == 0) {
-                scene = std::make_unique<Scene>(size, Propagation::CrackFree, ++seed);
+                scene = std::make_unique<Scene>(size, RoughnessPropagation::CrackFree, ++seed);
             }
             MeshView view;
             view.eye_m = scene->random_eye();
@@ -122,7 +122,7 @@ TEST_CASE("the unculled mesh covers the field once, edge to edge, from any eye a
 TEST_CASE("the printed propagation leaves corners on other triangles' edges") {
     int with_cracks = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-        Scene scene({65, 65, 1}, Propagation::Printed, seed);
+        Scene scene({65, 65, 1}, RoughnessPropagation::Printed, seed);
         MeshView view;
         view.eye_m = scene.random_eye();
         const GroundMesh mesh = scene.mesher.mesh(view, {4.0, 5.0, FanKind::Partial});
@@ -139,15 +139,15 @@ TEST_CASE("culling drops only triangles that the frustum does not reach, and cha
     std::size_t dropped = 0;
     std::size_t kept = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-        const Propagation propagation =
-            seed % 8 == 0 ? Propagation::Printed : Propagation::CrackFree;
+        const RoughnessPropagation propagation =
+            seed % 8 == 0 ? RoughnessPropagation::Printed : RoughnessPropagation::CrackFree;
         Scene scene(sizes[seed % 4], propagation, seed);
         const MeshView view = camera_view(
             scene.random_eye(),
             scene.numbers.between(0.0, 6.28),
             scene.numbers.between(-1.2, 0.3),
             scene.numbers.between(0.1, 1.6));
-        const Detail detail = scene.random_detail();
+        const QuadtreeDetail detail = scene.random_detail();
         MeshView everywhere;
         everywhere.eye_m = view.eye_m;
         auto all = sample_triangles(scene.mesher.mesh(everywhere, detail), scene.field, view.eye_m);

@@ -29,7 +29,7 @@ ControlSettings with_gain(ControlMethod method, double gain) {
 /// N of each frame at a fixed view with N(C) = `count`.
 template <typename Count>
 std::vector<double> counts(const ControlSettings& settings, double first, int frames, Count count) {
-    DetailState state = starting_at(first, settings);
+    ControlState state = initial_state(first, settings);
     std::vector<double> all;
     for (int frame = 0; frame < frames; ++frame) {
         all.push_back(count(state.resolution));
@@ -52,14 +52,14 @@ double ripple(const ControlSettings& settings) {
 
 TEST_CASE("equation (4) moves C by the missing triangles over a") {
     const ControlSettings settings = with_gain(ControlMethod::Previous, 1.0);
-    const DetailState state = next_state(starting_at(10.0, settings), settings, 15000.0);
+    const ControlState state = next_state(initial_state(10.0, settings), settings, 15000.0);
     CHECK(state.resolution == Approx(15.0));
     CHECK(next_state(state, settings, 23000.0).resolution == Approx(12.0));
 }
 
 TEST_CASE("equation (5) weighs the last five results of (4) with 5, 4, 3, 2, 1") {
     const ControlSettings settings = with_gain(ControlMethod::Damped, 1.0);
-    DetailState state = next_state(starting_at(10.0, settings), settings, 15000.0); // (4): 15
+    ControlState state = next_state(initial_state(10.0, settings), settings, 15000.0); // (4): 15
     CHECK(state.resolution == Approx((5.0 * 15.0 + 10.0 * 10.0) / 15.0));
     const double second = state.resolution + 2.0;
     state = next_state(state, settings, 18000.0);
@@ -72,15 +72,15 @@ TEST_CASE("equation (5) weighs the last five results of (4) with 5, 4, 3, 2, 1")
 
 TEST_CASE("without remembered frames the damped control is the previous one") {
     ControlSettings damped = with_gain(ControlMethod::Damped, 1.7);
-    damped.remembered_frames = 0;
+    damped.averaged_frames = 0;
     damped.dead_band = 0.0;
     const ControlSettings previous = with_gain(ControlMethod::Previous, 1.7);
     CHECK(counts(damped, 5.0, 100, staircase) == counts(previous, 5.0, 100, staircase));
 }
 
 TEST_CASE("the literal reading follows the change of N and knows no target") {
-    ControlSettings settings = with_gain(ControlMethod::Literal, 1.0);
-    DetailState state = next_state(starting_at(16.0, settings), settings, 4000.0);
+    ControlSettings settings = with_gain(ControlMethod::Printed, 1.0);
+    ControlState state = next_state(initial_state(16.0, settings), settings, 4000.0);
     CHECK(state.resolution == Approx(12.0)); // N was 0 before the first frame
     state = next_state(state, settings, 1000.0);
     CHECK(state.resolution == Approx(15.0));
@@ -89,12 +89,12 @@ TEST_CASE("the literal reading follows the change of N and knows no target") {
 
 TEST_CASE("C stays within its limits") {
     for (const ControlMethod method :
-         {ControlMethod::Previous, ControlMethod::Damped, ControlMethod::Literal}) {
+         {ControlMethod::Previous, ControlMethod::Damped, ControlMethod::Printed}) {
         ControlSettings settings = with_gain(method, 1.0);
         settings.max_resolution = 30.0;
-        CHECK(starting_at(100.0, settings).resolution == 30.0);
-        CHECK(starting_at(0.0, settings).resolution == 2.0);
-        DetailState state = starting_at(29.0, settings);
+        CHECK(initial_state(100.0, settings).resolution == 30.0);
+        CHECK(initial_state(0.0, settings).resolution == 2.0);
+        ControlState state = initial_state(29.0, settings);
         for (int frame = 0; frame < 20; ++frame) {
             state = next_state(state, settings, frame % 2 == 0 ? 1e6 : 0.0);
             CHECK(state.resolution >= 2.0);
@@ -105,7 +105,7 @@ TEST_CASE("C stays within its limits") {
 
 TEST_CASE("within the dead band C stays and the past is forgotten") {
     const ControlSettings settings = with_gain(ControlMethod::Damped, 1.0);
-    DetailState state = next_state(starting_at(10.0, settings), settings, 15000.0);
+    ControlState state = next_state(initial_state(10.0, settings), settings, 15000.0);
     const double kept = state.resolution;
     state = next_state(state, settings, 20090.0);
     CHECK(state.resolution == kept);
@@ -168,7 +168,7 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
     settings.target_triangles = 32000.0;
     for (const double exponent : {0.6, 1.0, 1.5, 2.0, 2.6}) {
         INFO("exponent " << exponent);
-        DetailState state = starting_at(16.0, settings);
+        ControlState state = initial_state(16.0, settings);
         double changes = 0.0;
         double last = 0.0;
         int max_meshes = 0;
@@ -188,7 +188,7 @@ TEST_CASE("with its own gain the control meets the target in every frame, howeve
             max_meshes = std::max(max_meshes, meshes);
         }
         CHECK(changes / 280.0 < 0.001 * settings.target_triangles);
-        CHECK(max_meshes <= tuned_meshes);
+        CHECK(max_meshes <= max_tuned_meshes);
         CHECK(state.exponent == Approx(exponent).epsilon(0.25));
     }
 }
@@ -198,7 +198,7 @@ TEST_CASE("with its own gain the control stands still at a view that stands stil
     settings.method = ControlMethod::Tuned;
     settings.target_triangles = target;
     for (const double first : {2.0, 16.0, 500.0}) {
-        DetailState state = starting_at(first, settings);
+        ControlState state = initial_state(first, settings);
         std::vector<double> all;
         for (int frame = 0; frame < 120; ++frame) {
             const auto make = [](double resolution) { return counted(staircase(resolution)); };

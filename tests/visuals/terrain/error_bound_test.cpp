@@ -1,7 +1,7 @@
 #include "models/heights/height_field.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/conformity.h"
-#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -93,14 +93,14 @@ const std::array<test::TestPicture, 8>& pictures() {
 TEST_CASE("no sample in the picture is farther from the mesh than the error asked for, nor are "
           "there cracks") {
     const std::array<GroundTiles, 6> grounds = {
-        ground_of(waves(60.0, 0.45, 1)),
-        ground_of(waves(250.0, 0.6, 2)),
-        ground_of(waves(180.0, 0.75, 3)),
-        ground_of(estuary()),
-        ground_of(mesas()),
-        ground_of(peaks())};
+        make_ground_tiles(waves(60.0, 0.45, 1)),
+        make_ground_tiles(waves(250.0, 0.6, 2)),
+        make_ground_tiles(waves(180.0, 0.75, 3)),
+        make_ground_tiles(estuary()),
+        make_ground_tiles(mesas()),
+        make_ground_tiles(peaks())};
     for (std::size_t g = 0; g < grounds.size(); ++g) {
-        ErrorMesher mesher(grounds[g]);
+        BisectionMesher mesher(grounds[g]);
         ConformityCheck conformity{GroundSamples(grounds[g])};
         for (std::size_t v = 0; v < pictures().size(); ++v) {
             const test::TestPicture& picture = pictures()[v];
@@ -115,7 +115,7 @@ TEST_CASE("no sample in the picture is farther from the mesh than the error aske
                         "ground " << g << ", view " << v << ", " << error_px << " px, geomorphs "
                                   << geomorphs << ", " << found.samples << " samples");
                     CHECK(found.samples > 500);
-                    CHECK(conformity.check(mesh, view).is_whole());
+                    CHECK(conformity.check(mesh, view).is_conforming());
                     CHECK(found.worst_px <= error_px);
                 }
             }
@@ -124,8 +124,8 @@ TEST_CASE("no sample in the picture is farther from the mesh than the error aske
 }
 
 TEST_CASE("a mesh within a budget is as near as it says, and hardly nearer") {
-    const GroundTiles ground = ground_of(waves(250.0, 0.6, 2));
-    ErrorMesher mesher(ground);
+    const GroundTiles ground = make_ground_tiles(waves(250.0, 0.6, 2));
+    BisectionMesher mesher(ground);
     double nearest = 1.0;
     for (const test::TestPicture& picture : pictures()) {
         const GroundMesh mesh = mesher.mesh(picture.view(), {0.01, 3000, true});
@@ -137,8 +137,8 @@ TEST_CASE("a mesh within a budget is as near as it says, and hardly nearer") {
 }
 
 TEST_CASE("the bound in a flat picture costs few triangles beside that on a sphere") {
-    const GroundTiles ground = ground_of(waves(250.0, 0.6, 2));
-    ErrorMesher mesher(ground);
+    const GroundTiles ground = make_ground_tiles(waves(250.0, 0.6, 2));
+    BisectionMesher mesher(ground);
     int flat = 0;
     int sphere = 0;
     for (const test::TestPicture& picture : pictures()) {

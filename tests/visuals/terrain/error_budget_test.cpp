@@ -14,7 +14,7 @@ TEST_CASE("the steps counted by error are those of the meshes, for all grounds a
         const int columns = 20 + static_cast<int>(numbers.next() % 110);
         const int rows = 20 + static_cast<int>(numbers.next() % 110);
         ErrorGround ground(any_field(columns, rows, numbers));
-        ErrorMesher plain(ground.tiles);
+        BisectionMesher plain(ground.tiles);
         for (int k = 0; k < 15; ++k) {
             const MeshView view = any_view(numbers, ground.field);
             const ErrorTarget target{
@@ -46,7 +46,7 @@ TEST_CASE("a mesh within a budget by error does not depend on the meshes before"
         const MeshView view = any_view(numbers, ground.field);
         const ErrorTarget target{
             numbers.coin() ? 0.01 : 3.0, 200 + static_cast<int>(numbers.next() % 20000), true};
-        ErrorMesher fresh(ground.tiles);
+        BisectionMesher fresh(ground.tiles);
         const MeshCopy expected(fresh.mesh(view, target));
         REQUIRE(MeshCopy(ground.mesher.mesh(view, target)) == expected);
         REQUIRE(MeshCopy(ground.mesher.mesh(view, target)) == expected);

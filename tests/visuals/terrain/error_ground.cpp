@@ -12,7 +12,7 @@ namespace octant::visuals::terrain::test {
 namespace {
 
 /// (b - a) x (c - a) in plan.
-double twice_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+double signed_area2(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -53,7 +53,7 @@ double any_error_px(Numbers& numbers) {
 
 std::vector<SampleTriangle> origin_triangles(
     const GroundMesh& mesh, const models::heights::HeightField& field, const glm::dvec3& eye_m) {
-    REQUIRE(mesh.origins.size() == mesh.vertices.size());
+    REQUIRE(mesh.morphs.size() == mesh.vertices.size());
     std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
     for (const std::uint32_t vertex : mesh.indices) {
         used[vertex] = 1;
@@ -62,7 +62,7 @@ std::vector<SampleTriangle> origin_triangles(
     std::vector<std::uint32_t> used_samples;
     bool in_place = true;
     for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-        const VertexOrigin& origin = mesh.origins[k];
+        const VertexMorph& origin = mesh.morphs[k];
         const glm::dvec3 sample_m = field.sample_m(origin.column, origin.row) - eye_m;
         const glm::vec3& drawn_m = mesh.vertices[k].position_m;
         samples.push_back(static_cast<std::uint32_t>(origin.row * field.columns() + origin.column));
@@ -92,14 +92,14 @@ std::vector<double> drawn_heights_m(
         std::array<glm::dvec3, 3> corners{};
         for (std::size_t j = 0; j < 3; ++j) {
             const std::uint32_t vertex = mesh.indices[k + j];
-            const VertexOrigin& origin = mesh.origins[vertex];
+            const VertexMorph& origin = mesh.morphs[vertex];
             corners[j] = {
                 origin.column,
                 origin.row,
                 static_cast<double>(mesh.vertices[vertex].position_m.z) + eye_m.z};
         }
         const auto [a, b, c] = corners;
-        const double whole = twice_area(a, b, c);
+        const double whole = signed_area2(a, b, c);
         const auto least = [](double p, double q, double r) {
             return static_cast<int>(std::min({p, q, r}));
         };
@@ -109,9 +109,9 @@ std::vector<double> drawn_heights_m(
         for (int row = least(a.y, b.y, c.y); row <= most(a.y, b.y, c.y); ++row) {
             for (int column = least(a.x, b.x, c.x); column <= most(a.x, b.x, c.x); ++column) {
                 const glm::dvec3 at(column, row, 0.0);
-                const double of_a = twice_area(at, b, c);
-                const double of_b = twice_area(at, c, a);
-                const double of_c = twice_area(at, a, b);
+                const double of_a = signed_area2(at, b, c);
+                const double of_b = signed_area2(at, c, a);
+                const double of_c = signed_area2(at, a, b);
                 if (std::min({of_a, of_b, of_c}) >= 0.0) {
                     heights_m[static_cast<std::size_t>(row * field.columns() + column)] =
                         (of_a * a.z + of_b * b.z + of_c * c.z) / whole;

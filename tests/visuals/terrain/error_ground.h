@@ -3,7 +3,7 @@
 #include "models/heights/height_field.h"
 #include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <glm/vec3.hpp>
@@ -16,7 +16,7 @@ namespace octant::visuals::terrain::test {
 /// A ground with errors, the field of its stored heights and a mesher.
 struct ErrorGround {
     explicit ErrorGround(const models::heights::HeightField& made)
-        : tiles(ground_of(made))
+        : tiles(make_ground_tiles(made))
         , field(stored_field(tiles))
         , mesher(tiles) {}
 
@@ -24,7 +24,7 @@ struct ErrorGround {
 
     GroundTiles tiles;
     models::heights::HeightField field;
-    ErrorMesher mesher;
+    BisectionMesher mesher;
 };
 
 /// Level, rough or spiky ground of any size.

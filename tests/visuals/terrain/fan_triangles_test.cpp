@@ -5,16 +5,16 @@
 namespace octant::visuals::terrain {
 
 TEST_CASE("the border leaves of a triangle what lies within the field") {
-    const BorderCorner west{{0, 0}, 10.0F, 7};
-    const BorderCorner east{{8, 0}, 50.0F, 8};
-    const BorderCorner north{{8, 8}, 90.0F, 9};
+    const ClipVertex west{{0, 0}, 10.0F, 7};
+    const ClipVertex east{{8, 0}, 50.0F, 8};
+    const ClipVertex north{{8, 8}, 90.0F, 9};
     SECTION("all of it, some of it in four corners, or nothing") {
-        CHECK(within_border({west, east, north}, {8, 8}).triangles() == 1);
-        CHECK(within_border({west, east, north}, {5, 3}).triangles() == 2);
-        CHECK(within_border({east, {{16, 8}, 0.0F, 10}, north}, {8, 8}).triangles() == 0);
+        CHECK(clip_to_border({west, east, north}, {8, 8}).triangles() == 1);
+        CHECK(clip_to_border({west, east, north}, {5, 3}).triangles() == 2);
+        CHECK(clip_to_border({east, {{16, 8}, 0.0F, 10}, north}, {8, 8}).triangles() == 0);
     }
     SECTION("edges are crossed at samples, at their height there") {
-        const BorderPolygon left = within_border({west, east, north}, {6, 8});
+        const ClippedPolygon left = clip_to_border({west, east, north}, {6, 8});
         REQUIRE(left.count == 3);
         CHECK(left.corner[0].vertex == 7);
         CHECK(left.corner[1].at.column == 6);

@@ -75,9 +75,9 @@ TEST_CASE(
             CHECK(smooth.largest_m < max_m(error_px));
             const Moves jumping = moves_of(ground, {error_px, any_triangles, false});
             CHECK(jumping.largest_m > 50.0 * smooth.largest_m);
-            // Without a budget an error below full_room_px moves as many pixels as that one.
+            // Without a budget an error below full_margin_px moves as many pixels as that one.
             const Moves steady = moves_of(ground, {error_px, any_triangles, true});
-            CHECK(steady.largest_m < max_m(std::max(error_px, full_room_px)));
+            CHECK(steady.largest_m < max_m(std::max(error_px, full_margin_px)));
         }
     }
 }
@@ -91,22 +91,22 @@ TEST_CASE("vertices are between the middle of their ends and their samples by th
         view.earth_radius_m = 0.0;
         const GroundMesh mesh = ground.mesher.mesh(view, {any_error_px(numbers), 2000, true});
         for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-            const VertexOrigin& origin = mesh.origins[k];
+            const VertexMorph& origin = mesh.morphs[k];
             REQUIRE((origin.weight >= 0.0F && origin.weight <= 1.0F));
-            if (origin.end_a == k) {
-                CHECK(origin.end_b == k);
+            if (origin.parent_a == k) {
+                CHECK(origin.parent_b == k);
                 CHECK(origin.weight == 1.0F);
                 continue;
             }
-            REQUIRE((origin.end_a < k && origin.end_b < k));
-            const VertexOrigin& a = mesh.origins[origin.end_a];
-            const VertexOrigin& b = mesh.origins[origin.end_b];
+            REQUIRE((origin.parent_a < k && origin.parent_b < k));
+            const VertexMorph& a = mesh.morphs[origin.parent_a];
+            const VertexMorph& b = mesh.morphs[origin.parent_b];
             REQUIRE(a.column + b.column == 2 * origin.column);
             REQUIRE(a.row + b.row == 2 * origin.row);
             const auto z_m = [&](std::size_t vertex) {
                 return static_cast<double>(mesh.vertices[vertex].position_m.z) + view.eye_m.z;
             };
-            const double middle_m = 0.5 * (z_m(origin.end_a) + z_m(origin.end_b));
+            const double middle_m = 0.5 * (z_m(origin.parent_a) + z_m(origin.parent_b));
             const double sample_m =
                 static_cast<double>(ground.field.height_m(origin.column, origin.row));
             const double weight = static_cast<double>(origin.weight);
@@ -122,7 +122,7 @@ TEST_CASE("without geomorphs all vertices are at their samples, with them the me
     ErrorGround ground(rough_field(100, 70, 3));
     const MeshView view = any_view(numbers, ground.field);
     const MeshCopy rigid(ground.mesher.mesh(view, {3.0, any_triangles, false}));
-    CHECK(std::all_of(rigid.origins.begin(), rigid.origins.end(), [](const VertexOrigin& origin) {
+    CHECK(std::all_of(rigid.morphs.begin(), rigid.morphs.end(), [](const VertexMorph& origin) {
         return origin.weight == 1.0F;
     }));
     MeshView whole = view;

@@ -17,7 +17,7 @@ namespace octant::visuals::terrain {
 TEST_CASE("a single peak is an error of its own height for whatever leaves it out") {
     std::vector<float> heights_m(25, 0.0F);
     heights_m[2 * 5 + 1] = 64.0F;
-    const GroundTiles ground = ground_of({5, 5, 30.0, heights_m});
+    const GroundTiles ground = make_ground_tiles({5, 5, 30.0, heights_m});
     const std::uint8_t peak = ground.codes().code_of(64.0F);
     CHECK(ground.error_code(1, NodePart::South, 0, 1) == peak);
     CHECK(ground.error_code(0, NodePart::West, 0, 0) >= peak);
@@ -33,16 +33,16 @@ TEST_CASE("a plane has no errors") {
             heights_m.push_back(static_cast<float>(3 * column - 2 * row));
         }
     }
-    const GroundTiles ground = ground_of({33, 33, 10.0, heights_m});
+    const GroundTiles ground = make_ground_tiles({33, 33, 10.0, heights_m});
     CHECK(ground.error_code(0, NodePart::Centre, 0, 0) == 0);
     CHECK(ground.error_code(4, NodePart::Centre, 7, 9) == 0);
 }
 
 TEST_CASE("the number of threads changes no byte of a ground") {
     const models::heights::HeightField field = rough_field(700, 300);
-    const GroundTiles one = ground_of(field, 1);
+    const GroundTiles one = make_ground_tiles(field, 1);
     for (const int threads : {2, 3}) {
-        const GroundTiles other = ground_of(field, threads);
+        const GroundTiles other = make_ground_tiles(field, threads);
         REQUIRE(other.memory().size() == one.memory().size());
         CHECK(std::memcmp(other.memory().data(), one.memory().data(), one.memory().size()) == 0);
     }
@@ -51,7 +51,7 @@ TEST_CASE("the number of threads changes no byte of a ground") {
 TEST_CASE("ranges contain the samples of their nodes and nothing else") {
     for (const auto& [columns, rows] : {std::pair{5, 5}, {100, 65}, {131, 300}}) {
         const models::heights::HeightField field = rough_field(columns, rows);
-        const GroundTiles ground = ground_of(field);
+        const GroundTiles ground = make_ground_tiles(field);
         for (int level = 0; level <= ground.layout().range_level(); ++level) {
             const GroundLayout::Level& at = ground.layout().level(level);
             for (int y = 0; y < at.rows; ++y) {
@@ -72,8 +72,8 @@ TEST_CASE("ranges contain the samples of their nodes and nothing else") {
                 }
             }
         }
-        CHECK(ground.facts().lowest_m == field.lowest_m());
-        CHECK(ground.facts().highest_m == field.highest_m());
+        CHECK(ground.metadata().lowest_m == field.lowest_m());
+        CHECK(ground.metadata().highest_m == field.highest_m());
     }
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("fractions of a metre are kept to half a unit") {
         heights_m.push_back(1000.0F + 700.0F * std::sin(static_cast<float>(i)));
     }
     const models::heights::HeightField field(20, 20, 5.0, heights_m);
-    const GroundTiles ground = ground_of(field);
+    const GroundTiles ground = make_ground_tiles(field);
     CHECK(ground.shape().height_unit_m == 0x1p-5);
     for (int i = 0; i < 400; ++i) {
         const float off_m = ground.height_m(i % 20, i / 20) - field.height_m(i % 20, i / 20);

@@ -189,7 +189,7 @@ GroundCheck checked_ground(
     for (const SampleTriangle& t : triangles) {
         const long twice = twice_plan_area(t, field);
         check.counter_clockwise = check.counter_clockwise && twice > 0;
-        check.twice_area += twice;
+        check.signed_area2 += twice;
         add_edge(t.a, t.b);
         add_edge(t.b, t.c);
         add_edge(t.c, t.a);
@@ -215,13 +215,13 @@ bool ground_triangles_conform(
     const std::vector<SampleTriangle>& triangles, const models::heights::HeightField& field) {
     const GroundCheck check = checked_ground(triangles, field);
     return check.counter_clockwise && check.unmatched_edges == 0 &&
-           check.twice_area == 2L * (field.columns() - 1) * (field.rows() - 1);
+           check.signed_area2 == 2L * (field.columns() - 1) * (field.rows() - 1);
 }
 
 QuadtreeOptions random_options(Numbers& numbers) {
     return {
-        numbers.coin() ? Roughness::Literal : Roughness::Midpoint,
-        numbers.next() % 4 == 0 ? Propagation::Printed : Propagation::CrackFree,
+        numbers.coin() ? Roughness::Printed : Roughness::Midpoint,
+        numbers.next() % 4 == 0 ? RoughnessPropagation::Printed : RoughnessPropagation::CrackFree,
         numbers.coin() ? 2.0 : 1.6};
 }
 

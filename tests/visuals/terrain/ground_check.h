@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <cstdint>
 #include <utility>
@@ -55,7 +55,7 @@ struct Ground {
     models::heights::HeightField field;
     std::vector<std::uint32_t> colours;
     Quadtree tree;
-    Mesher mesher;
+    QuadtreeMesher mesher;
 };
 
 /// A triangle by the samples at its corners (row * columns + column), the smallest first.
@@ -76,7 +76,7 @@ std::vector<SampleTriangle> sample_triangles(
 
 struct GroundCheck {
     bool counter_clockwise = true; ///< every triangle, seen from above, with an area
-    long twice_area = 0;           ///< sum over the triangles in plan, spacings^2
+    long signed_area2 = 0;           ///< sum over the triangles in plan, spacings^2
     long unmatched_edges = 0;      ///< inside the field, not between exactly two triangles
 };
 

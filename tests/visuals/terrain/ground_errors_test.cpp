@@ -39,8 +39,8 @@ public:
         }
     }
 
-    std::uint8_t code(int x, int y, Room room) const {
-        return codes_[static_cast<std::size_t>(room)][index(x, y)];
+    std::uint8_t code(int x, int y, MorphMargin morph_margin) const {
+        return codes_[static_cast<std::size_t>(morph_margin)][index(x, y)];
     }
 
     /// The largest deviation of samples from the triangles whose longest edge a sample halves;
@@ -98,16 +98,16 @@ private:
                 const bool odd_y = is_odd(y, half);
                 if ((odd_x || odd_y) && (odd_x && odd_y) == centres) {
                     const double own_m = own({x, y}, half, Look::AsBuilt) + unseen({x, y}, half);
-                    const std::uint8_t below = largest_below({x, y}, half, centres, Room::Full);
-                    codes_[0][index(x, y)] = std::max(coded(own_m), with_room({x, y}, half, below));
+                    const std::uint8_t below = largest_below({x, y}, half, centres, MorphMargin::Full);
+                    codes_[0][index(x, y)] = std::max(coded(own_m), with_margin({x, y}, half, below));
                     codes_[1][index(x, y)] =
-                        std::max(coded(own_m), largest_below({x, y}, half, centres, Room::None));
+                        std::max(coded(own_m), largest_below({x, y}, half, centres, MorphMargin::None));
                 }
             }
         }
     }
 
-    std::uint8_t largest_below(Point at, int half, bool centre, Room room) const {
+    std::uint8_t largest_below(Point at, int half, bool centre, MorphMargin morph_margin) const {
         static constexpr std::array<Point, 4> straight = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
         static constexpr std::array<Point, 4> aslant = {{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
         const int step = centre ? half : half / 2;
@@ -116,13 +116,13 @@ private:
             const int x = at.x + way.x * step;
             const int y = at.y + way.y * step;
             if (step > 0 && padded(x, y) && (centre || has_area(x, y, step))) {
-                largest = std::max(largest, code(x, y, room));
+                largest = std::max(largest, code(x, y, morph_margin));
             }
         }
         return largest;
     }
 
-    std::uint8_t with_room(Point at, int half, std::uint8_t below) const {
+    std::uint8_t with_margin(Point at, int half, std::uint8_t below) const {
         const Point end = end_of(at, half);
         const double ends_m =
             height({at.x + end.x, at.y + end.y}) + height({at.x - end.x, at.y - end.y});
@@ -153,7 +153,7 @@ private:
             for (int x = min_x; x < end_x; x += stride) {
                 const Point centre{x + stride / 2, y + stride / 2};
                 if (padded(centre.x, centre.y) && has_area(centre.x, centre.y, stride / 2)) {
-                    largest = std::max(largest, code(centre.x, centre.y, Room::None));
+                    largest = std::max(largest, code(centre.x, centre.y, MorphMargin::None));
                 }
             }
         }
@@ -211,8 +211,8 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
             for (int x = 0; x <= at.columns; ++x) {
                 const Point corner{x * at.edge, y * at.edge};
                 const auto check_part = [&](NodePart part, Point sample) {
-                    for (const Room room : {Room::Full, Room::None}) {
-                        check(ground.error_code(level, part, x, y, room), room, sample, half);
+                    for (const MorphMargin morph_margin : {MorphMargin::Full, MorphMargin::None}) {
+                        check(ground.error_code(level, part, x, y, morph_margin), morph_margin, sample, half);
                     }
                 };
                 if (x < at.columns) {
@@ -231,23 +231,23 @@ void for_each_error(const GroundTiles& ground, const Check& check) {
 
 /// Number of samples whose stored error is not that of the definition, rounding aside.
 int wrong_errors(const models::heights::HeightField& field) {
-    const GroundTiles ground = ground_of(field);
+    const GroundTiles ground = make_ground_tiles(field);
     const PlainErrors least(field, ground.codes(), 1.0 - 1e-6);
     const PlainErrors most(field, ground.codes(), 1.0 + 1e-6);
     int wrong = 0;
-    for_each_error(ground, [&](std::uint8_t code, Room room, Point sample, int /*half*/) {
-        wrong += code < least.code(sample.x, sample.y, room) ||
-                 code > most.code(sample.x, sample.y, room);
+    for_each_error(ground, [&](std::uint8_t code, MorphMargin morph_margin, Point sample, int /*half*/) {
+        wrong += code < least.code(sample.x, sample.y, morph_margin) ||
+                 code > most.code(sample.x, sample.y, morph_margin);
     });
     return wrong;
 }
 
 /// Number of samples with an error below the distance of some sample, whichever.
 int errors_too_small(const models::heights::HeightField& field) {
-    const GroundTiles ground = ground_of(field);
+    const GroundTiles ground = make_ground_tiles(field);
     const PlainErrors plain(field, ground.codes(), 1.0);
     int wrong = 0;
-    for_each_error(ground, [&](std::uint8_t code, Room /*room*/, Point sample, int half) {
+    for_each_error(ground, [&](std::uint8_t code, MorphMargin /*room*/, Point sample, int half) {
         const double own_m = plain.own(sample, half, Look::AtAll);
         wrong += static_cast<double>(ground.codes().metres(code)) < own_m * (1.0 - 1e-6);
     });

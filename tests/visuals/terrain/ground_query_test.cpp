@@ -1,5 +1,5 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/earth_drop.h"
+#include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_surface.h"
 
@@ -32,8 +32,8 @@ double sampled_clearance_m(
             // Both ground and target sink: the line rises by the difference between its chord and
             // the ground's curve.
             const double way_m = share * length_m;
-            const double rise_m = earth_drop_m(way_m * way_m, radius_m) -
-                                  share * earth_drop_m(length_m * length_m, radius_m);
+            const double rise_m = curvature_drop_m(way_m * way_m, radius_m) -
+                                  share * curvature_drop_m(length_m * length_m, radius_m);
             min_m = std::min(min_m, at_m.z + rise_m - *height_m);
         }
     }
@@ -61,29 +61,29 @@ TEST_CASE("height between samples is bilinear, and nothing outside") {
 TEST_CASE("a ridge hides what lies behind it, at the place where the line meets it") {
     const HeightField field = bump_field(9, 4, 4, 3.0F); // a pyramid in the middle
     const GroundSamples ground(field);
-    const SightLine hidden = sight_between(ground, {-3.0, 0.0, 1.0}, {3.0, 0.0, 1.0}, 0.0);
+    const LineOfSight hidden = line_of_sight(ground, {-3.0, 0.0, 1.0}, {3.0, 0.0, 1.0}, 0.0);
     CHECK_FALSE(hidden.visible);
-    REQUIRE(hidden.hidden_at_m);
-    CHECK(hidden.hidden_at_m->x == Approx(-2.0 / 3.0));
-    CHECK(hidden.hidden_at_m->z == Approx(1.0));
+    REQUIRE(hidden.blocked_at_m);
+    CHECK(hidden.blocked_at_m->x == Approx(-2.0 / 3.0));
+    CHECK(hidden.blocked_at_m->z == Approx(1.0));
     CHECK(hidden.clearance_m == Approx(-2.0));
-    CHECK(hidden.lowest_at_m.x == Approx(0.0).margin(1e-9));
-    const SightLine over = sight_between(ground, {-3.0, 0.0, 4.0}, {3.0, 0.0, 4.0}, 0.0);
+    CHECK(hidden.min_clearance_at_m.x == Approx(0.0).margin(1e-9));
+    const LineOfSight over = line_of_sight(ground, {-3.0, 0.0, 4.0}, {3.0, 0.0, 4.0}, 0.0);
     CHECK(over.visible);
     CHECK(over.clearance_m == Approx(1.0));
-    const SightLine beside = sight_between(ground, {-3.0, 2.0, 1.0}, {3.0, 2.0, 1.0}, 0.0);
-    CHECK(beside.visible);
+    const LineOfSight past_wall = line_of_sight(ground, {-3.0, 2.0, 1.0}, {3.0, 2.0, 1.0}, 0.0);
+    CHECK(past_wall.visible);
 }
 
 TEST_CASE("the curved earth rises between two points by the product of their distances over 2 R") {
     const HeightField field = level_field(101, 3);
     const GroundSamples ground(field);
     constexpr double radius_m = 1000.0;
-    const SightLine line = sight_between(ground, {-50.0, 0.0, 2.0}, {50.0, 0.0, 2.0}, radius_m);
+    const LineOfSight line = line_of_sight(ground, {-50.0, 0.0, 2.0}, {50.0, 0.0, 2.0}, radius_m);
     CHECK(line.clearance_m == Approx(2.0 - 50.0 * 50.0 / (2.0 * radius_m)));
-    CHECK(line.lowest_at_m.x == Approx(0.0).margin(1e-6));
+    CHECK(line.min_clearance_at_m.x == Approx(0.0).margin(1e-6));
     CHECK(line.visible);
-    CHECK_FALSE(sight_between(ground, {-50.0, 0.0, 1.0}, {50.0, 0.0, 1.0}, radius_m).visible);
+    CHECK_FALSE(line_of_sight(ground, {-50.0, 0.0, 1.0}, {50.0, 0.0, 1.0}, radius_m).visible);
 }
 
 TEST_CASE("clearances agree with sampling, on flat and curved earths, from inside and outside") {
@@ -101,7 +101,7 @@ TEST_CASE("clearances agree with sampling, on flat and curved earths, from insid
         const glm::dvec3 from_m = point();
         const glm::dvec3 to_m = point();
         const double radius_m = numbers.coin() ? 0.0 : 200.0;
-        const SightLine line = sight_between(ground, from_m, to_m, radius_m);
+        const LineOfSight line = line_of_sight(ground, from_m, to_m, radius_m);
         const double sampled_m = sampled_clearance_m(ground, from_m, to_m, radius_m);
         if (std::isinf(sampled_m)) {
             continue;
@@ -122,10 +122,10 @@ TEST_CASE("a ray meets the ground where nothing before it hides that place") {
         const glm::dvec3 from_m(numbers.between(-25.0, 25.0), numbers.between(-20.0, 20.0), 15.0);
         const glm::dvec3 direction = glm::normalize(glm::dvec3(
             numbers.between(-1.0, 1.0), numbers.between(-1.0, 1.0), numbers.between(-1.0, 0.2)));
-        const auto hit_m = first_ground(ground, from_m, direction, 100.0, 0.0);
+        const auto hit_m = intersect_ground(ground, from_m, direction, 100.0, 0.0);
         if (!hit_m) {
             const glm::dvec3 end_m = from_m + direction * 100.0;
-            CHECK(sight_between(ground, from_m, end_m, 0.0).visible);
+            CHECK(line_of_sight(ground, from_m, end_m, 0.0).visible);
             continue;
         }
         ++hits;
@@ -133,7 +133,7 @@ TEST_CASE("a ray meets the ground where nothing before it hides that place") {
         REQUIRE(ground_m);
         CHECK(hit_m->z == Approx(*ground_m).margin(1e-9));
         if (glm::distance(*hit_m, from_m + direction * glm::distance(*hit_m, from_m)) < 1e-3) {
-            CHECK(sight_between(ground, from_m, *hit_m - direction * 1e-4, 0.0).visible);
+            CHECK(line_of_sight(ground, from_m, *hit_m - direction * 1e-4, 0.0).visible);
         }
     }
     CHECK(hits > 25);
@@ -145,7 +145,7 @@ TEST_CASE("a mesh of all samples is found at every place, with heights between i
     view.eye_m = {1.5, -4.0, 60.0};
     const GroundMesh mesh = ground.mesher.mesh(view, {5.0, 2.0, FanKind::Partial});
     MeshSurface surface;
-    surface.take(mesh, view.eye_m);
+    surface.set_mesh(mesh, view.eye_m);
     for (const auto& vertex : mesh.vertices) {
         const glm::dvec3 at_m = view.eye_m + glm::dvec3(vertex.position_m);
         const auto height_m = surface.height_at(at_m.x, at_m.y);

@@ -2,7 +2,7 @@
 #include "tests/visuals/terrain/error_ground.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/horizon_error.h"
-#include "visuals/terrain/vertex_jump.h"
+#include "visuals/terrain/vertex_popping.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -93,7 +93,7 @@ struct PullOut {
     int last_triangles = 0;
 };
 
-PullOut pull_out(ErrorMesher& mesher, bool geomorphs) {
+PullOut pull_out(BisectionMesher& mesher, bool geomorphs) {
     constexpr double step_deg = 0.2;
     PullOut found;
     double before_px = 0.0;
@@ -124,7 +124,7 @@ TEST_CASE(
         for (const double pitch_deg : {-80.0, -50.0, 42.0, 75.0}) {
             INFO("roll " << roll_deg << ", pitch " << pitch_deg);
             const MeshView view = pitched(pitch_deg, roll_deg);
-            const auto there = turned_to(view, far_band);
+            const auto there = turned_to_band(view, far_band);
             REQUIRE(there);
             CHECK(glm::dot(there->view.ahead, view.ahead) == Approx(std::cos(there->turned_rad)));
             // Looking above the band, 4 degrees below it belong to it.
@@ -147,7 +147,7 @@ TEST_CASE("a view whose border is in the band is widened and not turned") {
     for (const double pitch_deg : {-25.4, -24.0, -22.0, 23.0, 17.0}) {
         INFO("pitch " << pitch_deg);
         const MeshView view = pitched(pitch_deg);
-        const auto there = turned_to(view, far_band);
+        const auto there = turned_to_band(view, far_band);
         REQUIRE(there);
         CHECK(there->turned_rad == 0.0);
         CHECK(there->view.ahead == view.ahead);
@@ -164,55 +164,55 @@ TEST_CASE("a view whose border is in the band is widened and not turned") {
 
 TEST_CASE("a view with the band in the picture is not turned, nor is one without a direction") {
     for (const double pitch_deg : {-20.0, -5.0, 12.0}) {
-        CHECK_FALSE(turned_to(pitched(pitch_deg), far_band));
+        CHECK_FALSE(turned_to_band(pitched(pitch_deg), far_band));
     }
-    CHECK(turned_to(pitched(-23.0), far_band));
-    CHECK_FALSE(turned_to(pitched(-90.0), far_band));
+    CHECK(turned_to_band(pitched(-23.0), far_band));
+    CHECK_FALSE(turned_to_band(pitched(-90.0), far_band));
     MeshView everywhere = pitched(-60.0);
     everywhere.frustum_normals.fill(glm::dvec3(0.0));
-    CHECK_FALSE(turned_to(everywhere, far_band));
+    CHECK_FALSE(turned_to_band(everywhere, far_band));
     MeshView nowhere = pitched(-60.0);
     nowhere.ahead = glm::dvec3(0.0);
-    CHECK_FALSE(turned_to(nowhere, far_band));
+    CHECK_FALSE(turned_to_band(nowhere, far_band));
 }
 
 TEST_CASE("while a view is pulled out of a dive, the error within a budget changes slowly") {
     ErrorGround ground(test::spiky_field(257, 257, 6));
     const PullOut exact = pull_out(ground.mesher, false);
-    const PullOut eased = pull_out(ground.mesher, true);
+    const PullOut raise_to_horizon_error = pull_out(ground.mesher, true);
     INFO(
         "exact: " << exact.first_px << " to " << exact.last_px << ", by at most "
-                  << exact.max_change_px << "; eased: " << eased.first_px << " to "
-                  << eased.last_px << ", by at most " << eased.max_change_px << ", "
-                  << eased.first_triangles << " to " << eased.last_triangles << " triangles");
-    CHECK(eased.max_change_px < 0.5 * exact.max_change_px);
-    CHECK(eased.first_px > exact.first_px);
-    CHECK(eased.max_triangles <= 3000);
-    CHECK(eased.last_triangles >= 2970);
+                  << exact.max_change_px << "; eased: " << raise_to_horizon_error.first_px << " to "
+                  << raise_to_horizon_error.last_px << ", by at most " << raise_to_horizon_error.max_change_px << ", "
+                  << raise_to_horizon_error.first_triangles << " to " << raise_to_horizon_error.last_triangles << " triangles");
+    CHECK(raise_to_horizon_error.max_change_px < 0.5 * exact.max_change_px);
+    CHECK(raise_to_horizon_error.first_px > exact.first_px);
+    CHECK(raise_to_horizon_error.max_triangles <= 3000);
+    CHECK(raise_to_horizon_error.last_triangles >= 2970);
 }
 
 TEST_CASE("where the horizon is in the picture, or the error alone decides, nothing is eased") {
     ErrorGround ground(test::rough_field(129, 129, 3));
     HorizonError horizon(ground.tiles);
     const ErrorTarget budget{0.01, 2000, true};
-    CHECK(horizon.eased(pitched(-10.0), budget) == budget);
-    CHECK(horizon.eased(pitched(-60.0), budget).error_px > 0.01);
+    CHECK(horizon.raise_to_horizon_error(pitched(-10.0), budget) == budget);
+    CHECK(horizon.raise_to_horizon_error(pitched(-60.0), budget).error_px > 0.01);
     const ErrorTarget alone{1.0, any_triangles, true};
-    CHECK(horizon.eased(pitched(-60.0), alone) == alone);
+    CHECK(horizon.raise_to_horizon_error(pitched(-60.0), alone) == alone);
     const ErrorTarget rigid{0.01, 2000, false};
-    CHECK(horizon.eased(pitched(-60.0), rigid) == rigid);
+    CHECK(horizon.raise_to_horizon_error(pitched(-60.0), rigid) == rigid);
 }
 
 TEST_CASE("no vertex jumps by 0.25 pixels when the horizon leaves the picture below a mountain's "
           "height") {
     const ErrorGround ground(field_with_mountain(257));
-    ErrorMesher mesher(ground.tiles);
-    JumpMeter meter;
+    BisectionMesher mesher(ground.tiles);
+    PoppingMeter meter;
     double max_px = 0.0;
     double max_change = 0.0;
     double before_px = 0.0;
     for (double pitch_deg = -26.0; pitch_deg < -17.0; pitch_deg += 0.2) {
-        PictureView picture;
+        PerspectiveView picture;
         picture.eye_m = {0.0, -200.0, 400.0};
         picture.ahead = direction(pitch_deg);
         picture.up = {0.0, -picture.ahead.z, picture.ahead.y};
@@ -220,7 +220,7 @@ TEST_CASE("no vertex jumps by 0.25 pixels when the horizon leaves the picture be
         view.eye_m = picture.eye_m;
         const GroundMesh mesh = mesher.mesh(view, {0.1, 5000, true});
         if (const auto jump = meter.next(mesh, picture)) {
-            max_px = std::max(max_px, jump->jump_px);
+            max_px = std::max(max_px, jump->popping_px);
             max_change = std::max(max_change, std::abs(mesh.error_px - before_px));
         }
         before_px = mesh.error_px;

@@ -38,7 +38,7 @@ TEST_CASE("edge matching finds nothing wrong with meshes of the quadtree") {
             view, {numbers.between(2.0, 20.0), numbers.between(0.0, 5.0), FanKind::Partial});
         const Conformity found = check.check(mesh, view);
         INFO(k << ": " << found.text());
-        REQUIRE(found.is_whole());
+        REQUIRE(found.is_conforming());
     }
 }
 
@@ -61,19 +61,19 @@ TEST_CASE("edge matching sees each fault by its name") {
         Changed changed(whole);
         changed.indices.insert(
             changed.indices.end(), changed.indices.begin() + 30, changed.indices.begin() + 33);
-        CHECK(check.check(changed.mesh(), view).crowded_edges == 3);
+        CHECK(check.check(changed.mesh(), view).overlapping_edges == 3);
     }
     SECTION("a turned triangle") {
         Changed changed(whole);
         std::swap(changed.indices[30], changed.indices[31]);
-        CHECK(check.check(changed.mesh(), view).turned_triangles == 1);
+        CHECK(check.check(changed.mesh(), view).inverted_triangles == 1);
     }
     SECTION("a vertex twice in one place opens the edges there") {
         Changed changed(whole);
         changed.vertices.push_back(changed.vertices[changed.indices[30]]);
         changed.indices[30] = static_cast<std::uint32_t>(changed.vertices.size() - 1);
         const Conformity found = check.check(changed.mesh(), view);
-        CHECK(found.doubled_vertices == 1);
+        CHECK(found.duplicate_vertices == 1);
         CHECK(found.open_edges > 0);
     }
 }
@@ -82,7 +82,7 @@ TEST_CASE("the printed propagation is caught with corners on edges") {
     int caught = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         QuadtreeOptions options;
-        options.propagation = Propagation::Printed;
+        options.propagation = RoughnessPropagation::Printed;
         Ground ground(rough_field(65, 65, seed), options);
         MeshView view;
         view.eye_m = {5.0, 3.0, 2.0};
@@ -90,9 +90,9 @@ TEST_CASE("the printed propagation is caught with corners on edges") {
         const Conformity found = ConformityCheck(GroundSamples(ground.field)).check(mesh, view);
         const GroundCheck other =
             checked_ground(sample_triangles(mesh, ground.field, view.eye_m), ground.field);
-        CHECK(found.is_whole() == (other.unmatched_edges == 0));
-        CHECK((found.corners_on_edges > 0) == (found.open_edges > 0));
-        caught += found.corners_on_edges > 0 ? 1 : 0;
+        CHECK(found.is_conforming() == (other.unmatched_edges == 0));
+        CHECK((found.t_junctions > 0) == (found.open_edges > 0));
+        caught += found.t_junctions > 0 ? 1 : 0;
     }
     CHECK(caught > 3);
 }

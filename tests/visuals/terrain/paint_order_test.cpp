@@ -1,6 +1,6 @@
 #include "tests/visuals/terrain/both_meshes.h"
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
@@ -55,7 +55,7 @@ glm::dvec3 random_eye(Numbers& numbers, const HeightField& field) {
     }
 }
 
-Detail random_detail(Numbers& numbers) {
+QuadtreeDetail random_detail(Numbers& numbers) {
     return {
         numbers.between(2.0, 6.0),
         numbers.between(0.0, 5.0),
@@ -75,8 +75,8 @@ MeshView random_look(Numbers& numbers, const HeightField& field) {
     return view;
 }
 
-GroundMesh random_mesh(Mesher& mesher, const MeshView& view, Numbers& numbers) {
-    const Detail detail = random_detail(numbers);
+GroundMesh random_mesh(QuadtreeMesher& mesher, const MeshView& view, Numbers& numbers) {
+    const QuadtreeDetail detail = random_detail(numbers);
     const TriangleBudget budget{10 + static_cast<int>(numbers.next() % 500), 50.0};
     return numbers.coin() ? mesher.mesh(view, detail) : mesher.mesh_within(view, detail, budget);
 }
@@ -133,7 +133,7 @@ TEST_CASE("front to back is exactly the reverse of back to front") {
         Numbers numbers(seed);
         Ground ground(random_field(sizes[seed % sizes.size()], numbers), random_options(numbers));
         MeshView view = random_look(numbers, ground.field);
-        const Detail detail = random_detail(numbers);
+        const QuadtreeDetail detail = random_detail(numbers);
         auto painted = sample_triangles(ground.mesher.mesh(view, detail), ground.field, view.eye_m);
         view.order = PaintOrder::FrontToBack;
         const GroundMesh mesh = ground.mesher.mesh(view, detail);

@@ -16,8 +16,8 @@ using octant::models::heights::HeightField;
 namespace {
 
 /// Looks straight down from the middle of the field.
-PictureView from_above(double height_m) {
-    PictureView view;
+PerspectiveView from_above(double height_m) {
+    PerspectiveView view;
     view.eye_m = {0.0, 0.0, height_m};
     view.right = {1.0, 0.0, 0.0};
     view.up = {0.0, 1.0, 0.0};
@@ -52,9 +52,9 @@ struct FlatMesh {
 
 TEST_CASE("one sample above a flat mesh errs by its height as seen, all others by nothing") {
     const HeightField field = bump_field(9, 6, 4, 1.0F); // 2 m east of the middle
-    const PictureView view = from_above(101.0);
+    const PerspectiveView view = from_above(101.0);
     const FlatMesh flat(field, view.eye_m);
-    const ProjectedError error = ErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
+    const ProjectedError error = ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
     const double expected_px = 1000.0 * 2.0 / 100.0 - 1000.0 * 2.0 / 101.0;
     CHECK(error.samples == 81);
     CHECK(error.uncovered == 0);
@@ -68,23 +68,23 @@ TEST_CASE("one sample above a flat mesh errs by its height as seen, all others b
 
 TEST_CASE("samples outside the frustum do not count, nor triangles wholly outside") {
     const HeightField field = level_field(9, 9);
-    PictureView view = from_above(100.0);
+    PerspectiveView view = from_above(100.0);
     const FlatMesh flat(field, view.eye_m);
     view.half_width_px = 25.0; // 2.5 m to each side
-    CHECK(ErrorMeter(GroundSamples(field)).measure(flat.mesh, view).samples == 5 * 9);
+    CHECK(ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view).samples == 5 * 9);
     view.near_m = 200.0;
-    const ProjectedError none = ErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
+    const ProjectedError none = ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view);
     CHECK(none.samples == 0);
     CHECK(none.triangles_in_view == 0);
 }
 
 TEST_CASE("a hole in the mesh is counted") {
     const HeightField field = level_field(9, 9);
-    const PictureView view = from_above(100.0);
+    const PerspectiveView view = from_above(100.0);
     const FlatMesh flat(field, view.eye_m);
     GroundMesh half = flat.mesh;
     half.indices = half.indices.first(3);
-    const ProjectedError error = ErrorMeter(GroundSamples(field)).measure(half, view);
+    const ProjectedError error = ProjectedErrorMeter(GroundSamples(field)).measure(half, view);
     CHECK(error.samples == 45);
     CHECK(error.uncovered == 36);
 }
@@ -95,14 +95,14 @@ TEST_CASE(
     MeshView everywhere;
     everywhere.eye_m = {3.0, -7.0, 90.0};
     const GroundMesh fine = ground.mesher.mesh(everywhere, {1000.0, 20.0, FanKind::Partial});
-    PictureView view = from_above(90.0);
+    PerspectiveView view = from_above(90.0);
     view.eye_m = everywhere.eye_m;
-    const ProjectedError error = ErrorMeter(GroundSamples(ground.field)).measure(fine, view);
+    const ProjectedError error = ProjectedErrorMeter(GroundSamples(ground.field)).measure(fine, view);
     CHECK(error.samples == 70 * 131);
     CHECK(error.maximum_px < 1e-3);
     const GroundMesh coarse = ground.mesher.mesh(everywhere, {3.0, 1.0, FanKind::Partial});
-    const ProjectedError one = ErrorMeter(GroundSamples(ground.field), 1).measure(coarse, view);
-    const ProjectedError three = ErrorMeter(GroundSamples(ground.field), 3).measure(coarse, view);
+    const ProjectedError one = ProjectedErrorMeter(GroundSamples(ground.field), 1).measure(coarse, view);
+    const ProjectedError three = ProjectedErrorMeter(GroundSamples(ground.field), 3).measure(coarse, view);
     CHECK(one.samples == 70 * 131);
     CHECK(one.rms_px > 0.01);
     CHECK(one.rms_px == three.rms_px);
@@ -111,14 +111,14 @@ TEST_CASE(
 
 TEST_CASE("on a curved earth samples sink as far as the mesh does") {
     const HeightField field = level_field(9, 9);
-    const PictureView view = from_above(100.0);
+    const PerspectiveView view = from_above(100.0);
     constexpr double radius_m = 50.0;
     FlatMesh flat(field, view.eye_m);
     for (ColourVertex& vertex : flat.vertices) {
         vertex.position_m.z -= 32.0F / (2.0F * 50.0F); // 4 m east and north
     }
     const ProjectedError error =
-        ErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
+        ProjectedErrorMeter(GroundSamples(field)).measure(flat.mesh, view, radius_m);
     double max_px = 0.0;
     for (int column = -4; column <= 4; ++column) {
         for (int row = -4; row <= 4; ++row) {

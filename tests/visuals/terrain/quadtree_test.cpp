@@ -49,18 +49,18 @@ TEST_CASE("only nodes with an area within the field exist") {
 TEST_CASE("a peak in the middle of 5 x 5 samples is half as steep over a side as over a child") {
     const HeightField field = bump_field(5, 2, 2, 1.0F);
     SECTION("mid-point: the root's centre is 1 m off over 4 m, a child's sides 0.5 m over 2 m") {
-        const Quadtree tree(field, {Roughness::Midpoint, Propagation::CrackFree, 2.0});
+        const Quadtree tree(field, {Roughness::Midpoint, RoughnessPropagation::CrackFree, 2.0});
         CHECK(about(tree.roughness(1, 0, 0), 0.25F));
         CHECK(about(tree.roughness(1, 1, 1), 0.25F));
         CHECK(about(tree.roughness(0, 0, 0), 0.25F));
     }
     SECTION("literal: the root's corners are level, a child's differ by 1 m over 2 m") {
-        const Quadtree tree(field, {Roughness::Literal, Propagation::CrackFree, 2.0});
+        const Quadtree tree(field, {Roughness::Printed, RoughnessPropagation::CrackFree, 2.0});
         CHECK(about(tree.roughness(1, 1, 0), 0.5F));
         CHECK(about(tree.roughness(0, 0, 0), share * 0.5F));
     }
     SECTION("printed: the plain maximum reaches the root") {
-        const Quadtree tree(field, {Roughness::Literal, Propagation::Printed, 2.0});
+        const Quadtree tree(field, {Roughness::Printed, RoughnessPropagation::Printed, 2.0});
         CHECK(about(tree.roughness(0, 0, 0), 0.5F));
     }
 }
@@ -78,7 +78,7 @@ TEST_CASE("a rough node roughens the two parents beyond its outer edges, and no 
         CHECK(about(tree.roughness(0, 0, 0), share * share * 0.5F));
     }
     SECTION("printed") {
-        const Quadtree tree(field, {Roughness::Midpoint, Propagation::Printed, 2.0});
+        const Quadtree tree(field, {Roughness::Midpoint, RoughnessPropagation::Printed, 2.0});
         CHECK(about(tree.roughness(1, 0, 0), 0.5F));
         CHECK(tree.roughness(1, 1, 0) == 0.0F);
         CHECK(tree.roughness(1, 0, 1) == 0.0F);
@@ -97,7 +97,7 @@ TEST_CASE("a slope has no mid-point roughness, whatever the field's size") {
         const HeightField field(size, size, 1.0, heights);
         const Quadtree smooth(field);
         CHECK(smooth.roughness(0, 0, 0) < 1e-4F);
-        const Quadtree steep(field, {Roughness::Literal, Propagation::CrackFree, 2.0});
+        const Quadtree steep(field, {Roughness::Printed, RoughnessPropagation::CrackFree, 2.0});
         CHECK(about(steep.roughness(steep.levels() - 1, 0, 0), 5.0F)); // 10 m over 2 m
     }
 }
@@ -130,17 +130,17 @@ TEST_CASE("the height bounds of a node hold its samples") {
 
 TEST_CASE("roughness falls by no more than K towards every parent that a split node needs") {
     const HeightField field = rough_field(70, 45, 9);
-    for (const Roughness roughness : {Roughness::Literal, Roughness::Midpoint}) {
-        const Quadtree tree(field, {roughness, Propagation::CrackFree, 2.0});
+    for (const Roughness roughness : {Roughness::Printed, Roughness::Midpoint}) {
+        const Quadtree tree(field, {roughness, RoughnessPropagation::CrackFree, 2.0});
         for (int level = 1; level < tree.levels(); ++level) {
             for (int row = 0; row < tree.rows(level); ++row) {
                 for (int column = 0; column < tree.columns(level); ++column) {
                     const float needed = share * tree.roughness(level, column, row);
-                    const int beside = column / 2 + (column % 2 == 0 ? -1 : 1);
+                    const int neighbour_column = column / 2 + (column % 2 == 0 ? -1 : 1);
                     const int above = row / 2 + (row % 2 == 0 ? -1 : 1);
                     REQUIRE(tree.roughness(level - 1, column / 2, row / 2) >= needed);
-                    if (beside >= 0 && beside < tree.columns(level - 1)) {
-                        REQUIRE(tree.roughness(level - 1, beside, row / 2) >= needed);
+                    if (neighbour_column >= 0 && neighbour_column < tree.columns(level - 1)) {
+                        REQUIRE(tree.roughness(level - 1, neighbour_column, row / 2) >= needed);
                     }
                     if (above >= 0 && above < tree.rows(level - 1)) {
                         REQUIRE(tree.roughness(level - 1, column / 2, above) >= needed);

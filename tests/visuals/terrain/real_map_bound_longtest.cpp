@@ -1,6 +1,6 @@
 #include "models/heights/height_field_import.h"
 #include "tests/visuals/terrain/pixel_errors.h"
-#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -43,8 +43,8 @@ test::TestPicture picture_on(const models::heights::HeightField& map, const View
 
 /// Checks one map as seen in all views; says how many samples it compared.
 void check_map(const models::heights::HeightField& map) {
-    const GroundTiles ground = ground_of(map);
-    ErrorMesher mesher(ground);
+    const GroundTiles ground = make_ground_tiles(map);
+    BisectionMesher mesher(ground);
     long samples = 0;
     for (std::size_t v = 0; v < views_on_map.size(); ++v) {
         const test::TestPicture picture = picture_on(map, views_on_map[v]);

@@ -1,7 +1,7 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/count_series.h"
+#include "visuals/terrain/count_statistics.h"
 #include "visuals/terrain/detail_controller.h"
-#include "visuals/terrain/settled_resolution.h"
+#include "visuals/terrain/resolution_for_target.h"
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ constexpr double weight = 5.0;
 template <typename Count>
 std::vector<int>
 standing(const ControlSettings& settings, double first, int frames, const Count& count) {
-    DetailState state = starting_at(first, settings);
+    ControlState state = initial_state(first, settings);
     std::vector<int> all;
     for (int frame = 0; frame < frames; ++frame) {
         all.push_back(count(state.resolution));
@@ -44,14 +44,14 @@ void check_rest(int target, double gained, double max_missing, const Count& coun
             settings.loop_gain = gain;
             const std::vector<int> all = standing(settings, first, 100, count);
             INFO("gain " << gain << ", C_0 " << first);
-            CHECK(frames_until_still(all, 10).value_or(100) <= 15);
+            CHECK(frames_until_constant(all, 10).value_or(100) <= 15);
             CHECK(std::abs(all.back() - target) <= max_missing);
         }
     }
 }
 
-Ground ground_of(octant::models::heights::HeightField field) {
-    return Ground(std::move(field), {.roughness = Roughness::Literal});
+Ground make_ground_tiles(octant::models::heights::HeightField field) {
+    return Ground(std::move(field), {.roughness = Roughness::Printed});
 }
 
 MeshView over(double angle) {
@@ -60,17 +60,17 @@ MeshView over(double angle) {
 }
 
 double gained_from(Ground& ground, const MeshView& view, int target) {
-    Detail detail{0.0, weight, FanKind::Partial};
-    detail.resolution = settled_resolution(ground.mesher, view, detail, target, 1000.0);
-    return triangles_gained(ground.mesher, view, detail);
+    QuadtreeDetail detail{0.0, weight, FanKind::Partial};
+    detail.resolution = resolution_for_target(ground.mesher, view, detail, target, 1000.0);
+    return triangle_count_slope(ground.mesher, view, detail);
 }
 
 /// N along a slow arc.
 std::vector<int> along_arc(Ground& ground, const ControlSettings& settings, double first) {
-    DetailState state = starting_at(first, settings);
+    ControlState state = initial_state(first, settings);
     std::vector<int> all;
     for (int frame = 0; frame < 200; ++frame) {
-        const Detail detail{state.resolution, weight, FanKind::Partial};
+        const QuadtreeDetail detail{state.resolution, weight, FanKind::Partial};
         all.push_back(ground.mesher.mesh(over(0.0005 * frame), detail).counters.triangles);
         state = next_state(state, settings, all.back());
     }
@@ -98,7 +98,7 @@ TEST_CASE("at a standing view the damped control rests within 15 frames, whateve
 TEST_CASE("at a standing view the damped control rests within 15 frames over any ground") {
     constexpr int target = 3000;
     for (const bool rugged : {false, true}) {
-        Ground ground = ground_of(rugged ? spiky_field(257, 257, 6) : rough_field(257, 257, 6));
+        Ground ground = make_ground_tiles(rugged ? spiky_field(257, 257, 6) : rough_field(257, 257, 6));
         for (const double angle : {0.0, 3.0}) {
             INFO((rugged ? "rugged" : "gentle") << ", view " << angle);
             const MeshView view = over(angle);
@@ -113,25 +113,25 @@ TEST_CASE("at a standing view the damped control rests within 15 frames over any
 }
 
 TEST_CASE("at a standing view the exact budget rests from the first frame on") {
-    Ground ground = ground_of(rough_field(257, 257, 6));
+    Ground ground = make_ground_tiles(rough_field(257, 257, 6));
     std::vector<int> all;
     for (int frame = 0; frame < 10; ++frame) {
         all.push_back(
             ground.mesher.mesh_within(over(2.0), {0.0, weight, FanKind::Partial}, {3000, 500.0})
                 .counters.triangles);
     }
-    CHECK(frames_until_still(all, 10) == 0);
+    CHECK(frames_until_constant(all, 10) == 0);
 }
 
 TEST_CASE("a view that moves off after it stood is controlled as before") {
     ControlSettings settings;
     settings.triangles_per_resolution = 1000.0;
     const auto count = [](double resolution) { return 50.0 * std::floor(resolution * 20.0); };
-    DetailState state = starting_at(50.0, settings);
+    ControlState state = initial_state(50.0, settings);
     for (int frame = 0; frame < 20; ++frame) {
         state = next_state(state, settings, count(state.resolution), frame > 0);
     }
-    const DetailState rested = state;
+    const ControlState rested = state;
     CHECK(count(rested.resolution) == Approx(20000.0).epsilon(0.005));
     state = next_state(state, settings, 15000.0);
     CHECK(state.resolution == Approx(rested.resolution + 5.0 / 3.0)); // 5 / 15 of 5
@@ -139,16 +139,16 @@ TEST_CASE("a view that moves off after it stood is controlled as before") {
 
 TEST_CASE("where the gain is above 2 the damped control is 100 times as quiet along a path") {
     constexpr int target = 8000;
-    Ground ground = ground_of(rough_field(257, 257, 6));
+    Ground ground = make_ground_tiles(rough_field(257, 257, 6));
     const double gained = gained_from(ground, over(0.05), target);
     for (const double gain : {3.0, 4.0}) {
         ControlSettings settings;
         settings.target_triangles = target;
         settings.triangles_per_resolution = gained / gain;
         settings.method = ControlMethod::Previous;
-        const double previous = change_figures(along_arc(ground, settings, 16.0), 50).mean;
+        const double previous = change_statistics(along_arc(ground, settings, 16.0), 50).mean;
         settings.method = ControlMethod::Damped;
-        const double damped = change_figures(along_arc(ground, settings, 16.0), 50).mean;
+        const double damped = change_statistics(along_arc(ground, settings, 16.0), 50).mean;
         INFO("gain " << gain << ": " << previous << " and " << damped);
         CHECK(previous > 100.0 * damped);
     }
@@ -156,14 +156,14 @@ TEST_CASE("where the gain is above 2 the damped control is 100 times as quiet al
 
 TEST_CASE("figures of a series are those counted by hand") {
     const std::vector<int> all = {100, 110, 104, 104, 107, 100, 100, 100};
-    const ChangeFigures figures = change_figures(all, 1); // dn 10 -6 0 3 -7 0 0
+    const ChangeStatistics figures = change_statistics(all, 1); // dn 10 -6 0 3 -7 0 0
     CHECK(figures.mean == Approx(26.0 / 7.0));
     CHECK(figures.largest == 10);
-    CHECK(figures.alternation == Approx((6.0 + 3.0) / 7.0));
-    CHECK(change_figures(all, 5).largest == 7);
-    CHECK(change_figures(all, 8).mean == 0.0);
-    CHECK(frames_until_still(all, 3) == 5);
-    CHECK_FALSE(frames_until_still(all, 4));
-    CHECK(frames_until_near(all, 100, 0.05, 2) == 2);
-    CHECK_FALSE(frames_until_near(all, 200, 0.05, 1));
+    CHECK(figures.flicker_triangles == Approx((6.0 + 3.0) / 7.0));
+    CHECK(change_statistics(all, 5).largest == 7);
+    CHECK(change_statistics(all, 8).mean == 0.0);
+    CHECK(frames_until_constant(all, 3) == 5);
+    CHECK_FALSE(frames_until_constant(all, 4));
+    CHECK(frames_until_within(all, 100, 0.05, 2) == 2);
+    CHECK_FALSE(frames_until_within(all, 200, 0.05, 1));
 }

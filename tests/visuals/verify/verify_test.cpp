@@ -50,14 +50,14 @@ std::filesystem::path file_of(const std::string& text) {
     return file;
 }
 
-Verdict verdict_of(const std::string& text) {
+VerificationResult verdict_of(const std::string& text) {
     return visuals::verify::verify(read_certificate(file_of(text)));
 }
 
 /// The line and the text of the first false claim; empty if there is none.
 std::string refusal_of(const std::string& text) {
-    const Verdict verdict = verdict_of(text);
-    return verdict.refused ? fmt::format("{}: {}", verdict.refused->line, verdict.refused->what)
+    const VerificationResult result = verdict_of(text);
+    return result.failure ? fmt::format("{}: {}", result.failure->line, result.failure->what)
                            : "";
 }
 
@@ -74,10 +74,10 @@ std::string error_of(const std::string& text) {
 } // namespace
 
 TEST_CASE("of two squares that face alike the farther one is painted first") {
-    const Verdict verdict = verdict_of(model + "list 0 1\npairs list 0 1 1l\n");
-    CHECK(verdict.proved());
-    CHECK(verdict.pairs == 1);
-    CHECK(verdict.claims.by_polygons == 1);
+    const VerificationResult result = verdict_of(model + "list 0 1\npairs list 0 1 1l\n");
+    CHECK(result.proved());
+    CHECK(result.pairs == 1);
+    CHECK(result.claims.by_polygons == 1);
 }
 
 TEST_CASE("the point from which a certificate measures changes nothing") {
@@ -102,10 +102,10 @@ TEST_CASE("a pair without a proof is refused, one that says so is counted") {
     CHECK(
         refusal_of(model + "list 0 1\n") ==
         "13: expected a proof that polygon 0 hides nothing of polygon 1, got none");
-    const Verdict verdict = verdict_of(model + "list 0 1\nunproved list 0 0 1\n");
-    CHECK_FALSE(verdict.refused);
-    CHECK(verdict.unproved == 1);
-    CHECK_FALSE(verdict.proved());
+    const VerificationResult result = verdict_of(model + "list 0 1\nunproved list 0 0 1\n");
+    CHECK_FALSE(result.failure);
+    CHECK(result.unproved == 1);
+    CHECK_FALSE(result.proved());
 }
 
 TEST_CASE("a polygon that is not painted has to face away") {
@@ -137,11 +137,11 @@ TEST_CASE("a sum of planes decides a pair, and no factor may be altered much") {
                                       "node choice 1 0 0.5 -1.5 list 0 list 1\n"
                                       "pairs node 0 1 1- 1-\n"
                                       "unproved list 1 1 0\nunproved list 2 0 1\n";
-    CHECK_FALSE(verdict_of(cell + "sum list 0 0 1 0 0 0 0.5 1\n").refused);
-    CHECK_FALSE(verdict_of(cell + "sum list 0 0 1 0 0 0 0.4 1\n").refused);
-    CHECK(verdict_of(cell + "sum list 0 0 1 0 0 0 10 1\n").refused);
-    CHECK(verdict_of(cell + "sum list 0 0 1 0 0 1 0.5 1\n").refused);
-    CHECK(verdict_of(cell + "sum list 0 1 0 0 0 0 0.5 1\n").refused);
+    CHECK_FALSE(verdict_of(cell + "sum list 0 0 1 0 0 0 0.5 1\n").failure);
+    CHECK_FALSE(verdict_of(cell + "sum list 0 0 1 0 0 0 0.4 1\n").failure);
+    CHECK(verdict_of(cell + "sum list 0 0 1 0 0 0 10 1\n").failure);
+    CHECK(verdict_of(cell + "sum list 0 0 1 0 0 1 0.5 1\n").failure);
+    CHECK(verdict_of(cell + "sum list 0 1 0 0 0 0 0.5 1\n").failure);
 }
 
 TEST_CASE("a parting decides all pairs across it") {

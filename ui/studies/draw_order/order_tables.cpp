@@ -1,14 +1,14 @@
 #include "ui/studies/draw_order/order_tables.h"
 
-#include "sim/base/dice.h"
+#include "sim/base/random_generator.h"
 #include "ui/base/stopwatch.h"
 #include "ui/settings/settings_text.h"
-#include "ui/world/order_input.h"
+#include "ui/world/order_model.h"
 #include "visuals/draworder/octant_path.h"
 #include "visuals/orderfile/bsp_tree.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_table.h"
-#include "visuals/orderfile/ray_check.h"
+#include "visuals/orderfile/random_ray_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace orderfile = visuals::orderfile;
 namespace {
 
 constexpr std::array methods = {
-    draworder::Method::Paper, draworder::Method::Cells, draworder::Method::Tree};
+    draworder::OrderMethod::Paper, draworder::OrderMethod::Cells, draworder::OrderMethod::Tree};
 constexpr std::size_t tree_method = 2;
 
 using List = std::vector<std::uint32_t>;
@@ -47,7 +47,7 @@ const std::array printed_rows = {
     PrintedRow{"---", {10, 9, 6, 5}, 0, {}}};
 
 /// Polygons of the printed rows counted from 0.
-List from_zero(List list) {
+List zero_based(List list) {
     for (std::uint32_t& polygon : list) {
         --polygon;
     }
@@ -64,7 +64,7 @@ std::string precedences_in_words(const PrintedRow& row) {
     return row.later.empty()
                ? "none"
                : fmt::format(
-                     "P{} before {}", row.first, orderfile::list_in_words(from_zero(row.later)));
+                     "P{} before {}", row.first, orderfile::list_description(zero_based(row.later)));
 }
 
 bool keeps_precedences(const List& list, const PrintedRow& row) {
@@ -89,12 +89,12 @@ constexpr std::array distances = {
     Distances{"0.05 to 1 R", 0.05, 1.0}};
 
 /// Rays from these distances, shared out over angles of the turning parts.
-orderfile::RayCount rays_of(
+orderfile::RayTestCounts ray_count_of(
     const models::polygons::PolygonModel& model,
     const draworder::DrawOrder& order,
     const Distances& range) {
     constexpr std::array angles_rad = {0.0, 0.7, 2.1, 4.4};
-    orderfile::RayCount count;
+    orderfile::RayTestCounts count;
     for (const double angle_rad : angles_rad) {
         count += orderfile::count_wrong_rays(
             model,
@@ -108,7 +108,7 @@ orderfile::RayCount rays_of(
     return count;
 }
 
-std::string percent(const orderfile::RayCount& count) {
+std::string percent(const orderfile::RayTestCounts& count) {
     return fmt::format("{:.3f}", 100.0 * count.wrong_share());
 }
 
@@ -130,7 +130,7 @@ struct FrameCost {
 FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedModel& ordered) {
     constexpr int batches = 401;
     constexpr int eyes = 500;
-    Dice dice(1989);
+    RandomGenerator dice(1989);
     const double radius_m = models::polygons::radius_m(ordered.model);
     std::vector<glm::dvec3> eyes_m;
     for (int i = 0; i < eyes; ++i) {
@@ -168,8 +168,8 @@ FrameCost frame_cost(const orderfile::BspTree& bsp, const draworder::OrderedMode
 
 } // namespace
 
-OrderedInEveryWay order_in_every_way(const std::string& name) {
-    const world::OrderInput input = world::read_order_input(name, "right,up,back");
+OrderedByEachMethod order_by_each_method(const std::string& name) {
+    const world::OrderModel input = world::load_order_model(name, "right,up,back");
     const auto by = [&](std::size_t i, double& build_ms) {
         const base::Stopwatch watch;
         draworder::OrderOptions options;
@@ -187,9 +187,9 @@ OrderedInEveryWay order_in_every_way(const std::string& name) {
 }
 
 report::HtmlTable paper_order_table() {
-    const world::OrderInput input = world::read_order_input("concave", "right,up,back");
+    const world::OrderModel input = world::load_order_model("concave", "right,up,back");
     draworder::OrderOptions options;
-    options.method = draworder::Method::Paper;
+    options.method = draworder::OrderMethod::Paper;
     const auto orders = orderfile::cell_orders(draworder::ordered(input.model, options));
     report::HtmlTable table;
     table.title = "Table 4: painting orders of the paper's example object";
@@ -206,11 +206,11 @@ report::HtmlTable paper_order_table() {
             if (draworder::path_in_file(cell.path, input.axes) != row.octant) {
                 continue;
             }
-            const List printed = from_zero(row.list);
+            const List printed = zero_based(row.list);
             table.rows.push_back(
                 {row.octant,
-                 orderfile::list_in_words(printed),
-                 orderfile::list_in_words(cell.list),
+                 orderfile::list_description(printed),
+                 orderfile::list_description(cell.list),
                  yes_or_no(same_polygons(cell.list, printed)),
                  precedences_in_words(row),
                  yes_or_no(keeps_precedences(cell.list, row)),
@@ -223,7 +223,7 @@ report::HtmlTable paper_order_table() {
     return table;
 }
 
-report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
+report::HtmlTable method_table(std::span<const OrderedByEachMethod> models) {
     report::HtmlTable table;
     table.title = "What each way of ordering needs";
     table.header = {
@@ -238,7 +238,7 @@ report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
         "building, ms",
         "pairs",
         "pairs not certified"};
-    for (const OrderedInEveryWay& model : models) {
+    for (const OrderedByEachMethod& model : models) {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             const draworder::OrderedModel& ordered = model.by_method[i];
             const world::PlaneTests tests = world::plane_tests(ordered);
@@ -255,7 +255,7 @@ report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
                  fmt::format("{:.2f}", tests.mean),
                  fmt::format("{:.1f}", model.build_ms[i]),
                  fmt::format("{}", check.pairs),
-                 fmt::format("{}", check.pairs_open + check.unlisted_open)});
+                 fmt::format("{}", check.pairs_unproved + check.unlisted_unproved)});
         }
     }
     table.note = "paper: 8 octants as printed. cells: octants divided further, for eyes with |x| + "
@@ -265,21 +265,21 @@ report::HtmlTable method_table(std::span<const OrderedInEveryWay> models) {
     return table;
 }
 
-report::HtmlTable wrong_pixel_table(std::span<const OrderedInEveryWay> models) {
+report::HtmlTable wrong_pixel_table(std::span<const OrderedByEachMethod> models) {
     report::HtmlTable table;
     table.title = "Pixels painted wrongly, in percent of the pixels that show the model";
     table.header = {"model", "eyes", "rays", "paper", "cells", "tree", "back faces removed only"};
-    for (const OrderedInEveryWay& model : models) {
+    for (const OrderedByEachMethod& model : models) {
         for (const Distances& range : distances) {
             std::vector<std::string> shares;
             long rays = 0;
             for (const draworder::OrderedModel& ordered : model.by_method) {
-                const auto count = rays_of(ordered.model, ordered.order, range);
+                const auto count = ray_count_of(ordered.model, ordered.order, range);
                 rays = count.hits;
                 shares.push_back(percent(count));
             }
             const models::polygons::PolygonModel& whole = model.by_method[0].model;
-            shares.push_back(percent(rays_of(whole, draworder::file_order(whole), range)));
+            shares.push_back(percent(ray_count_of(whole, draworder::file_order(whole), range)));
             table.rows.push_back({model.name, range.name, fmt::format("{}", rays)});
             table.rows.back().insert(table.rows.back().end(), shares.begin(), shares.end());
         }
@@ -290,7 +290,7 @@ report::HtmlTable wrong_pixel_table(std::span<const OrderedInEveryWay> models) {
     return table;
 }
 
-report::HtmlTable bsp_table(std::span<const OrderedInEveryWay> models) {
+report::HtmlTable bsp_table(std::span<const OrderedByEachMethod> models) {
     report::HtmlTable table;
     table.title = "A BSP tree against the tree of planes over eye space";
     table.header = {
@@ -307,7 +307,7 @@ report::HtmlTable bsp_table(std::span<const OrderedInEveryWay> models) {
         "BSP / lookup",
         "BSP polygons painted",
         "tree polygons listed"};
-    for (const OrderedInEveryWay& model : models) {
+    for (const OrderedByEachMethod& model : models) {
         const draworder::OrderedModel& ordered = model.by_method[tree_method];
         const orderfile::BspTree bsp = orderfile::bsp_tree(model.by_method[0].model);
         const FrameCost cost = frame_cost(bsp, ordered);

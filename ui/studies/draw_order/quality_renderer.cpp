@@ -16,7 +16,7 @@ namespace {
 
 constexpr double white_level = 255.0;
 constexpr double false_change = 16.0; ///< levels
-constexpr std::array moves_px{glm::dvec2(0.0), glm::dvec2(0.5, 0.0), glm::dvec2(0.0, 0.5)};
+constexpr std::array shifts_px{glm::dvec2(0.0), glm::dvec2(0.5, 0.0), glm::dvec2(0.0, 0.5)};
 
 double decibels(double squares, double parts) {
     return squares > 0.0 ? 10.0 * std::log10(white_level * white_level * parts / squares)
@@ -66,16 +66,16 @@ void PictureQuality::add(const PictureQuality& other) {
 
 QualityRenderer::QualityRenderer(const settings::RunSettings& settings)
     : settings_(settings) {
-    for (std::size_t way = 0; way < drawn_ways.size(); ++way) {
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         settings::RunSettings own = settings;
-        own.drawing.renderer = drawn_ways[way].renderer;
-        own.view.samples = drawn_ways[way].samples;
-        renderers_[way] = flight::make_renderer(own);
+        own.drawing.renderer = render_modes[mode].renderer;
+        own.view.samples = render_modes[mode].samples;
+        renderers_[mode] = flight::make_renderer(own);
     }
     info_ = renderers_.back()->info();
 }
 
-std::unique_ptr<scene::Renderer> QualityRenderer::beside(const glm::ivec2& size_px, int) const {
+std::unique_ptr<scene::Renderer> QualityRenderer::sibling(const glm::ivec2& size_px, int) const {
     settings::RunSettings own = settings_;
     own.view.size_px = size_px;
     return std::make_unique<QualityRenderer>(own);
@@ -83,8 +83,8 @@ std::unique_ptr<scene::Renderer> QualityRenderer::beside(const glm::ivec2& size_
 
 void QualityRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
     settings_.view.size_px = size_px;
-    for (std::size_t way = 0; way < drawn_ways.size(); ++way) {
-        renderers_[way]->resize(size_px, drawn_ways[way].samples);
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+        renderers_[mode]->resize(size_px, render_modes[mode].samples);
     }
 }
 
@@ -110,29 +110,29 @@ void QualityRenderer::warm_up() {
 void QualityRenderer::draw(const scene::FramePlan& plan) {
     const glm::ivec2& size_px = settings_.view.size_px;
     for (std::size_t position = 0; position < positions; ++position) {
-        by_gl_[position].draw(*renderers_[gl_one_sample], plan, moves_px[position], size_px);
+        by_gl_[position].draw(*renderers_[gl_one_sample], plan, shifts_px[position], size_px);
         by_raster_[position].draw(
-            *renderers_[raster_one_sample], plan, moves_px[position], size_px);
+            *renderers_[raster_one_sample], plan, shifts_px[position], size_px);
     }
-    for (std::size_t way = 0; way < drawn_ways.size(); ++way) {
-        measure(way, plan);
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+        measure(mode, plan);
     }
     if (!plan.ground_texture) {
         masks_ = visuals::raster::mask_picture(plan, models_, size_px, workers_);
     }
 }
 
-const QualityRenderer::References& QualityRenderer::own_references(std::size_t way) const {
-    return drawn_ways[way].renderer == settings::RendererKind::Gl ? by_gl_ : by_raster_;
+const QualityRenderer::References& QualityRenderer::own_references(std::size_t mode) const {
+    return render_modes[mode].renderer == settings::RendererKind::Gl ? by_gl_ : by_raster_;
 }
 
-void QualityRenderer::measure(std::size_t way, const scene::FramePlan& plan) {
+void QualityRenderer::measure(std::size_t mode, const scene::FramePlan& plan) {
     std::array<scene::Picture, positions> drawn;
     for (std::size_t position = 0; position < positions; ++position) {
-        renderers_[way]->draw(moved(plan, moves_px[position], settings_.view.size_px));
-        renderers_[way]->finish_and_read(drawn[position]);
+        renderers_[mode]->draw(shifted_plan(plan, shifts_px[position], settings_.view.size_px));
+        renderers_[mode]->finish_and_read(drawn[position]);
     }
-    const References& own = own_references(way);
+    const References& own = own_references(mode);
     PictureQuality quality;
     for (std::size_t part = 0; part < own[0].parts(); ++part) {
         const double here = level(drawn[0], part);
@@ -146,8 +146,8 @@ void QualityRenderer::measure(std::size_t way, const scene::FramePlan& plan) {
     for (std::size_t position = 1; position < positions; ++position) {
         quality.false_changes += false_changes(drawn[0], drawn[position], own[0], own[position]);
     }
-    quality_[way].add(quality);
-    pictures_[way] = std::move(drawn[0]);
+    quality_[mode].add(quality);
+    pictures_[mode] = std::move(drawn[0]);
 }
 
 } // namespace octant::ui::studies::draw_order

@@ -15,7 +15,7 @@
 namespace octant::ui::studies::draw_order {
 
 /// A renderer with a number of samples a pixel.
-struct DrawnWay {
+struct RenderMode {
     std::string_view name;
     std::string_view file_part;
     settings::RendererKind renderer;
@@ -23,13 +23,13 @@ struct DrawnWay {
 };
 
 /// Whose pictures are measured, in this order everywhere.
-inline constexpr std::array drawn_ways{
-    DrawnWay{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
-    DrawnWay{"OpenGL, 4 samples", "gl-4", settings::RendererKind::Gl, 4},
-    DrawnWay{"raster, 1 sample", "raster-1", settings::RendererKind::Raster, 1},
-    DrawnWay{"raster, 4 samples", "raster-4", settings::RendererKind::Raster, 4},
-    DrawnWay{"raster, 16 samples", "raster-16", settings::RendererKind::Raster, 16}};
-inline constexpr std::size_t gl_one_sample = 0; ///< indices into drawn_ways
+inline constexpr std::array render_modes{
+    RenderMode{"OpenGL, 1 sample", "gl-1", settings::RendererKind::Gl, 1},
+    RenderMode{"OpenGL, 4 samples", "gl-4", settings::RendererKind::Gl, 4},
+    RenderMode{"raster, 1 sample", "raster-1", settings::RendererKind::Raster, 1},
+    RenderMode{"raster, 4 samples", "raster-4", settings::RendererKind::Raster, 4},
+    RenderMode{"raster, 16 samples", "raster-16", settings::RendererKind::Raster, 16}};
+inline constexpr std::size_t gl_one_sample = 0; ///< indices into render_modes
 inline constexpr std::size_t gl_four_samples = 1;
 inline constexpr std::size_t raster_one_sample = 2;
 inline constexpr std::size_t raster_sixteen_samples = 4;
@@ -58,10 +58,10 @@ public:
     explicit QualityRenderer(const settings::RunSettings& settings);
 
     /// Of all plans drawn so far.
-    const std::array<PictureQuality, drawn_ways.size()>& quality() const { return quality_; }
+    const std::array<PictureQuality, render_modes.size()>& quality() const { return quality_; }
 
     /// Of the last plan.
-    const visuals::scene::Picture& picture(std::size_t way) const { return pictures_[way]; }
+    const visuals::scene::Picture& picture(std::size_t mode) const { return pictures_[mode]; }
 
     /// visuals::raster::mask_picture() of the last plan without a ground texture.
     const visuals::scene::Picture& masks() const { return masks_; }
@@ -69,7 +69,7 @@ public:
     const visuals::scene::RendererInfo& info() const override { return info_; }
 
     std::unique_ptr<visuals::scene::Renderer>
-    beside(const glm::ivec2& size_px, int samples) const override;
+    sibling(const glm::ivec2& size_px, int samples) const override;
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
     void load_ground_texture(const visuals::scene::GroundTexture& texture) override;
@@ -82,14 +82,14 @@ private:
     static constexpr std::size_t positions = 3; ///< in place, half a pixel right, half a pixel down
     using References = std::array<Supersampled, positions>;
 
-    void measure(std::size_t way, const visuals::scene::FramePlan& plan);
-    const References& own_references(std::size_t way) const;
+    void measure(std::size_t mode, const visuals::scene::FramePlan& plan);
+    const References& own_references(std::size_t mode) const;
 
     settings::RunSettings settings_;
     visuals::scene::RendererInfo info_;
-    std::array<std::unique_ptr<visuals::scene::Renderer>, drawn_ways.size()> renderers_;
-    std::array<PictureQuality, drawn_ways.size()> quality_;
-    std::array<visuals::scene::Picture, drawn_ways.size()> pictures_;
+    std::array<std::unique_ptr<visuals::scene::Renderer>, render_modes.size()> renderers_;
+    std::array<PictureQuality, render_modes.size()> quality_;
+    std::array<visuals::scene::Picture, render_modes.size()> pictures_;
     std::vector<visuals::scene::ModelBuffers> models_;
     visuals::raster::Workers workers_{1};
     visuals::scene::Picture masks_;

@@ -11,7 +11,7 @@ namespace octant::ui::studies::draw_order {
 
 namespace scene = visuals::scene;
 using flight::Session;
-using flight::Shows;
+using flight::PictureContent;
 
 namespace {
 
@@ -46,22 +46,22 @@ void RayComparison::add(const RayComparison& other) {
 
 RayComparison compare_with_rays(
     const settings::RunSettings& settings,
-    const flight::ComparedWorlds& worlds,
+    const flight::ComparisonWorlds& worlds,
     int every,
-    const std::function<void(int compared, int frames)>& seen) {
-    const auto [painted, by_depth] = flight::compared_settings(settings);
+    const std::function<void(int compared, int frames)>& on_frame) {
+    const auto [painted, depth_buffered] = flight::comparison_settings(settings);
     auto renderer = std::make_unique<RayRenderer>(settings.view.size_px);
-    auto renderers = std::make_unique<JudgedRenderers>(painted, *renderer);
-    const JudgedRenderers& judged = *renderers;
-    Session reference(by_depth, Shows::PolygonNumbers, std::move(renderer), worlds.by_depth);
-    Session painter(painted, Shows::PolygonNumbers, std::move(renderers), worlds.painted);
+    auto renderers = std::make_unique<RendererComparer>(painted, *renderer);
+    const RendererComparer& comparer = *renderers;
+    Session reference(depth_buffered, PictureContent::PolygonIds, std::move(renderer), worlds.depth_buffered);
+    Session painter(painted, PictureContent::PolygonIds, std::move(renderers), worlds.painted);
     RayComparison sum;
     const int frames = (reference.frames() + every - 1) / every;
     for (int frame = 0; frame < reference.frames(); frame += every) {
         reference.draw(frame);
         painter.draw(frame);
         for (std::size_t i = 0; i < sum.renderers.size(); ++i) {
-            const RayRenderer::Difference& difference = judged.differences()[i];
+            const RayRenderer::Difference& difference = comparer.differences()[i];
             RayComparison::OfRenderer& own = sum.renderers[i];
             if (own.wrong == 0 && !difference.wrong.empty()) {
                 own.first_wrong = text_of(difference.wrong.front(), frame);
@@ -70,7 +70,7 @@ RayComparison compare_with_rays(
             own.wrong += static_cast<long>(difference.wrong.size());
         }
         sum.pixels += static_cast<long>(settings.view.size_px.x) * settings.view.size_px.y;
-        seen(++sum.frames, frames);
+        on_frame(++sum.frames, frames);
     }
     return sum;
 }

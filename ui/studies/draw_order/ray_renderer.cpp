@@ -24,18 +24,18 @@ std::size_t index_of(const glm::ivec2& pixel, const glm::ivec2& size_px) {
            static_cast<std::size_t>(pixel.x);
 }
 
-std::uint32_t number_at(const scene::Picture& picture, std::size_t pixel) {
+std::uint32_t number_radius(const scene::Picture& picture, std::size_t pixel) {
     std::uint32_t number = 0;
     std::memcpy(&number, picture.rgba.data() + 4 * pixel, sizeof number);
     return number & without_alpha;
 }
 
 double distance_to_segment(const glm::dvec2& at, const glm::dvec2& from, const glm::dvec2& to) {
-    const glm::dvec2 way = to - from;
-    const double length2 = glm::dot(way, way);
+    const glm::dvec2 mode = to - from;
+    const double length2 = glm::dot(mode, mode);
     const double share =
-        length2 > 0.0 ? std::clamp(glm::dot(at - from, way) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(at, from + share * way);
+        length2 > 0.0 ? std::clamp(glm::dot(at - from, mode) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(at, from + share * mode);
 }
 
 /// Places within reach of a pixel's middle, itself among them: a square grid.
@@ -94,7 +94,7 @@ RayRenderer::RayRenderer(const glm::ivec2& size_px)
     resize(size_px, 1);
 }
 
-std::unique_ptr<scene::Renderer> RayRenderer::beside(const glm::ivec2& size_px, int) const {
+std::unique_ptr<scene::Renderer> RayRenderer::sibling(const glm::ivec2& size_px, int) const {
     return std::make_unique<RayRenderer>(size_px);
 }
 
@@ -105,7 +105,7 @@ void RayRenderer::resize(const glm::ivec2& size_px, std::optional<int>) {
     const std::size_t pixels =
         static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
     picture_.rgba.assign(4 * pixels, 0);
-    by_w_.assign(pixels, 0.0);
+    inverse_depths_.assign(pixels, 0.0);
 }
 
 void RayRenderer::load_models(std::span<const scene::ModelBuffers> models) {
@@ -126,9 +126,9 @@ void RayRenderer::draw(const scene::FramePlan& plan) {
         }
     }
     std::ranges::fill(picture_.rgba, std::uint8_t{0});
-    std::ranges::fill(by_w_, 0.0);
+    std::ranges::fill(inverse_depths_, 0.0);
     for (const Target& target : targets_) {
-        see(target);
+        draw_target(target);
     }
 }
 
@@ -199,7 +199,7 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
     for (glm::length_t k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
         target.inwards[i] = rows[k] / std::max(glm::length(glm::dvec2(rows[k])), 1e-300);
-        target.by_w += rows[k];
+        target.inverse_depth += rows[k];
         target.max_by_w = std::max(target.max_by_w, 1.0 / std::max(corners[k].z, near_m_));
         target.corners_px[i] = glm::dvec2(corners[k]) / corners[k].z;
     }
@@ -210,17 +210,17 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
     targets_.push_back(target);
 }
 
-void RayRenderer::see(const Target& target) {
+void RayRenderer::draw_target(const Target& target) {
     for (int row = target.least.y; row <= target.most.y; ++row) {
         for (int column = target.least.x; column <= target.most.x; ++column) {
             const glm::dvec3 at(column, row, 1.0);
             if (target.inside_px(at) < 0.0) {
                 continue;
             }
-            const double by_w = glm::dot(target.by_w, at);
+            const double inverse_depth = glm::dot(target.inverse_depth, at);
             const std::size_t pixel = index_of({column, row}, size_px_);
-            if (by_w > by_w_[pixel] && by_w * near_m_ <= 1.0) {
-                by_w_[pixel] = by_w;
+            if (inverse_depth > inverse_depths_[pixel] && inverse_depth * near_m_ <= 1.0) {
+                inverse_depths_[pixel] = inverse_depth;
                 std::memcpy(picture_.rgba.data() + 4 * pixel, &target.number, sizeof target.number);
             }
         }
@@ -228,7 +228,7 @@ void RayRenderer::see(const Target& target) {
 }
 
 std::uint32_t RayRenderer::number_of(const glm::ivec2& pixel) const {
-    return number_at(picture_, index_of(pixel, size_px_));
+    return number_radius(picture_, index_of(pixel, size_px_));
 }
 
 RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, double reach_px) const {
@@ -237,12 +237,12 @@ RayRenderer::Difference RayRenderer::compare(const scene::Picture& picture, doub
     for (int row = 0; row < size_px_.y; ++row) {
         for (int column = 0; column < size_px_.x; ++column) {
             const std::size_t pixel = index_of({column, row}, size_px_);
-            const std::uint32_t number = number_at(picture, pixel);
-            if (number == number_at(picture_, pixel)) {
+            const std::uint32_t number = number_radius(picture, pixel);
+            if (number == number_radius(picture_, pixel)) {
                 continue;
             }
             ++difference.differing;
-            if (const auto fault = fault_at({column, row}, number, reach_px)) {
+            if (const auto fault = wrong_pixel_at({column, row}, number, reach_px)) {
                 difference.wrong.push_back(*fault);
             }
         }
@@ -256,7 +256,7 @@ bool RayRenderer::may_reach(const Target& target, const glm::ivec2& pixel, doubl
 }
 
 std::optional<RayRenderer::WrongPixel>
-RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
+RayRenderer::wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const {
     const glm::dvec2 middle(pixel);
     const glm::dvec3 at(middle, 1.0);
     std::vector<const Target*> others;
@@ -268,9 +268,9 @@ RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reac
         if (target.number != number) {
             others.push_back(&target);
         } else if (target.distance_px(middle) <= reach_px) {
-            const double by_w =
-                glm::dot(target.by_w, at) + reach_px * glm::length(glm::dvec2(target.by_w));
-            shown_by_w = std::max(shown_by_w, std::min(by_w, target.max_by_w));
+            const double inverse_depth =
+                glm::dot(target.inverse_depth, at) + reach_px * glm::length(glm::dvec2(target.inverse_depth));
+            shown_by_w = std::max(shown_by_w, std::min(inverse_depth, target.max_by_w));
         }
     }
     if (shown_by_w < 0.0) {
@@ -278,15 +278,15 @@ RayRenderer::fault_at(const glm::ivec2& pixel, std::uint32_t number, double reac
     }
     const auto hides = [&](const glm::dvec3& place) {
         return std::ranges::any_of(others, [&](const Target* other) {
-            const double by_w = glm::dot(other->by_w, place);
-            return other->inside_px(place) >= 0.0 && by_w * near_m_ <= 1.0 &&
-                   by_w > shown_by_w * (1.0 + nearer_share);
+            const double inverse_depth = glm::dot(other->inverse_depth, place);
+            return other->inside_px(place) >= 0.0 && inverse_depth * near_m_ <= 1.0 &&
+                   inverse_depth > shown_by_w * (1.0 + nearer_share);
         });
     };
     if (!std::ranges::all_of(places_around(pixel, reach_px), hides)) {
         return std::nullopt;
     }
-    const double found_by_w = by_w_[index_of(pixel, size_px_)];
+    const double found_by_w = inverse_depths_[index_of(pixel, size_px_)];
     return WrongPixel{pixel, number, found_by_w / shown_by_w - 1.0};
 }
 

@@ -29,7 +29,7 @@ public:
     const visuals::scene::RendererInfo& info() const override { return info_; }
 
     std::unique_ptr<visuals::scene::Renderer>
-    beside(const glm::ivec2& size_px, int samples) const override;
+    sibling(const glm::ivec2& size_px, int samples) const override;
     void resize(const glm::ivec2& size_px, std::optional<int> samples) override;
     void load_models(std::span<const visuals::scene::ModelBuffers> models) override;
 
@@ -74,7 +74,7 @@ private:
     /// A triangle as rays meet it. Values at a pixel (column, row, 1) are dot products.
     struct Target {
         std::array<glm::dvec3, 3> inwards; ///< how far inside each edge, pixels
-        glm::dvec3 by_w{0.0};              ///< one over the depth along the line of sight, 1/m
+        glm::dvec3 inverse_depth{0.0};              ///< one over the depth along the line of sight, 1/m
         double max_by_w = 0.0;            ///< within the triangle
         std::array<glm::dvec2, 3> corners_px{};
         bool is_placed = false; ///< all corners lie before the near plane: corners_px count
@@ -92,9 +92,9 @@ private:
     void add_ground(const visuals::scene::FramePlan& plan);
     void
     add_aircraft(const visuals::scene::FramePlan& plan, const visuals::scene::AircraftDraw& draw);
-    void see(const Target& target);
+    void draw_target(const Target& target);
     std::optional<WrongPixel>
-    fault_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
+    wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, double reach_px) const;
 
     visuals::scene::RendererInfo info_;
     glm::ivec2 size_px_;
@@ -103,7 +103,7 @@ private:
     double near_m_ = 0.0;
     std::vector<Target> targets_; ///< as the plan names them
     std::uint32_t pieces_ = 0;
-    std::vector<double> by_w_; ///< of what is seen in each pixel; 0: nothing
+    std::vector<double> inverse_depths_; ///< of what is seen in each pixel; 0: nothing
     visuals::scene::Picture picture_;
 };
 

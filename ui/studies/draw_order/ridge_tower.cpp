@@ -30,7 +30,7 @@ bool is_hidden(const world::World& world, const glm::dvec3& eye_m, const glm::dv
     return false;
 }
 
-int changes_of_sight(
+int visibility_changes(
     const world::World& world, const glm::dvec3& eye_m, const std::vector<glm::dvec3>& flight_m) {
     int changes = 0;
     bool hidden = is_hidden(world, eye_m, flight_m.front());
@@ -66,7 +66,7 @@ glm::dvec3 ridge_tower(const world::World& world) {
                 continue;
             }
             eye_m.z = *ground_m + eye_height_m;
-            const int changes = changes_of_sight(world, eye_m, flight_m);
+            const int changes = visibility_changes(world, eye_m, flight_m);
             if (changes > most) {
                 most = changes;
                 best_m = eye_m;

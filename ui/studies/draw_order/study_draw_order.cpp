@@ -59,8 +59,8 @@ report::HtmlTable speed_table(bool quiet) {
         "octant / depth buffer"};
     for (const PaperRow& row : paper_rows) {
         const Race raced = race_alone(row.aircraft, quiet);
-        const auto fps = [&](std::size_t way) {
-            return fmt::format("{:.0f}", 1000.0 / raced.ways[way].median_ms);
+        const auto fps = [&](std::size_t mode) {
+            return fmt::format("{:.0f}", 1000.0 / raced.gl_times[mode].median_ms);
         };
         table.rows.push_back(
             {row.aircraft,
@@ -82,15 +82,15 @@ report::HtmlTable speed_table(bool quiet) {
 
 void study_draw_order(const DrawOrderStudyOptions& options) {
     make_folder(options.out);
-    std::vector<OrderedInEveryWay> models;
+    std::vector<OrderedByEachMethod> models;
     for (const char* name : {"f15", "500md", "concave"}) {
-        base::say(options.quiet, fmt::format("ordering {} by octants, cells and tree", name));
-        models.push_back(order_in_every_way(name));
+        base::print_note(options.quiet, fmt::format("ordering {} by octants, cells and tree", name));
+        models.push_back(order_by_each_method(name));
     }
     std::vector<std::string> files;
     std::vector<report::HtmlTable> tables;
     const auto add = [&](const char* file, report::HtmlTable table) {
-        base::say(options.quiet, fmt::format("{}: {}", file, table.title));
+        base::print_note(options.quiet, fmt::format("{}: {}", file, table.title));
         files.emplace_back(file);
         tables.push_back(std::move(table));
     };
@@ -106,7 +106,7 @@ void study_draw_order(const DrawOrderStudyOptions& options) {
     }
     write_file(options.out / "draw-order.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format("tables: {0}/draw-order.md and one .csv each", options.out.string()));
 }

@@ -1,7 +1,7 @@
 #include "ui/studies/draw_order/study_flights.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
@@ -12,7 +12,7 @@
 #include "ui/report/loaded_recording.h"
 #include "ui/report/plots.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/draw_order/raster_ways.h"
+#include "ui/studies/draw_order/raster_modes.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ namespace scene = visuals::scene;
 namespace {
 
 constexpr int frames_left_out = 10; ///< first frames that the figures leave out
-constexpr std::array drawn_by = {
+constexpr std::array compared_methods = {
     scene::HiddenSurface::Octant,
     scene::HiddenSurface::DepthBuffer,
     scene::HiddenSurface::BackFace};
@@ -60,17 +60,17 @@ constexpr std::array printed_times = {
     PrintedTime{"500md", "pop-up", 730, 27.0, 0, 0},
     PrintedTime{"500md", "turn", 580, 20.5, 0, 0}};
 
-struct Measured {
+struct MeasuredRow {
     std::size_t vertices = 0; ///< of the aircraft
     std::size_t polygons = 0;
     int frames = 0;
-    std::array<double, drawn_by.size()> seconds{};
-    std::array<double, drawn_by.size()> median_ms{};
+    std::array<double, compared_methods.size()> seconds{};
+    std::array<double, compared_methods.size()> median_ms{};
     RasterTimes raster;
 };
 
 settings::RunSettings
-settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSurface method) {
+settings_of(const PrintedTime& row, const FlightStudyOptions& options, scene::HiddenSurface method) {
     settings::RunSettings settings;
     settings.view.size_px = options.settings.view.size_px;
     settings.view.samples = options.settings.view.samples;
@@ -97,47 +97,47 @@ settings_of(const PrintedTime& row, const StudyOptions& options, scene::HiddenSu
 
 /// Flies a row and records it. A stop signal ends the recording in order, and the row is measured
 /// in part or not at all.
-Measured measure(const PrintedTime& row, const StudyOptions& options) {
-    if (base::StopSignals::came()) {
+MeasuredRow measure(const PrintedTime& row, const FlightStudyOptions& options) {
+    if (base::StopSignals::received()) {
         return {};
     }
-    std::array<std::unique_ptr<flight::Session>, drawn_by.size()> sessions;
-    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
-        sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, drawn_by[m]));
+    std::array<std::unique_ptr<flight::Session>, compared_methods.size()> sessions;
+    for (std::size_t m = 0; m < compared_methods.size(); ++m) {
+        sessions[m] = std::make_unique<flight::Session>(settings_of(row, options, compared_methods[m]));
     }
     std::vector<std::unique_ptr<flight::Session>> raster_sessions;
-    for (const RasterWay& way : raster_ways) {
+    for (const RasterMode& mode : raster_modes) {
         raster_sessions.push_back(
-            raster_session(settings_of(row, options, scene::HiddenSurface::Octant), way));
+            raster_session(settings_of(row, options, scene::HiddenSurface::Octant), mode));
     }
     flight::Session& octant = *sessions.front();
     flight::RecordOptions record;
     record.folder = options.out / fmt::format("{}-{}", row.aircraft, row.path);
-    flight::FlightRecorder recorder(record, settings_of(row, options, drawn_by.front()), octant);
-    Measured measured;
+    flight::FlightRecorder recorder(record, settings_of(row, options, compared_methods.front()), octant);
+    MeasuredRow measured;
     const models::polygons::PolygonModel& model = octant.world().scene.models.front()->polygons;
     measured.vertices = model.vertices_m.size();
     measured.polygons = model.polygons.size();
     measured.frames = octant.frames();
-    std::array<std::vector<double>, drawn_by.size()> frame_ms;
+    std::array<std::vector<double>, compared_methods.size()> frame_ms;
     base::Progress progress(
         fmt::format("{} {}", row.aircraft, row.path), measured.frames, options.quiet);
     int frame = 0;
-    for (; frame < measured.frames && !(base::StopSignals::came() && frame > 0); ++frame) {
+    for (; frame < measured.frames && !(base::StopSignals::received() && frame > 0); ++frame) {
         report::FrameRecord octant_record;
-        for (std::size_t turn = 0; turn < drawn_by.size(); ++turn) {
-            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % drawn_by.size();
+        for (std::size_t turn = 0; turn < compared_methods.size(); ++turn) {
+            const std::size_t m = (turn + static_cast<std::size_t>(frame)) % compared_methods.size();
             const report::FrameRecord drawn = sessions[m]->draw(frame);
             frame_ms[m].push_back(drawn.frame_ms);
             if (m == 0) {
                 octant_record = drawn;
             }
         }
-        for (std::size_t turn = 0; turn < raster_ways.size(); ++turn) {
-            const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raster_ways.size();
-            const report::FrameRecord drawn = raster_sessions[way]->draw(frame);
+        for (std::size_t turn = 0; turn < raster_modes.size(); ++turn) {
+            const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raster_modes.size();
+            const report::FrameRecord drawn = raster_sessions[mode]->draw(frame);
             if (frame >= frames_left_out) {
-                measured.raster.add(way, drawn);
+                measured.raster.add(mode, drawn);
             }
         }
         // After all of them, so that no method draws next to the work of recording.
@@ -153,7 +153,7 @@ Measured measure(const PrintedTime& row, const StudyOptions& options) {
         return measured;
     }
     recorder.finish(octant);
-    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
+    for (std::size_t m = 0; m < compared_methods.size(); ++m) {
         frame_ms[m].erase(frame_ms[m].begin(), frame_ms[m].begin() + frames_left_out);
         const double mean_ms = std::accumulate(frame_ms[m].begin(), frame_ms[m].end(), 0.0) /
                                static_cast<double>(frame_ms[m].size());
@@ -173,7 +173,7 @@ std::string fps_text(int frames, double seconds) {
     return fmt::format("{:.0f}", frames / seconds);
 }
 
-report::HtmlTable table_5(const std::vector<Measured>& measured) {
+report::HtmlTable table_5(const std::vector<MeasuredRow>& measured) {
     report::HtmlTable table;
     table.title = "Table 5: the aircraft alone, 100 frames, by OpenGL";
     table.header = {"aircraft", "vertices", "polygons", "paper, s", "ours, s"};
@@ -183,7 +183,7 @@ report::HtmlTable table_5(const std::vector<Measured>& measured) {
     }
     for (std::size_t i = 0; i < table_5_rows; ++i) {
         const PrintedTime& row = printed_times[i];
-        const Measured& m = measured[i];
+        const MeasuredRow& m = measured[i];
         table.rows.push_back(
             {row.aircraft,
              fmt::format("{}", m.vertices),
@@ -202,7 +202,7 @@ report::HtmlTable table_5(const std::vector<Measured>& measured) {
     return table;
 }
 
-report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOptions& options) {
+report::HtmlTable table_6(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
     report::HtmlTable table;
     table.title =
         "Table 6: four paths over a background of 60 polygons, one frame a path sample, by OpenGL";
@@ -215,7 +215,7 @@ report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOpti
     table.header.emplace_back("median: back faces / octant");
     for (std::size_t i = table_5_rows; i < printed_times.size(); ++i) {
         const PrintedTime& row = printed_times[i];
-        const Measured& m = measured[i];
+        const MeasuredRow& m = measured[i];
         std::vector<std::string> cells = {
             row.aircraft,
             row.path,
@@ -245,14 +245,14 @@ report::HtmlTable table_6(const std::vector<Measured>& measured, const StudyOpti
     return table;
 }
 
-report::Plot plot_of(const std::vector<Measured>& measured) {
+report::Plot plot_of(const std::vector<MeasuredRow>& measured) {
     constexpr std::array colours = {"#1f77b4", "#d62728", "#7f7f7f"};
     report::Plot plot;
     plot.title = "Median frame time by flight: 1-2 aircraft alone, 3-6 F-15, 7-10 500MD";
     plot.x_label = "row of the table";
     plot.y_label = "ms";
     plot.y_min = 0.0;
-    for (std::size_t m = 0; m < drawn_by.size(); ++m) {
+    for (std::size_t m = 0; m < compared_methods.size(); ++m) {
         report::PlotSeries series;
         series.name = method_names[m];
         series.colour = colours[m];
@@ -265,7 +265,7 @@ report::Plot plot_of(const std::vector<Measured>& measured) {
     return plot;
 }
 
-report::HtmlTable raster_times(const std::vector<Measured>& measured) {
+report::HtmlTable raster_times(const std::vector<MeasuredRow>& measured) {
     std::vector<std::vector<std::string>> names;
     std::vector<RasterTimes> times;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -275,7 +275,7 @@ report::HtmlTable raster_times(const std::vector<Measured>& measured) {
     return raster_table({"aircraft", "path"}, names, times);
 }
 
-void write_results(const std::vector<Measured>& measured, const StudyOptions& options) {
+void write_results(const std::vector<MeasuredRow>& measured, const FlightStudyOptions& options) {
     const std::array tables = {
         table_5(measured), table_6(measured, options), raster_times(measured)};
     std::string markdown;
@@ -289,7 +289,7 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
     if (const auto svg = report::plot_svg(plot_of(measured))) {
         write_file(options.out / "flights.svg", *svg);
     } else {
-        base::say(options.quiet, "flights.svg not made: gnuplot is not installed");
+        base::print_note(options.quiet, "flights.svg not made: gnuplot is not installed");
     }
     std::vector<report::LoadedRecording> recordings;
     for (const PrintedTime& row : printed_times) {
@@ -298,7 +298,7 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
     }
     write_file(options.out / "report.html", report::html_report(recordings, tables));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format(
             "tables: {0}/flights.md, {0}/table-5.csv, {0}/table-6.csv, {0}/raster.csv; report: "
@@ -308,16 +308,16 @@ void write_results(const std::vector<Measured>& measured, const StudyOptions& op
 
 } // namespace
 
-void study_flights(const StudyOptions& options) {
+void study_flights(const FlightStudyOptions& options) {
     make_folder(options.out);
-    StudyOptions of_row = options;
+    FlightStudyOptions of_row = options;
     of_row.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    std::vector<Measured> measured(printed_times.size());
+    std::vector<MeasuredRow> measured(printed_times.size());
     const base::StopSignals stop_signals;
-    share_out(printed_times.size(), options.jobs, [&](std::size_t row, std::size_t /*worker*/) {
+    parallel_for(printed_times.size(), options.jobs, [&](std::size_t row, std::size_t /*worker*/) {
         measured[row] = measure(printed_times[row], of_row);
     });
-    if (base::StopSignals::came()) {
+    if (base::StopSignals::received()) {
         throw base::StoppedBySignal();
     }
     write_results(measured, options);

@@ -5,9 +5,9 @@
 
 namespace octant::ui::studies::draw_order {
 
-struct StudyOptions : base::StudyOutput {
+struct FlightStudyOptions : base::StudyOutput {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< size, samples and context are taken from it
+        settings::measurement_settings(); ///< size, samples and context are taken from it
     int jobs = 1;                    ///< flights at once; above 1 their times depend on each other
 };
 
@@ -17,6 +17,6 @@ struct StudyOptions : base::StudyOutput {
 /// frame in turn, so that they see the same machine. Prints the tables with the paper's figures
 /// beside and writes them to `out` as CSV, Markdown and plot, with the recordings of the octant
 /// flights and a report. Throws Error.
-void study_flights(const StudyOptions& options);
+void study_flights(const FlightStudyOptions& options);
 
 } // namespace octant::ui::studies::draw_order

@@ -30,7 +30,7 @@ constexpr std::array views = {
     StudiedView{scene::View::Orbit, "orbit"}};
 constexpr StudiedView cockpit{scene::View::Cockpit, "cockpit"};
 
-ComparedFlights flown_by(const HiddenSurfaceStudy& study) {
+ComparisonFlights aircraft_shown_by(const HiddenSurfaceStudyOptions& study) {
     return {
         study.settings,
         study.aircraft.empty() ? std::vector<std::string>{"f15", "500md"}
@@ -40,7 +40,7 @@ ComparedFlights flown_by(const HiddenSurfaceStudy& study) {
         study.quiet};
 }
 
-std::vector<Race> run_races(const HiddenSurfaceStudy& study) {
+std::vector<Race> run_races(const HiddenSurfaceStudyOptions& study) {
     std::vector<Race> races;
     for (const glm::ivec2 size_px : {glm::ivec2(640, 480), glm::ivec2(1280, 720)}) {
         for (const std::string& terrain :
@@ -82,16 +82,16 @@ report::HtmlTable race_table(const std::vector<Race>& races) {
             short_name(r.scene),
             fmt::format("{}", r.aircraft),
             fmt::format("{}x{}", r.width_px, r.height_px)};
-        for (const RacedWay& way : r.ways) {
-            cells.push_back(fmt::format("{:.0f}", 1000.0 / way.median_ms));
+        for (const RaceTimes& mode : r.gl_times) {
+            cells.push_back(fmt::format("{:.0f}", 1000.0 / mode.median_ms));
         }
         cells.push_back(fmt::format("{:.2f}", r.against(1)));
         cells.push_back(fmt::format("{:.2f}", r.against(2)));
-        for (const RacedWay& way : r.ways) {
-            cells.push_back(fmt::format("{:.2f}", way.p99_ms));
+        for (const RaceTimes& mode : r.gl_times) {
+            cells.push_back(fmt::format("{:.2f}", mode.p99_ms));
         }
-        for (const RacedWay& way : r.ways) {
-            cells.push_back(fmt::format("{}", way.draw_calls));
+        for (const RaceTimes& mode : r.gl_times) {
+            cells.push_back(fmt::format("{}", mode.draw_calls));
         }
         table.rows.push_back(std::move(cells));
     }
@@ -121,13 +121,13 @@ cells_of(std::vector<std::string> name, const flight::IdComparison& result) {
     name.push_back(fmt::format("{}", result.unordered));
     name.push_back(fmt::format("{}", result.pixels));
     name.push_back(fmt::format("{}", result.differing));
-    name.push_back(fmt::format("{}", result.apart));
+    name.push_back(fmt::format("{}", result.unmatched));
     name.push_back(fmt::format("{}", result.wrong));
     return name;
 }
 
 report::HtmlTable picture_table(
-    const std::vector<Compared<flight::IdComparison>>& compared, const HiddenSurfaceStudy& study) {
+    const std::vector<NamedResult<flight::IdComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
     report::HtmlTable table;
     table.title = "Polygon numbers: octant order against the depth buffer";
     table.header = {
@@ -143,7 +143,7 @@ report::HtmlTable picture_table(
         "apart",
         "wrong"};
     flight::IdComparison sum;
-    for (const Compared<flight::IdComparison>& run : compared) {
+    for (const NamedResult<flight::IdComparison>& run : compared) {
         table.rows.push_back(cells_of(run.name, run.result));
         sum.frames += run.result.frames;
         sum.frames_with_cuts += run.result.frames_with_cuts;
@@ -151,7 +151,7 @@ report::HtmlTable picture_table(
         sum.unordered += run.result.unordered;
         sum.pixels += run.result.pixels;
         sum.differing += run.result.differing;
-        sum.apart += run.result.apart;
+        sum.unmatched += run.result.unmatched;
         sum.wrong += run.result.wrong;
     }
     table.rows.push_back(cells_of({"all", "", ""}, sum));
@@ -170,20 +170,20 @@ report::HtmlTable picture_table(
     return table;
 }
 
-std::vector<Compared<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudy& study) {
+std::vector<NamedResult<RayComparison>> run_ray_comparisons(const HiddenSurfaceStudyOptions& study) {
     std::vector<StudiedView> all(views.begin(), views.end());
     all.push_back(cockpit);
     return run_comparisons(
-        flown_by(study),
+        aircraft_shown_by(study),
         all,
         [&](const settings::RunSettings& settings,
-            const flight::ComparedWorlds& worlds,
+            const flight::ComparisonWorlds& worlds,
             int every,
-            const auto& seen) {
-            RayComparison result = compare_with_rays(settings, worlds, every, seen);
+            const auto& on_frame) {
+            RayComparison result = compare_with_rays(settings, worlds, every, on_frame);
             for (const RayComparison::OfRenderer& one : result.renderers) {
                 if (one.wrong > 0) {
-                    base::say(
+                    base::print_note(
                         study.quiet,
                         fmt::format("{} wrong pixels, the first: {}", one.wrong, one.first_wrong));
                 }
@@ -193,7 +193,7 @@ std::vector<Compared<RayComparison>> run_ray_comparisons(const HiddenSurfaceStud
 }
 
 report::HtmlTable
-ray_table(const std::vector<Compared<RayComparison>>& compared, const HiddenSurfaceStudy& study) {
+ray_table(const std::vector<NamedResult<RayComparison>>& compared, const HiddenSurfaceStudyOptions& study) {
     report::HtmlTable table;
     table.title = "Polygon numbers: octant order against a ray through each pixel's middle";
     table.header = {
@@ -220,7 +220,7 @@ ray_table(const std::vector<Compared<RayComparison>>& compared, const HiddenSurf
         table.rows.push_back(std::move(cells));
     };
     RayComparison sum;
-    for (const Compared<RayComparison>& run : compared) {
+    for (const NamedResult<RayComparison>& run : compared) {
         add_row(run.name, run.result);
         sum.add(run.result);
     }
@@ -242,7 +242,7 @@ ray_table(const std::vector<Compared<RayComparison>>& compared, const HiddenSurf
 
 } // namespace
 
-bool study_hidden_surface(const HiddenSurfaceStudy& study) {
+bool study_hidden_surface(const HiddenSurfaceStudyOptions& study) {
     world::load_world(study.settings); // says what is wrong with them before there is a folder
     make_folder(study.out);
     std::vector<report::HtmlTable> tables;
@@ -256,7 +256,7 @@ bool study_hidden_surface(const HiddenSurfaceStudy& study) {
     }
     if (study.pictures) {
         const auto compared =
-            run_comparisons(flown_by(study), views, flight::compare_with_depth_buffer);
+            run_comparisons(aircraft_shown_by(study), views, flight::compare_with_depth_buffer);
         for (const auto& run : compared) {
             right = right && run.result.wrong == 0;
         }
@@ -277,7 +277,7 @@ bool study_hidden_surface(const HiddenSurfaceStudy& study) {
     }
     write_file(study.out / "hidden-surface.md", markdown);
     std::fputs((study.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(study.quiet, fmt::format("tables: {}/hidden-surface.md", study.out.string()));
+    base::print_note(study.quiet, fmt::format("tables: {}/hidden-surface.md", study.out.string()));
     return right;
 }
 

@@ -7,9 +7,9 @@
 
 namespace octant::ui::studies::draw_order {
 
-struct HiddenSurfaceStudy : base::StudyOutput {
+struct HiddenSurfaceStudyOptions : base::StudyOutput {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< terrain, triangles and context are taken from it
+        settings::measurement_settings(); ///< terrain, triangles and context are taken from it
     bool race = true;                ///< frames a second of the three ways
     bool pictures = true;            ///< polygon numbers against the depth buffer
     bool rays = true;                ///< polygon numbers against rays
@@ -26,6 +26,6 @@ struct HiddenSurfaceStudy : base::StudyOutput {
 /// behind ridges, and orbit. And the same pictures, and those from the cockpit, by both renderers
 /// against rays. Prints them and writes them to `out` as CSV and Markdown. True when no pixel was
 /// wrong. Throws Error.
-bool study_hidden_surface(const HiddenSurfaceStudy& study);
+bool study_hidden_surface(const HiddenSurfaceStudyOptions& study);
 
 } // namespace octant::ui::studies::draw_order

@@ -1,7 +1,7 @@
 #include "ui/studies/draw_order/study_pictures.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
 #include "ui/report/html_text.h"
@@ -41,7 +41,7 @@ constexpr std::array studied_scenes{
     StudiedScene{"straight", "500md", "background60", scene::View::Chase, "chase"},
     StudiedScene{"turn", "f15", "canyon", scene::View::Chase, "chase", true}};
 
-using Qualities = std::array<PictureQuality, drawn_ways.size()>;
+using Qualities = std::array<PictureQuality, render_modes.size()>;
 
 std::string name_of(const StudiedScene& studied) {
     return fmt::format(
@@ -72,9 +72,9 @@ void write_picture(const scene::Picture& picture, const std::filesystem::path& f
 
 void write_pictures(
     const std::string& name, const QualityRenderer& renderer, const std::filesystem::path& out) {
-    for (std::size_t way = 0; way < drawn_ways.size(); ++way) {
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
         write_picture(
-            renderer.picture(way), out / fmt::format("{}-{}.png", name, drawn_ways[way].file_part));
+            renderer.picture(mode), out / fmt::format("{}-{}.png", name, render_modes[mode].file_part));
     }
     if (renderer.masks().width > 0) {
         write_picture(renderer.masks(), out / fmt::format("{}-masks.png", name));
@@ -85,7 +85,7 @@ Qualities measured(const StudiedScene& studied, const PictureStudyOptions& optio
     const settings::RunSettings settings = settings_of(studied, options);
     auto made = std::make_unique<QualityRenderer>(settings);
     const QualityRenderer& renderer = *made;
-    flight::Session session(settings, flight::Shows::World, std::move(made));
+    flight::Session session(settings, flight::PictureContent::World, std::move(made));
     base::Progress progress(name_of(studied), options.frames, options.quiet);
     for (int i = 0; i < options.frames; ++i) {
         session.draw((2 * i + 1) * session.frames() / (2 * options.frames));
@@ -112,8 +112,8 @@ scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& 
     report::HtmlTable table;
     table.title = "Peak signal to noise against 8 x 8 samples a pixel, dB";
     table.header = {"scene"};
-    for (const DrawnWay& way : drawn_ways) {
-        table.header.emplace_back(way.name);
+    for (const RenderMode& mode : render_modes) {
+        table.header.emplace_back(mode.name);
     }
     table.header.emplace_back("raster 16 over OpenGL 4");
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
@@ -129,11 +129,11 @@ scene_table(const std::vector<Qualities>& of_scenes, const PictureStudyOptions& 
 }
 
 /// Of all scenes without a texture.
-report::HtmlTable way_table(const std::vector<Qualities>& of_scenes) {
+report::HtmlTable mode_table(const std::vector<Qualities>& of_scenes) {
     Qualities sums;
     for (std::size_t i = 0; i < of_scenes.size(); ++i) {
-        for (std::size_t way = 0; way < drawn_ways.size() && !studied_scenes[i].textured; ++way) {
-            sums[way].add(of_scenes[i][way]);
+        for (std::size_t mode = 0; mode < render_modes.size() && !studied_scenes[i].textured; ++mode) {
+            sums[mode].add(of_scenes[i][mode]);
         }
     }
     report::HtmlTable table;
@@ -146,10 +146,10 @@ report::HtmlTable way_table(const std::vector<Qualities>& of_scenes) {
         "pixels that change falsely",
         "against OpenGL 4"};
     const auto of_four = static_cast<double>(sums[gl_four_samples].false_changes);
-    for (std::size_t way = 0; way < drawn_ways.size(); ++way) {
-        const PictureQuality& one = sums[way];
+    for (std::size_t mode = 0; mode < render_modes.size(); ++mode) {
+        const PictureQuality& one = sums[mode];
         table.rows.push_back(
-            {std::string(drawn_ways[way].name),
+            {std::string(render_modes[mode].name),
              fmt::format("{:.1f}", one.db_to_own()),
              fmt::format("{:.1f}", one.db_to_gl()),
              fmt::format("{:.0f}", one.largest_error),
@@ -168,17 +168,17 @@ void study_pictures(const PictureStudyOptions& options) {
     std::vector<Qualities> of_scenes(studied_scenes.size());
     PictureStudyOptions of_scene = options;
     of_scene.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    share_out(of_scenes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    parallel_for(of_scenes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         of_scenes[i] = measured(studied_scenes[i], of_scene);
     });
-    const std::array tables{scene_table(of_scenes, options), way_table(of_scenes)};
+    const std::array tables{scene_table(of_scenes, options), mode_table(of_scenes)};
     const std::string markdown =
         report::markdown_of(tables[0]) + "\n" + report::markdown_of(tables[1]);
     write_file(options.out / "scenes.csv", report::csv_of(tables[0]));
     write_file(options.out / "ways.csv", report::csv_of(tables[1]));
     write_file(options.out / "pictures.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format("tables: {0}/pictures.md; pictures: {0}/*.png", options.out.string()));
 }

@@ -7,7 +7,7 @@ namespace octant::ui::studies::draw_order {
 
 struct PictureStudyOptions : base::StudyOutput {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< size, triangles and context are taken from it
+        settings::measurement_settings(); ///< size, triangles and context are taken from it
     int frames = 4;                  ///< of each scene
     int jobs = 1;                    ///< scenes at once
 };

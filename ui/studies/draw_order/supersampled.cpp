@@ -7,7 +7,7 @@ namespace octant::ui::studies::draw_order {
 namespace scene = visuals::scene;
 
 scene::FramePlan
-moved(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
+shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::ivec2& size_px) {
     scene::FramePlan result = plan;
     const glm::vec2 by(2.0 * by_px / glm::dvec2(size_px));
     for (glm::length_t column = 0; column < 4; ++column) {
@@ -47,8 +47,8 @@ void Supersampled::draw(
     const auto width = static_cast<std::size_t>(size_px.x);
     const auto height = static_cast<std::size_t>(size_px.y);
     sums_.assign(3 * width * height, 0);
-    const scene::FramePlan whole = moved(plan, by_px, size_px);
-    for (int part = 0; part < places; ++part) {
+    const scene::FramePlan whole = shifted_plan(plan, by_px, size_px);
+    for (int part = 0; part < samples_per_pixel; ++part) {
         const glm::ivec2 at(part % side, part / side);
         renderer.draw(part_of(whole, at, side));
         renderer.finish_and_read(picture_);

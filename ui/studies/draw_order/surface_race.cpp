@@ -15,7 +15,7 @@ namespace {
 
 constexpr int warm_up_frames = 20;
 
-RacedWay figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_calls) {
+RaceTimes figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_calls) {
     const report::Statistics times = report::statistics_of_times(frame_ms);
     std::nth_element(
         draw_calls.begin(),
@@ -27,21 +27,21 @@ RacedWay figures_of(const std::vector<double>& frame_ms, std::vector<int> draw_c
 } // namespace
 
 Race race(const settings::RunSettings& settings, int frames, bool quiet) {
-    std::array<std::unique_ptr<flight::Session>, raced_ways.size()> sessions;
-    std::array<std::vector<double>, raced_ways.size()> frame_ms;
-    std::array<std::vector<int>, raced_ways.size()> draw_calls;
-    for (std::size_t way = 0; way < raced_ways.size(); ++way) {
+    std::array<std::unique_ptr<flight::Session>, raced_methods.size()> sessions;
+    std::array<std::vector<double>, raced_methods.size()> frame_ms;
+    std::array<std::vector<int>, raced_methods.size()> draw_calls;
+    for (std::size_t mode = 0; mode < raced_methods.size(); ++mode) {
         settings::RunSettings own = settings;
-        own.surface.hidden_surface = raced_ways[way];
+        own.surface.hidden_surface = raced_methods[mode];
         own.time.frames = frames + warm_up_frames;
         own.drawing.renderer = settings::RendererKind::Gl; // whose depth buffer is a tuned one
-        sessions[way] = std::make_unique<flight::Session>(own);
+        sessions[mode] = std::make_unique<flight::Session>(own);
     }
     std::vector<std::unique_ptr<flight::Session>> raster_sessions;
-    for (const RasterWay& way : raster_ways) {
+    for (const RasterMode& mode : raster_modes) {
         settings::RunSettings own = settings;
         own.time.frames = frames + warm_up_frames;
-        raster_sessions.push_back(raster_session(own, way));
+        raster_sessions.push_back(raster_session(own, mode));
     }
     Race raced;
     raced.scene = settings.path.terrain;
@@ -54,26 +54,26 @@ Race race(const settings::RunSettings& settings, int frames, bool quiet) {
         sessions[0]->frames(),
         quiet);
     for (int frame = 0; frame < sessions[0]->frames(); ++frame) {
-        for (std::size_t turn = 0; turn < raced_ways.size(); ++turn) {
-            const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raced_ways.size();
-            const report::FrameRecord record = sessions[way]->draw(frame);
+        for (std::size_t turn = 0; turn < raced_methods.size(); ++turn) {
+            const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raced_methods.size();
+            const report::FrameRecord record = sessions[mode]->draw(frame);
             if (frame >= warm_up_frames) {
-                frame_ms[way].push_back(record.frame_ms);
-                draw_calls[way].push_back(record.draw_calls);
+                frame_ms[mode].push_back(record.frame_ms);
+                draw_calls[mode].push_back(record.draw_calls);
             }
         }
-        for (std::size_t turn = 0; turn < raster_ways.size(); ++turn) {
-            const std::size_t way = (turn + static_cast<std::size_t>(frame)) % raster_ways.size();
-            const report::FrameRecord record = raster_sessions[way]->draw(frame);
+        for (std::size_t turn = 0; turn < raster_modes.size(); ++turn) {
+            const std::size_t mode = (turn + static_cast<std::size_t>(frame)) % raster_modes.size();
+            const report::FrameRecord record = raster_sessions[mode]->draw(frame);
             if (frame >= warm_up_frames) {
-                raced.raster.add(way, record);
+                raced.raster.add(mode, record);
             }
         }
         progress.show(frame + 1);
     }
     progress.finish();
-    for (std::size_t way = 0; way < raced_ways.size(); ++way) {
-        raced.ways[way] = figures_of(frame_ms[way], draw_calls[way]);
+    for (std::size_t mode = 0; mode < raced_methods.size(); ++mode) {
+        raced.gl_times[mode] = figures_of(frame_ms[mode], draw_calls[mode]);
     }
     raced.frames = static_cast<int>(frame_ms[0].size());
     return raced;

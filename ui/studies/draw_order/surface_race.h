@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
-#include "ui/studies/draw_order/raster_ways.h"
+#include "ui/studies/draw_order/raster_modes.h"
 
 #include <array>
 #include <string>
@@ -10,13 +10,13 @@
 namespace octant::ui::studies::draw_order {
 
 /// The three ways of removing hidden surfaces that are raced, in this order everywhere.
-inline constexpr std::array raced_ways = {
+inline constexpr std::array raced_methods = {
     visuals::scene::HiddenSurface::Octant,
     visuals::scene::HiddenSurface::BackFace,
     visuals::scene::HiddenSurface::DepthBuffer};
 
 /// Frame times of one way.
-struct RacedWay {
+struct RaceTimes {
     double median_ms = 0.0;
     double p99_ms = 0.0;
     int draw_calls = 0; ///< median over the frames
@@ -29,12 +29,12 @@ struct Race {
     int width_px = 0;
     int height_px = 0;
     int frames = 0;
-    std::array<RacedWay, raced_ways.size()> ways; ///< by OpenGL
+    std::array<RaceTimes, raced_methods.size()> gl_times; ///< by OpenGL
     RasterTimes raster;
 
     /// Frames a second of octant order over those of another way, by medians; above 1: octant is
     /// faster.
-    double against(std::size_t way) const { return ways[way].median_ms / ways[0].median_ms; }
+    double against(std::size_t mode) const { return gl_times[mode].median_ms / gl_times[0].median_ms; }
 };
 
 /// Races the three ways over `frames` frames of a run after a warm-up. Throws Error.

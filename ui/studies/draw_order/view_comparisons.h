@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/settings/settings.h"
@@ -28,7 +28,7 @@ struct StudiedView {
 };
 
 /// Flights of which pictures are compared: every path by each aircraft.
-struct ComparedFlights {
+struct ComparisonFlights {
     settings::RunSettings settings; ///< All but path, aircraft and view.
     std::vector<std::string> aircraft;
     int every = 1; ///< Every Nth frame is compared.
@@ -37,7 +37,7 @@ struct ComparedFlights {
 };
 
 template <class Result>
-struct Compared {
+struct NamedResult {
     std::vector<std::string> name; ///< Path, aircraft, view.
     Result result;
 };
@@ -48,9 +48,9 @@ inline std::string short_name(const std::string& given) {
 }
 
 /// How far a flight has come, told by whichever view has compared a picture.
-class ComparedSoFar {
+class ComparisonProgress {
 public:
-    ComparedSoFar(const std::string& what, int pictures, bool quiet)
+    ComparisonProgress(const std::string& what, int pictures, bool quiet)
         : progress_(what, pictures, quiet, "pictures") {}
 
     void add(const char* view) {
@@ -67,20 +67,20 @@ private:
 /// Comparisons of all views of one flight, over worlds that are loaded once.
 template <class Result, class Compare>
 void compare_views(
-    const ComparedFlights& flights,
+    const ComparisonFlights& flights,
     const settings::RunSettings& flown,
     std::span<const StudiedView> studied_views,
     const Compare& compare,
-    std::span<Compared<Result>> compared) {
-    const flight::ComparedWorlds worlds = flight::compared_worlds(flown);
+    std::span<NamedResult<Result>> compared) {
+    const flight::ComparisonWorlds worlds = flight::load_comparison_worlds(flown);
     const auto frames =
-        static_cast<int>(world::picture_times_of(flown, worlds.painted.flight).at_s.size());
+        static_cast<int>(world::picture_times_of(flown, worlds.painted.flight).times_s.size());
     const int pictures = (frames + flights.every - 1) / flights.every;
-    ComparedSoFar told(
+    ComparisonProgress told(
         fmt::format("{} {}", compared.front().name[0], compared.front().name[1]),
         pictures * static_cast<int>(studied_views.size()),
         flights.quiet);
-    share_out(studied_views.size(), flights.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    parallel_for(studied_views.size(), flights.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const StudiedView& view = studied_views[i];
         settings::RunSettings settings = flown;
         settings.view.kind = view.kind;
@@ -96,12 +96,12 @@ void compare_views(
 /// frames, and whom to tell.
 template <class Compare>
 auto run_comparisons(
-    const ComparedFlights& flights,
+    const ComparisonFlights& flights,
     std::span<const StudiedView> studied_views,
     const Compare& compare) {
     using Result =
-        decltype(compare(flights.settings, flight::ComparedWorlds(), 1, [](int, int) {}));
-    std::vector<Compared<Result>> compared;
+        decltype(compare(flights.settings, flight::ComparisonWorlds(), 1, [](int, int) {}));
+    std::vector<NamedResult<Result>> compared;
     for (const char* path : compared_paths) {
         for (const std::string& aircraft : flights.aircraft) {
             settings::RunSettings flown = flights.settings;

@@ -7,7 +7,7 @@
 #include "ui/studies/flicker/flicker_figures.h"
 
 #include "ui/report/plots.h"
-#include "visuals/terrain/count_series.h"
+#include "visuals/terrain/count_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ FlickerFigure figure_3(const FieldRuns& rugged) {
             rugged.name),
         "fans");
     for (const std::size_t weight : {std::size_t{2}, std::size_t{0}}) {
-        const FlickerRun& run = rugged.fixed[weight][previous_way];
+        const FlickerRun& run = rugged.fixed[weight][previous_control];
         plot.series.push_back(series_of(
             fmt::format("c = {:g}", flicker_weights[weight]),
             weight == 0 ? blue : red,
@@ -112,11 +112,11 @@ FlickerFigure figure_5(const FlickerRuns& runs) {
     std::array plots = {
         path_plot(
             fmt::format("Figure 5 (a): previous control, c = 5, {}", runs.gentle.name),
-            runs.gentle.path[previous_way],
+            runs.gentle.path[previous_control],
             blue),
         path_plot(
             fmt::format("Figure 5 (b): previous control, c = 5, {}", runs.rugged.name),
-            runs.rugged.path[previous_way],
+            runs.rugged.path[previous_control],
             red)};
     set_range(plots, largest(plots, 0));
     return figure(
@@ -132,7 +132,7 @@ FlickerFigure figure_6(const FieldRuns& rugged) {
             fmt::format("Figure 6: dn at a fixed view of {}, C + (target - N) / a", rugged.name),
             "dn, triangles"),
         frame_plot("The same with C - (N - N of the frame before) / a", "dn, triangles")};
-    const std::array ways = {previous_way, literal_way};
+    const std::array ways = {previous_control, literal_control};
     for (std::size_t i = 0; i < plots.size(); ++i) {
         for (std::size_t weight = flicker_weights.size(); weight-- > 0;) {
             plots[i].series.push_back(changes_of(
@@ -155,7 +155,7 @@ FlickerFigure figure_6(const FieldRuns& rugged) {
 FlickerFigure figure_8(const FieldRuns& rugged) {
     const report::Plot plot = path_plot(
         fmt::format("Figure 8: previous control, c = 5, {}", rugged.name),
-        rugged.path[previous_way],
+        rugged.path[previous_control],
         red);
     return figure(
         "figure-8.png",
@@ -168,17 +168,17 @@ FlickerFigure figure_9(const FieldRuns& rugged) {
     std::array plots = {
         path_plot(
             fmt::format("Figure 9: damped control, c = 5, {}, scale of figure 8", rugged.name),
-            rugged.path[damped_way],
+            rugged.path[damped_control],
             blue),
-        path_plot("The same, enlarged", rugged.path[damped_way], blue),
-        path_plot("Exact budget, scale as enlarged", rugged.path[exact_way], colours[1]),
+        path_plot("The same, enlarged", rugged.path[damped_control], blue),
+        path_plot("Exact budget, scale as enlarged", rugged.path[exact_control], colours[1]),
         path_plot(
-            "Screen-error mesh (default), scale as enlarged", rugged.path[error_way], colours[1])};
-    const report::Plot before = path_plot("", rugged.path[previous_way], red);
+            "Screen-error mesh (default), scale as enlarged", rugged.path[screen_error_control], colours[1])};
+    const report::Plot before = path_plot("", rugged.path[previous_control], red);
     set_range(std::span(plots).first(1), largest(std::span(&before, 1), 0));
     const auto enlarged = std::span(plots).subspan(1);
     set_range(
-        enlarged, largest(enlarged, first_measured(rugged.path[damped_way].triangles.size())));
+        enlarged, largest(enlarged, first_measured(rugged.path[damped_control].triangles.size())));
     return figure(
         "figure-9.png",
         "dn along the path with the damping. The paper: a small ripple only, level everywhere.",
@@ -193,18 +193,18 @@ FlickerFigure damping(const FlickerRuns& runs) {
     report::PlotSeries mean;
     mean.colour = blue;
     mean.name = "mean |dn|";
-    report::PlotSeries alternation;
-    alternation.colour = red;
-    alternation.name = "alternation";
-    for (std::size_t k = 0; k < runs.memories.size(); ++k) {
-        const auto figures = visuals::terrain::change_figures(
-            runs.memories[k].triangles, first_measured(runs.memories[k].triangles.size()));
-        mean.x.push_back(flicker_memories[k]);
+    report::PlotSeries flicker_triangles;
+    flicker_triangles.colour = red;
+    flicker_triangles.name = "alternation";
+    for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
+        const auto figures = visuals::terrain::change_statistics(
+            runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
+        mean.x.push_back(damping_frame_counts[k]);
         mean.y.push_back(figures.mean);
-        alternation.x.push_back(flicker_memories[k]);
-        alternation.y.push_back(std::max(figures.alternation, 0.1));
+        flicker_triangles.x.push_back(damping_frame_counts[k]);
+        flicker_triangles.y.push_back(std::max(figures.flicker_triangles, 0.1));
     }
-    plot.series = {mean, alternation};
+    plot.series = {mean, flicker_triangles};
     return figure(
         "damping.png",
         "Mean |dn| and alternation over the number r of earlier frames that are averaged, equation "

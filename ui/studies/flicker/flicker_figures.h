@@ -12,11 +12,11 @@
 namespace octant::ui::studies::flicker {
 
 inline constexpr std::array flicker_weights = {1.0, 2.0, 3.0, 5.0}; ///< c of the fixed views
-inline constexpr std::array flicker_memories = {0, 2, 4, 6, 8};     ///< r
+inline constexpr std::array damping_frame_counts = {0, 2, 4, 6, 8};     ///< r
 inline constexpr std::array flicker_gains = {0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 inline constexpr std::array flicker_first = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}; ///< C_0
 
-/// Runs of one field: by way as flicker_ways counts them; those not made are empty.
+/// Runs of one field: by way as triangle_controls counts them; those not made are empty.
 struct FieldRuns {
     std::string name;                           ///< of the field
     std::vector<std::vector<FlickerRun>> fixed; ///< by flicker_weights, by way
@@ -24,14 +24,14 @@ struct FieldRuns {
     std::vector<FlickerRun> path;               ///< by way, c = 5
     std::vector<double> path_gains;             ///< g here and there along the path
     /// Frames until dn = 0 for ever, c = 5: of the settling way by flicker_gains, by flicker_first.
-    std::vector<std::vector<std::optional<int>>> still;
-    std::optional<int> still_exact;
+    std::vector<std::vector<std::optional<int>>> settling_frames;
+    std::optional<int> settling_frames_exact;
 };
 
 struct FlickerRuns {
     FieldRuns gentle;
     FieldRuns rugged;
-    std::vector<FlickerRun> memories; ///< by flicker_memories: damped along the rugged path, c = 5
+    std::vector<FlickerRun> damping_lengths; ///< by damping_frame_counts: damped along the rugged path, c = 5
 };
 
 /// A figure of the paper, or one more.

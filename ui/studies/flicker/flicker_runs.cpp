@@ -44,7 +44,7 @@ bool same(const terrain::MeshView& a, const terrain::MeshView& b) {
 }
 
 /// The way of a control by C; `dead_band` as in ControlSettings.
-FrameMaker controlled(
+CountNextFrame controlled(
     FlickerGround& ground,
     const FlickerSettings& settings,
     terrain::ControlMethod method,
@@ -53,14 +53,14 @@ FrameMaker controlled(
     control.method = method;
     control.target_triangles = settings.target_triangles;
     control.triangles_per_resolution = settings.triangles_per_resolution;
-    control.remembered_frames = settings.remembered_frames;
+    control.averaged_frames = settings.averaged_frames;
     control.dead_band = dead_band;
     control.max_resolution = max_resolution;
-    const terrain::Detail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
+    const terrain::QuadtreeDetail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
     return [&ground,
             control,
             detail,
-            state = terrain::starting_at(settings.first_resolution, control),
+            state = terrain::initial_state(settings.first_resolution, control),
             last_view = std::optional<terrain::MeshView>(),
             last = CountedFrame()](const terrain::MeshView& view) mutable {
         const bool same_view = last_view && same(*last_view, view);
@@ -71,41 +71,41 @@ FrameMaker controlled(
         }
         const terrain::CountedMesh mesh =
             terrain::controlled_mesh(state, control, same_view, [&](double resolution) {
-                terrain::Detail with_resolution = detail;
+                terrain::QuadtreeDetail with_resolution = detail;
                 with_resolution.resolution = resolution;
                 return ground.mesher.count(view, with_resolution);
             });
         last = {mesh.counters.triangles, mesh.counters.fans, mesh.resolution};
-        last.believed_gain = control.method == terrain::ControlMethod::Tuned
+        last.estimated_gain = control.method == terrain::ControlMethod::Tuned
                                  ? state.exponent * mesh.counters.triangles / mesh.resolution
                                  : control.triangles_per_resolution;
         return last;
     };
 }
 
-FrameMaker previous(FlickerGround& ground, const FlickerSettings& settings) {
+CountNextFrame previous(FlickerGround& ground, const FlickerSettings& settings) {
     return controlled(ground, settings, terrain::ControlMethod::Previous, 0.0);
 }
 
-FrameMaker damped_as_printed(FlickerGround& ground, const FlickerSettings& settings) {
+CountNextFrame damped_as_printed(FlickerGround& ground, const FlickerSettings& settings) {
     return controlled(ground, settings, terrain::ControlMethod::Damped, 0.0);
 }
 
-FrameMaker damped(FlickerGround& ground, const FlickerSettings& settings) {
+CountNextFrame damped(FlickerGround& ground, const FlickerSettings& settings) {
     return controlled(
         ground, settings, terrain::ControlMethod::Damped, terrain::ControlSettings().dead_band);
 }
 
-FrameMaker tuned(FlickerGround& ground, const FlickerSettings& settings) {
+CountNextFrame tuned(FlickerGround& ground, const FlickerSettings& settings) {
     return controlled(ground, settings, terrain::ControlMethod::Tuned, 0.0);
 }
 
-FrameMaker literal(FlickerGround& ground, const FlickerSettings& settings) {
-    return controlled(ground, settings, terrain::ControlMethod::Literal, 0.0);
+CountNextFrame literal(FlickerGround& ground, const FlickerSettings& settings) {
+    return controlled(ground, settings, terrain::ControlMethod::Printed, 0.0);
 }
 
-FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
-    const terrain::Detail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
+CountNextFrame exact(FlickerGround& ground, const FlickerSettings& settings) {
+    const terrain::QuadtreeDetail detail{0.0, settings.roughness_weight, terrain::FanKind::Partial};
     const terrain::TriangleBudget budget{settings.target_triangles, max_resolution};
     return [&ground, detail, budget](const terrain::MeshView& view) {
         const terrain::CountedMesh mesh = ground.mesher.count_within(view, detail, budget);
@@ -114,7 +114,7 @@ FrameMaker exact(FlickerGround& ground, const FlickerSettings& settings) {
 }
 
 /// As flights are drawn by default, but for the error below which they leave triangles unused.
-FrameMaker by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
+CountNextFrame by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::ErrorTarget target{
         .error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
     return [&ground, target](const terrain::MeshView& view) {
@@ -123,43 +123,43 @@ FrameMaker by_screen_error(FlickerGround& ground, const FlickerSettings& setting
     };
 }
 
-constexpr std::array all_ways = {
-    FlickerWay{"previous (4)", true, previous},
-    FlickerWay{"damped (5), as printed", true, damped_as_printed},
-    FlickerWay{"damped, dead band", true, damped},
-    FlickerWay{"damped, own gain", true, tuned},
-    FlickerWay{"literal (4)", false, literal},
-    FlickerWay{"exact", true, exact},
-    FlickerWay{"screen error (default)", true, by_screen_error}};
+constexpr std::array all_controls = {
+    TriangleControl{"previous (4)", true, previous},
+    TriangleControl{"damped (5), as printed", true, damped_as_printed},
+    TriangleControl{"damped, dead band", true, damped},
+    TriangleControl{"damped, own gain", true, tuned},
+    TriangleControl{"literal (4)", false, literal},
+    TriangleControl{"exact", true, exact},
+    TriangleControl{"screen error (default)", true, by_screen_error}};
 
 } // namespace
 
 FlickerGround::FlickerGround(models::heights::HeightField made)
     : field(std::move(made))
-    , tree(field, {.roughness = terrain::Roughness::Literal})
+    , tree(field, {.roughness = terrain::Roughness::Printed})
     , colours(
           static_cast<std::size_t>(field.columns()) * static_cast<std::size_t>(field.rows()), 0U)
     , mesher(tree, colours)
-    , tiles(terrain::ground_of(field))
+    , tiles(terrain::make_ground_tiles(field))
     , error_mesher(tiles) {}
 
-std::span<const FlickerWay> flicker_ways() {
-    return all_ways;
+std::span<const TriangleControl> triangle_controls() {
+    return all_controls;
 }
 
 FlickerRun run_along(
-    const FlickerWay& way,
+    const TriangleControl& triangle_control,
     FlickerGround& ground,
     const FlickerSettings& settings,
     std::span<const terrain::MeshView> views) {
     FlickerRun run;
-    const FrameMaker next = way.start(ground, settings);
+    const CountNextFrame next = triangle_control.start(ground, settings);
     for (const terrain::MeshView& view : views) {
         const CountedFrame frame = next(view);
         run.triangles.push_back(frame.triangles);
         run.fans.push_back(frame.fans);
         run.resolution.push_back(frame.resolution);
-        run.believed_gain.push_back(frame.believed_gain);
+        run.estimated_gain.push_back(frame.estimated_gain);
     }
     return run;
 }

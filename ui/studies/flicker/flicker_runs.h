@@ -1,9 +1,9 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "visuals/terrain/error_mesher.h"
+#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/mesher.h"
+#include "visuals/terrain/quadtree_mesher.h"
 
 #include <cstdint>
 #include <functional>
@@ -20,9 +20,9 @@ struct FlickerGround {
     models::heights::HeightField field;
     visuals::terrain::Quadtree tree;
     std::vector<std::uint32_t> colours; ///< nothing is drawn: all the same
-    visuals::terrain::Mesher mesher;
+    visuals::terrain::QuadtreeMesher mesher;
     visuals::terrain::GroundTiles tiles;
-    visuals::terrain::ErrorMesher error_mesher;
+    visuals::terrain::BisectionMesher error_mesher;
 };
 
 /// The paper's letters.
@@ -31,7 +31,7 @@ struct FlickerSettings {
     int target_triangles = 32000;             ///< N_target
     double first_resolution = 16.0;           ///< C_0
     double triangles_per_resolution = 1000.0; ///< a
-    int remembered_frames = 4;                ///< r
+    int averaged_frames = 4;                ///< r
 };
 
 /// What was counted in a frame.
@@ -40,42 +40,42 @@ struct CountedFrame {
     int fans = 0;
     double resolution = 0.0; ///< C; 0 for a way that has none
     /// The N'(C) by which C is changed, triangles for a unit of C; 0 for a way that has none.
-    double believed_gain = 0.0;
+    double estimated_gain = 0.0;
 };
 
 /// Makes the mesh of the next frame.
-using FrameMaker = std::function<CountedFrame(const visuals::terrain::MeshView& view)>;
+using CountNextFrame = std::function<CountedFrame(const visuals::terrain::MeshView& view)>;
 
 /// A way of holding the number of triangles.
-struct FlickerWay {
+struct TriangleControl {
     const char* name;
     bool holds_target;
     /// Begins a run. The ground must outlive it.
-    FrameMaker (*start)(FlickerGround& ground, const FlickerSettings& settings);
+    CountNextFrame (*start)(FlickerGround& ground, const FlickerSettings& settings);
 };
 
-inline constexpr std::size_t previous_way = 0; ///< of flicker_ways
-inline constexpr std::size_t damped_way = 1;
-inline constexpr std::size_t settling_way = 2;
-inline constexpr std::size_t tuned_way = 3;
-inline constexpr std::size_t literal_way = 4;
-inline constexpr std::size_t exact_way = 5;
-inline constexpr std::size_t error_way = 6;
+inline constexpr std::size_t previous_control = 0; ///< of triangle_controls
+inline constexpr std::size_t damped_control = 1;
+inline constexpr std::size_t dead_band_control = 2;
+inline constexpr std::size_t tuned_control = 3;
+inline constexpr std::size_t literal_control = 4;
+inline constexpr std::size_t exact_control = 5;
+inline constexpr std::size_t screen_error_control = 6;
 
 /// Previous, damped as printed, damped with dead band, damped with its own gain, literal and exact,
 /// all with the paper's mesh, and the default mesh: the numbers above.
-std::span<const FlickerWay> flicker_ways();
+std::span<const TriangleControl> triangle_controls();
 
 /// A run: each frame's count.
 struct FlickerRun {
     std::vector<int> triangles;
     std::vector<int> fans;
     std::vector<double> resolution;
-    std::vector<double> believed_gain;
+    std::vector<double> estimated_gain;
 };
 
 FlickerRun run_along(
-    const FlickerWay& way,
+    const TriangleControl& triangle_control,
     FlickerGround& ground,
     const FlickerSettings& settings,
     std::span<const visuals::terrain::MeshView> views);

@@ -1,6 +1,6 @@
 #include "ui/studies/flicker/flicker_tables.h"
 
-#include "visuals/terrain/count_series.h"
+#include "visuals/terrain/count_statistics.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,18 +40,18 @@ report::HtmlTable fixed_table(const FieldRuns& runs, const char* kind) {
         "dn = 0 for ever after, frames",
         "within 0.5 % after, frames"};
     for (std::size_t weight = 0; weight < runs.fixed.size(); ++weight) {
-        for (std::size_t way = 0; way < runs.fixed[weight].size(); ++way) {
-            const FlickerRun& run = runs.fixed[weight][way];
-            const auto changes = terrain::change_figures(
+        for (std::size_t triangle_control = 0; triangle_control < runs.fixed[weight].size(); ++triangle_control) {
+            const FlickerRun& run = runs.fixed[weight][triangle_control];
+            const auto changes = terrain::change_statistics(
                 run.triangles, std::max(run.triangles.size(), last + 1) - last);
             table.rows.push_back(
                 {fmt::format("{:g}", flicker_weights[weight]),
                  fmt::format("{:.2f}", runs.fixed_gains[weight]),
-                 flicker_ways()[way].name,
+                 triangle_controls()[triangle_control].name,
                  fmt::format("{:.0f}", changes.mean),
                  last_two(run.fans),
-                 frames_text(terrain::frames_until_still(run.triangles, 10)),
-                 frames_text(terrain::frames_until_near(
+                 frames_text(terrain::frames_until_constant(run.triangles, 10)),
+                 frames_text(terrain::frames_until_within(
                      run.triangles, standard.target_triangles, 0.005, 10))});
         }
     }
@@ -70,7 +70,7 @@ report::HtmlTable fixed_table(const FieldRuns& runs, const char* kind) {
         standard.target_triangles,
         standard.triangles_per_resolution,
         standard.first_resolution,
-        standard.remembered_frames);
+        standard.averaged_frames);
     return table;
 }
 
@@ -79,25 +79,25 @@ void add_path_rows(const FieldRuns& runs, report::HtmlTable& table) {
                         static_cast<double>(runs.path_gains.size());
     const double most = *std::max_element(runs.path_gains.begin(), runs.path_gains.end());
     const auto changes_of = [](const FlickerRun& run) {
-        return terrain::change_figures(run.triangles, first_measured(run.triangles.size()));
+        return terrain::change_statistics(run.triangles, first_measured(run.triangles.size()));
     };
-    const double before = changes_of(runs.path[previous_way]).mean;
-    for (std::size_t way = 0; way < runs.path.size(); ++way) {
-        const FlickerRun& run = runs.path[way];
+    const double before = changes_of(runs.path[previous_control]).mean;
+    for (std::size_t triangle_control = 0; triangle_control < runs.path.size(); ++triangle_control) {
+        const FlickerRun& run = runs.path[triangle_control];
         if (run.triangles.empty()) {
             continue;
         }
-        const terrain::ChangeFigures changes = changes_of(run);
+        const terrain::ChangeStatistics changes = changes_of(run);
         table.rows.push_back(
             {runs.name,
              fmt::format("{:.2f}", gain),
              fmt::format("{:.2f}", most),
-             flicker_ways()[way].name,
+             triangle_controls()[triangle_control].name,
              fmt::format("{:.1f}", changes.mean),
              fmt::format("{}", changes.largest),
-             fmt::format("{:.1f}", changes.alternation),
+             fmt::format("{:.1f}", changes.flicker_triangles),
              frames_text(
-                 terrain::frames_until_near(run.triangles, standard.target_triangles, 0.02, 10)),
+                 terrain::frames_until_within(run.triangles, standard.target_triangles, 0.02, 10)),
              changes.mean > 0.0 ? fmt::format("{:.1f}", before / changes.mean) : ""});
     }
 }
@@ -105,7 +105,7 @@ void add_path_rows(const FieldRuns& runs, report::HtmlTable& table) {
 report::HtmlTable path_table(const FlickerRuns& runs) {
     report::HtmlTable table;
     table.title =
-        fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_way].triangles.size());
+        fmt::format("Path of {} frames, c = 5", runs.rugged.path[previous_control].triangles.size());
     table.header = {
         "ground",
         "g, mean",
@@ -128,18 +128,18 @@ report::HtmlTable path_table(const FlickerRuns& runs) {
     return table;
 }
 
-report::HtmlTable memory_table(const FlickerRuns& runs) {
+report::HtmlTable damping_table(const FlickerRuns& runs) {
     report::HtmlTable table;
     table.title = fmt::format("Damping over r: {}, path, c = 5", runs.rugged.name);
     table.header = {"r", "mean abs dn", "largest abs dn", "alternation"};
-    for (std::size_t k = 0; k < runs.memories.size(); ++k) {
-        const auto changes = terrain::change_figures(
-            runs.memories[k].triangles, first_measured(runs.memories[k].triangles.size()));
+    for (std::size_t k = 0; k < runs.damping_lengths.size(); ++k) {
+        const auto changes = terrain::change_statistics(
+            runs.damping_lengths[k].triangles, first_measured(runs.damping_lengths[k].triangles.size()));
         table.rows.push_back(
-            {fmt::format("{}", flicker_memories[k]),
+            {fmt::format("{}", damping_frame_counts[k]),
              fmt::format("{:.1f}", changes.mean),
              fmt::format("{}", changes.largest),
-             fmt::format("{:.1f}", changes.alternation)});
+             fmt::format("{:.1f}", changes.flicker_triangles)});
     }
     table.note =
         "Equation (5) as printed, weights r + 1, ..., 2, 1; r = 0 is the previous control. The "
@@ -148,16 +148,16 @@ report::HtmlTable memory_table(const FlickerRuns& runs) {
 }
 
 void add_stability_rows(const FieldRuns& runs, report::HtmlTable& table) {
-    for (std::size_t k = 0; k < runs.still.size(); ++k) {
+    for (std::size_t k = 0; k < runs.settling_frames.size(); ++k) {
         std::vector<std::string> row = {
-            runs.name, flicker_ways()[settling_way].name, fmt::format("{:g}", flicker_gains[k])};
-        for (const auto& frames : runs.still[k]) {
+            runs.name, triangle_controls()[dead_band_control].name, fmt::format("{:g}", flicker_gains[k])};
+        for (const auto& frames : runs.settling_frames[k]) {
             row.push_back(frames_text(frames));
         }
         table.rows.push_back(row);
     }
-    std::vector<std::string> row = {runs.name, flicker_ways()[exact_way].name, "any"};
-    row.resize(row.size() + flicker_first.size(), frames_text(runs.still_exact));
+    std::vector<std::string> row = {runs.name, triangle_controls()[exact_control].name, "any"};
+    row.resize(row.size() + flicker_first.size(), frames_text(runs.settling_frames_exact));
     table.rows.push_back(row);
 }
 
@@ -183,7 +183,7 @@ std::vector<NamedTable> flicker_tables(const FlickerRuns& runs) {
         {"fixed-rugged", fixed_table(runs.rugged, "rugged")},
         {"fixed-gentle", fixed_table(runs.gentle, "gentle")},
         {"path", path_table(runs)},
-        {"damping", memory_table(runs)},
+        {"damping", damping_table(runs)},
         {"stability", stability_table(runs)}};
 }
 

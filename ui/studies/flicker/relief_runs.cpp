@@ -2,13 +2,13 @@
 // does the control that needs none.
 #include "ui/studies/flicker/relief_runs.h"
 
-#include "models/made/made_terrain.h"
-#include "sim/base/worker_team.h"
+#include "models/procedural/procedural_terrain.h"
+#include "sim/base/parallel_for.h"
 #include "ui/studies/flicker/flicker_figures.h"
 #include "ui/studies/flicker/flicker_runs.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/count_series.h"
-#include "visuals/terrain/settled_resolution.h"
+#include "visuals/terrain/count_statistics.h"
+#include "visuals/terrain/resolution_for_target.h"
 
 #include <algorithm>
 #include <array>
@@ -27,12 +27,12 @@ namespace {
 namespace terrain = visuals::terrain;
 using models::heights::HeightField;
 
-constexpr std::array shown_ways = {damped_way, tuned_way, exact_way};
+constexpr std::array shown_controls = {damped_control, tuned_control, exact_control};
 constexpr std::size_t last_frames = 100; ///< of the fixed view
 constexpr std::size_t gain_every = 25;   ///< frames
 
 /// Hills whose heights above the lowest are multiplied, and then taken in whole steps above a sea.
-HeightField changed(
+HeightField terraced_hills(
     const HeightField& hills,
     std::string name,
     double factor,
@@ -56,19 +56,19 @@ HeightField changed(
 
 /// Channels and flats in whole metres, half of it sea.
 HeightField estuary(const HeightField& hills) {
-    return changed(hills, "estuary", 0.03, 1.0, 4.0, 30.0);
+    return terraced_hills(hills, "estuary", 0.03, 1.0, 4.0, 30.0);
 }
 
 HeightField plain(const HeightField& hills) {
-    return changed(hills, "plain", 0.2, 0.1, 0.0, 30.0);
+    return terraced_hills(hills, "plain", 0.2, 0.1, 0.0, 30.0);
 }
 
 HeightField high_mountains(const HeightField& hills) {
-    return changed(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
+    return terraced_hills(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
 }
 
 /// What a way does over one ground.
-struct WayFigures {
+struct ControlStatistics {
     double mean_gain = 0.0; ///< 0 for a way that has none
     double max_gain = 0.0;
     double fixed_change = 0.0; ///< mean |dn|
@@ -80,37 +80,37 @@ void measure_gain(
     FlickerGround& ground,
     const std::vector<terrain::MeshView>& views,
     const FlickerRun& run,
-    WayFigures& figures) {
+    ControlStatistics& control_statistics) {
     std::vector<double> gains;
     for (std::size_t k = gain_every; k < views.size(); k += gain_every) {
-        if (run.believed_gain[k] > 0.0) {
-            const double gained = terrain::triangles_gained(
+        if (run.estimated_gain[k] > 0.0) {
+            const double gained = terrain::triangle_count_slope(
                 ground.mesher,
                 views[k],
                 {.resolution = run.resolution[k],
                  .roughness_weight = FlickerSettings().roughness_weight});
-            gains.push_back(gained / run.believed_gain[k]);
+            gains.push_back(gained / run.estimated_gain[k]);
         }
     }
     if (!gains.empty()) {
-        figures.mean_gain =
+        control_statistics.mean_gain =
             std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(gains.size());
-        figures.max_gain = *std::ranges::max_element(gains);
+        control_statistics.max_gain = *std::ranges::max_element(gains);
     }
 }
 
-WayFigures figures_of(FlickerGround& ground, const FlickerWay& way, int frames) {
-    WayFigures figures;
+ControlStatistics statistics_of_control(FlickerGround& ground, const TriangleControl& triangle_control, int frames) {
+    ControlStatistics control_statistics;
     const std::vector fixed(2 * last_frames, roughest_view(ground));
     const std::vector<terrain::MeshView> path = ellipse_views(ground, frames);
-    const FlickerRun standing = run_along(way, ground, {}, fixed);
-    const FlickerRun flown = run_along(way, ground, {}, path);
-    figures.fixed_change =
-        terrain::change_figures(standing.triangles, standing.triangles.size() - last_frames).mean;
-    figures.path_change =
-        terrain::change_figures(flown.triangles, first_measured(flown.triangles.size())).mean;
-    measure_gain(ground, path, flown, figures);
-    return figures;
+    const FlickerRun standing = run_along(triangle_control, ground, {}, fixed);
+    const FlickerRun flown = run_along(triangle_control, ground, {}, path);
+    control_statistics.fixed_change =
+        terrain::change_statistics(standing.triangles, standing.triangles.size() - last_frames).mean;
+    control_statistics.path_change =
+        terrain::change_statistics(flown.triangles, first_measured(flown.triangles.size())).mean;
+    measure_gain(ground, path, flown, control_statistics);
+    return control_statistics;
 }
 
 std::string gain_text(double gain) {
@@ -120,7 +120,7 @@ std::string gain_text(double gain) {
 } // namespace
 
 report::HtmlTable relief_table(const FlickerStudyOptions& options) {
-    const HeightField hills = models::made::made_hills();
+    const HeightField hills = models::procedural::procedural_hills();
     std::vector<HeightField> fields;
     fields.push_back(estuary(hills));
     fields.push_back(plain(hills));
@@ -139,29 +139,29 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
         "path, mean abs dn",
         "path, % of N"};
     const FlickerSettings as_asked;
-    std::vector<std::array<WayFigures, shown_ways.size()>> found(fields.size());
+    std::vector<std::array<ControlStatistics, shown_controls.size()>> found(fields.size());
     std::vector<double> relief_m;
     for (const HeightField& field : fields) {
         relief_m.push_back(static_cast<double>(field.highest_m() - field.lowest_m()));
     }
-    share_out(fields.size(), 2, [&](std::size_t k, std::size_t /*worker*/) {
+    parallel_for(fields.size(), 2, [&](std::size_t k, std::size_t /*worker*/) {
         FlickerGround ground(fields[k]);
-        for (std::size_t way = 0; way < shown_ways.size(); ++way) {
-            found[k][way] = figures_of(ground, flicker_ways()[shown_ways[way]], options.frames);
+        for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
+            found[k][triangle_control] = statistics_of_control(ground, triangle_controls()[shown_controls[triangle_control]], options.frames);
         }
     });
     for (std::size_t k = 0; k < fields.size(); ++k) {
-        for (std::size_t way = 0; way < shown_ways.size(); ++way) {
-            const WayFigures& figures = found[k][way];
+        for (std::size_t triangle_control = 0; triangle_control < shown_controls.size(); ++triangle_control) {
+            const ControlStatistics& control_statistics = found[k][triangle_control];
             table.rows.push_back(
                 {fields[k].name,
                  fmt::format("{:.0f}", relief_m[k]),
-                 flicker_ways()[shown_ways[way]].name,
-                 gain_text(figures.mean_gain),
-                 gain_text(figures.max_gain),
-                 fmt::format("{:.1f}", figures.fixed_change),
-                 fmt::format("{:.1f}", figures.path_change),
-                 fmt::format("{:.3f}", 100.0 * figures.path_change / as_asked.target_triangles)});
+                 triangle_controls()[shown_controls[triangle_control]].name,
+                 gain_text(control_statistics.mean_gain),
+                 gain_text(control_statistics.max_gain),
+                 fmt::format("{:.1f}", control_statistics.fixed_change),
+                 fmt::format("{:.1f}", control_statistics.path_change),
+                 fmt::format("{:.3f}", 100.0 * control_statistics.path_change / as_asked.target_triangles)});
         }
     }
     table.note = fmt::format(
@@ -171,7 +171,7 @@ report::HtmlTable relief_table(const FlickerStudyOptions& options) {
         as_asked.triangles_per_resolution,
         last_frames,
         2 * last_frames,
-        terrain::tuned_meshes);
+        terrain::max_tuned_meshes);
     return table;
 }
 

@@ -11,14 +11,14 @@
 namespace octant::ui::studies::flicker {
 
 /// A pixel of one frame and where the ground that it shows was in the frame before.
-struct SamePlace {
+struct ReprojectedPixel {
     glm::ivec2 pixel{0};    ///< column and row from the upper left
     glm::dvec2 before{0.0}; ///< the same in the frame before, between pixels; whole = a centre
 };
 
 /// Every fourth pixel, both ways, of the later frame that shows ground which the earlier one
 /// shows too, at full resolution; not those near the aircraft. `radius_m`: of the earth, 0 = flat.
-std::vector<SamePlace> same_places(
+std::vector<ReprojectedPixel> reprojected_pixels(
     const visuals::terrain::GroundSamples& ground,
     const flight::FlightCamera& earlier,
     const flight::FlightCamera& later,
@@ -29,6 +29,6 @@ std::vector<SamePlace> same_places(
 double mean_change(
     const visuals::scene::Picture& earlier,
     const visuals::scene::Picture& later,
-    const std::vector<SamePlace>& places);
+    const std::vector<ReprojectedPixel>& matches);
 
 } // namespace octant::ui::studies::flicker

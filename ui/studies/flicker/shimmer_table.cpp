@@ -1,6 +1,6 @@
 #include "ui/studies/flicker/shimmer_table.h"
 
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_cameras.h"
@@ -24,13 +24,13 @@ namespace terrain = visuals::terrain;
 
 namespace {
 
-struct Sampling {
+struct RaySampler {
     int samples;
     bool geomorphs;
 };
 
 constexpr std::array samplings = {
-    Sampling{1, false}, Sampling{1, true}, Sampling{4, false}, Sampling{4, true}};
+    RaySampler{1, false}, RaySampler{1, true}, RaySampler{4, false}, RaySampler{4, true}};
 
 /// Sums over pairs of frames.
 struct Change {
@@ -66,17 +66,17 @@ Change shimmer_along(
     Change change;
     const auto step = static_cast<std::size_t>(options.every);
     for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
-        const std::vector<SamePlace> places =
-            same_places(samples, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
+        const std::vector<ReprojectedPixel> matches =
+            reprojected_pixels(samples, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
         for (std::size_t k = 0; k < samplings.size(); ++k) {
             flight::Session& session = *sessions[k];
             session.draw(static_cast<int>(frame));
             const visuals::scene::Picture earlier = session.picture();
             session.draw(static_cast<int>(frame) + 1);
-            change.sum[k] += mean_change(earlier, session.picture(), places);
+            change.sum[k] += mean_change(earlier, session.picture(), matches);
         }
         ++change.pairs;
-        change.pixels += places.size();
+        change.pixels += matches.size();
         progress.show(static_cast<int>(frame));
     }
     return change;
@@ -102,7 +102,7 @@ report::HtmlTable shimmer_table(const ShimmerOptions& options) {
     std::vector<Change> changes(base::built_in_paths.size());
     ShimmerOptions of_path = options;
     of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    share_out(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    parallel_for(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         settings::RunSettings settings = options.settings;
         settings.path.name = std::string(base::built_in_paths[i]);
         settings.surface.shadows = false;

@@ -8,7 +8,7 @@ namespace octant::ui::studies::flicker {
 /// How shimmer is measured.
 struct ShimmerOptions {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< terrain, size, triangles, error_px, rate, frames, ...
+        settings::measurement_settings(); ///< terrain, size, triangles, error_px, rate, frames, ...
     int every = 60;                  ///< a pair of consecutive frames in so many
     int jobs = 1;                    ///< paths at once
     bool quiet = false;

@@ -8,8 +8,8 @@
 #include "ui/studies/flicker/flicker_tables.h"
 #include "ui/studies/flicker/relief_runs.h"
 #include "ui/world/terrain_file.h"
-#include "visuals/terrain/count_series.h"
-#include "visuals/terrain/settled_resolution.h"
+#include "visuals/terrain/count_statistics.h"
+#include "visuals/terrain/resolution_for_target.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -36,8 +36,8 @@ int fixed_frames(const FlickerStudyOptions& options) {
 
 /// N'(C) where the exact way settles.
 double
-gained_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
-    return terrain::triangles_gained(
+gain_at(FlickerGround& ground, const terrain::MeshView& view, double weight, double resolution) {
+    return terrain::triangle_count_slope(
         ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
 }
 
@@ -48,12 +48,12 @@ void run_fixed(FlickerGround& ground, int frames, FieldRuns& runs, const Tick& t
         FlickerSettings settings;
         settings.roughness_weight = weight;
         std::vector<FlickerRun>& of_weight = runs.fixed.emplace_back();
-        for (const FlickerWay& way : flicker_ways()) {
-            of_weight.push_back(run_along(way, ground, settings, views));
+        for (const TriangleControl& triangle_control : triangle_controls()) {
+            of_weight.push_back(run_along(triangle_control, ground, settings, views));
             tick();
         }
         runs.fixed_gains.push_back(
-            gained_at(ground, view, weight, of_weight[exact_way].resolution.back()) /
+            gain_at(ground, view, weight, of_weight[exact_control].resolution.back()) /
             settings.triangles_per_resolution);
     }
 }
@@ -64,16 +64,16 @@ void run_path(
     FieldRuns& runs,
     const Tick& tick) {
     const FlickerSettings settings;
-    for (const FlickerWay& way : flicker_ways()) {
+    for (const TriangleControl& triangle_control : triangle_controls()) {
         runs.path.push_back(
-            way.holds_target ? run_along(way, ground, settings, views) : FlickerRun());
+            triangle_control.holds_target ? run_along(triangle_control, ground, settings, views) : FlickerRun());
         tick();
     }
     constexpr std::size_t every = 25;
     for (std::size_t k = 0; k < views.size(); k += every) {
         runs.path_gains.push_back(
-            gained_at(
-                ground, views[k], settings.roughness_weight, runs.path[exact_way].resolution[k]) /
+            gain_at(
+                ground, views[k], settings.roughness_weight, runs.path[exact_control].resolution[k]) /
             settings.triangles_per_resolution);
     }
 }
@@ -83,17 +83,17 @@ void run_stability(FlickerGround& ground, FieldRuns& runs, const Tick& tick) {
     const terrain::MeshView view = roughest_view(ground);
     const std::vector views(frames, view);
     FlickerSettings settings;
-    const FlickerRun exact = run_along(flicker_ways()[exact_way], ground, settings, views);
-    runs.still_exact = terrain::frames_until_still(exact.triangles, 10);
+    const FlickerRun exact = run_along(triangle_controls()[exact_control], ground, settings, views);
+    runs.settling_frames_exact = terrain::frames_until_constant(exact.triangles, 10);
     const double gained =
-        gained_at(ground, view, settings.roughness_weight, exact.resolution.back());
+        gain_at(ground, view, settings.roughness_weight, exact.resolution.back());
     for (const double gain : flicker_gains) {
         settings.triangles_per_resolution = gained / gain;
-        auto& of_gain = runs.still.emplace_back();
+        auto& of_gain = runs.settling_frames.emplace_back();
         for (const double first : flicker_first) {
             settings.first_resolution = first;
-            of_gain.push_back(terrain::frames_until_still(
-                run_along(flicker_ways()[settling_way], ground, settings, views).triangles, 10));
+            of_gain.push_back(terrain::frames_until_constant(
+                run_along(triangle_controls()[dead_band_control], ground, settings, views).triangles, 10));
         }
         tick();
     }
@@ -110,19 +110,19 @@ run_field(FlickerGround& ground, std::string name, int frames, int still_frames,
 }
 
 /// Damped as printed along the path, with another r each; two of them were run before.
-std::vector<FlickerRun> run_memories(
+std::vector<FlickerRun> run_damping_lengths(
     FlickerGround& ground, int frames, const std::vector<FlickerRun>& path, const Tick& tick) {
     const std::vector<terrain::MeshView> views = ellipse_views(ground, frames);
     std::vector<FlickerRun> runs;
-    for (const int memory : flicker_memories) {
+    for (const int memory : damping_frame_counts) {
         FlickerSettings settings;
         if (memory == 0) {
-            runs.push_back(path[previous_way]);
-        } else if (memory == settings.remembered_frames) {
-            runs.push_back(path[damped_way]);
+            runs.push_back(path[previous_control]);
+        } else if (memory == settings.averaged_frames) {
+            runs.push_back(path[damped_control]);
         } else {
-            settings.remembered_frames = memory;
-            runs.push_back(run_along(flicker_ways()[damped_way], ground, settings, views));
+            settings.averaged_frames = memory;
+            runs.push_back(run_along(triangle_controls()[damped_control], ground, settings, views));
         }
         tick();
     }
@@ -134,28 +134,28 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
     FlickerGround gentle(world::load_height_field(options.gentle, options.files));
     FlickerGround rugged(world::load_height_field(options.rugged, options.files));
     for (const FlickerGround* const ground : {&gentle, &rugged}) {
-        const auto few = world::note_of_few_samples(
+        const auto few = world::few_samples_note(
             ground->field.name,
             {ground->field.columns(), ground->field.rows()},
             FlickerSettings{}.target_triangles,
             "--gentle and --rugged with larger maps");
-        base::say(options.quiet || !few, few.value_or(""));
+        base::print_note(options.quiet || !few, few.value_or(""));
     }
-    const int ways = static_cast<int>(flicker_ways().size());
+    const int ways = static_cast<int>(triangle_controls().size());
     const int runs_of_field = (static_cast<int>(flicker_weights.size()) + 1) * ways +
-                              static_cast<int>(flicker_gains.size() + flicker_memories.size());
-    const int still = fixed_frames(options);
+                              static_cast<int>(flicker_gains.size() + damping_frame_counts.size());
+    const int settling_frames = fixed_frames(options);
     auto gentle_runs = std::async(std::launch::async, [&] {
-        return run_field(gentle, gentle.field.name, options.frames, still, [] {});
+        return run_field(gentle, gentle.field.name, options.frames, settling_frames, [] {});
     });
     base::Progress progress(rugged.field.name, runs_of_field, options.quiet, "runs");
     int done = 0;
     const Tick tick = [&] { progress.show(++done); };
     FlickerRuns runs;
-    runs.rugged = run_field(rugged, rugged.field.name, options.frames, still, tick);
-    runs.memories = run_memories(rugged, options.frames, runs.rugged.path, tick);
+    runs.rugged = run_field(rugged, rugged.field.name, options.frames, settling_frames, tick);
+    runs.damping_lengths = run_damping_lengths(rugged, options.frames, runs.rugged.path, tick);
     progress.finish();
-    base::say(options.quiet, fmt::format("{}: waiting for its runs", gentle.field.name));
+    base::print_note(options.quiet, fmt::format("{}: waiting for its runs", gentle.field.name));
     runs.gentle = gentle_runs.get();
     return runs;
 }
@@ -163,10 +163,10 @@ FlickerRuns run_all(const FlickerStudyOptions& options) {
 std::string changes_csv(const FieldRuns& runs) {
     std::string text = "frame";
     std::vector<const FlickerRun*> shown;
-    for (std::size_t way = 0; way < runs.path.size(); ++way) {
-        if (!runs.path[way].triangles.empty()) {
-            shown.push_back(&runs.path[way]);
-            text += fmt::format(",\"dn, {}\"", flicker_ways()[way].name);
+    for (std::size_t triangle_control = 0; triangle_control < runs.path.size(); ++triangle_control) {
+        if (!runs.path[triangle_control].triangles.empty()) {
+            shown.push_back(&runs.path[triangle_control]);
+            text += fmt::format(",\"dn, {}\"", triangle_controls()[triangle_control].name);
         }
     }
     text += "\n";
@@ -188,7 +188,7 @@ void study_flicker(const FlickerStudyOptions& options) {
     std::string markdown;
     std::vector<report::HtmlTable> tables;
     std::vector<NamedTable> made_tables = flicker_tables(runs);
-    base::say(options.quiet, "grounds from flats to high mountains");
+    base::print_note(options.quiet, "grounds from flats to high mountains");
     made_tables.push_back({"relief", relief_table(options)});
     for (NamedTable& made : made_tables) {
         write_file(options.out / (made.file + ".csv"), report::csv_of(made.table));
@@ -200,7 +200,7 @@ void study_flicker(const FlickerStudyOptions& options) {
     std::string with_figures = markdown;
     for (const FlickerFigure& figure : flicker_figures(runs)) {
         if (figure.png.empty()) {
-            base::say(options.quiet, figure.file + " not made: gnuplot is not installed");
+            base::print_note(options.quiet, figure.file + " not made: gnuplot is not installed");
             continue;
         }
         write_file(options.out / figure.file, figure.png);
@@ -208,7 +208,7 @@ void study_flicker(const FlickerStudyOptions& options) {
     }
     write_file(options.out / "flicker.md", with_figures);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format(
             "tables and figures: {0}/flicker.md; each table and dn of the paths as .csv, each "

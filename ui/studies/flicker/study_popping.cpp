@@ -1,7 +1,7 @@
 #include "ui/studies/flicker/study_popping.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_cameras.h"
@@ -15,7 +15,7 @@
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/vertex_jump.h"
+#include "visuals/terrain/vertex_popping.h"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ Jumps jumps_along(
     const MeshOfFrame& mesh_of,
     const settings::RunSettings& settings,
     const std::vector<flight::FlightCamera>& cameras) {
-    terrain::JumpMeter meter;
+    terrain::PoppingMeter meter;
     Jumps found;
     for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
         const scene::Camera& camera = cameras[frame].camera;
@@ -125,9 +125,9 @@ Jumps jumps_along(
         if (!jump) {
             continue;
         }
-        found.jumps_px.push_back(jump->jump_px);
-        if (jump->jump_px > found.largest_px) {
-            found.largest_px = jump->jump_px;
+        found.jumps_px.push_back(jump->popping_px);
+        if (jump->popping_px > found.largest_px) {
+            found.largest_px = jump->popping_px;
             found.largest_frame = frame;
         }
     }
@@ -151,20 +151,20 @@ void add_popping(
          fmt::format("{:.3f}", percentile_px(found.jumps_px, 500))});
 }
 
-using OfWays = std::array<Jumps, meshings.size()>;
+using JumpsByMeshing = std::array<Jumps, meshings.size()>;
 
 /// Of every built-in path by every meshing, `jobs` of these at once.
-std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
+std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
     const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
         options.settings.path.terrain, world::import_options(options.settings.path), options.quiet);
     const terrain::GroundSamples samples = ground.samples();
     const int asked = scene::triangle_target(options.settings);
-    const auto few = world::note_of_few_samples(
+    const auto few = world::few_samples_note(
         options.settings.path.terrain,
         {samples.columns(), samples.rows()},
         asked,
         "--triangles with fewer, or --terrain with a larger map");
-    base::say(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
+    base::print_note(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
     for (std::size_t path = 0; path < flown.size(); ++path) {
@@ -172,12 +172,12 @@ std::vector<OfWays> jumps_of_paths(const PoppingStudyOptions& options) {
         cameras.push_back(flight::flight_cameras(flown[path]));
     }
     const std::size_t ways = meshings_of(options.settings).size();
-    std::vector<OfWays> found(cameras.size());
+    std::vector<JumpsByMeshing> found(cameras.size());
     base::Progress progress(
         "popping", static_cast<int>(found.size() * ways), options.quiet, "flights");
     int done = 0;
     std::mutex telling;
-    share_out(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    parallel_for(found.size() * ways, options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const std::size_t path = i / ways;
         const Meshing& way = meshings[i % ways];
         found[path][i % ways] = jumps_along(
@@ -196,9 +196,9 @@ report::HtmlTable popping_table(const PoppingStudyOptions& options) {
     report::HtmlTable table;
     table.title = "Largest jump of a vertex from frame to frame";
     table.header = {"path", "mesh", "frames", "maximum px", "in frame", "99.9 % px", "median px"};
-    const std::vector<OfWays> found = jumps_of_paths(options);
+    const std::vector<JumpsByMeshing> found = jumps_of_paths(options);
     const std::size_t ways = meshings_of(options.settings).size();
-    OfWays all;
+    JumpsByMeshing all;
     for (std::size_t path = 0; path < found.size(); ++path) {
         for (std::size_t k = 0; k < ways; ++k) {
             const Jumps& jumps = found[path][k];

@@ -7,7 +7,7 @@ namespace octant::ui::studies::flicker {
 
 struct PoppingStudyOptions : base::StudyOutput {
     settings::RunSettings settings =
-        settings::of_given_ground(); ///< terrain, size, triangles, error_px, rate, frames, ...
+        settings::measurement_settings(); ///< terrain, size, triangles, error_px, rate, frames, ...
     bool shimmer = false;
     int every = 60; ///< shimmer: a pair of frames in so many
     int jobs = 1;   ///< flights at once

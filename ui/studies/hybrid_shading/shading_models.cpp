@@ -1,10 +1,10 @@
 #include "ui/studies/hybrid_shading/shading_models.h"
 
-#include "models/made/made_up.h"
+#include "models/procedural/background60.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
-#include "ui/world/refine_input.h"
+#include "ui/world/refine_mesh.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/shading/vertex_normals.h"
@@ -27,7 +27,7 @@ namespace shading = visuals::shading;
 constexpr double round_crease_rad = rad_from_deg(60.0);
 
 ShadedModel
-shaded(std::string name, const auto& model, double crease_rad = shading::default_crease_rad) {
+shaded_model(std::string name, const auto& model, double crease_rad = shading::default_crease_rad) {
     return {
         std::move(name),
         shading::shaded_polygons(model, shading::corner_normals(model, crease_rad))};
@@ -49,7 +49,7 @@ models::TriangleMesh triangles_of(const models::polygons::PolygonModel& model) {
 }
 
 /// Bunches numbers from 0 to 1 together around 0.
-double bunched(double part) {
+double concentrated(double part) {
     return 0.12 * part + 0.88 * part * part;
 }
 
@@ -69,10 +69,10 @@ models::TriangleMesh refined_mesh(const std::shared_ptr<const refine::Progressiv
     const double radius_m = hierarchy->half_diagonal_m();
     refine::RefineView view;
     view.eye_m = hierarchy->middle_m() + radius_m * glm::dvec3(1.8, 1.2, 2.1);
-    view.ahead = glm::normalize(hierarchy->middle_m() - view.eye_m);
+    view.forward = glm::normalize(hierarchy->middle_m() - view.eye_m);
     view.focal_px = 870.0;
     refine::ViewRefiner refiner(hierarchy);
-    refiner.settle(view);
+    refiner.refine_fully(view);
     return refine::active_mesh(refiner.front()).mesh;
 }
 
@@ -85,10 +85,10 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
     const auto across = static_cast<std::uint32_t>(slices);
     mesh.vertices_m.push_back(ball_point(0.0, 0.0));
     for (int ring = 1; ring < rings; ++ring) {
-        const double polar_rad = pi * bunched(static_cast<double>(ring) / rings);
+        const double polar_rad = pi * concentrated(static_cast<double>(ring) / rings);
         for (int slice = 0; slice < slices; ++slice) {
             mesh.vertices_m.push_back(
-                ball_point(polar_rad, 2.0 * pi * bunched(static_cast<double>(slice) / slices)));
+                ball_point(polar_rad, 2.0 * pi * concentrated(static_cast<double>(slice) / slices)));
         }
     }
     mesh.vertices_m.push_back(ball_point(pi, 0.0));
@@ -108,13 +108,13 @@ models::TriangleMesh uneven_ball(int rings, int slices) {
 
 std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>& more) {
     std::vector<ShadedModel> all;
-    all.push_back(shaded(
-        "torus of 416 triangles", triangles_of(models::made::torus(26, 8)), round_crease_rad));
-    all.push_back(shaded("torus of 416 quads", models::made::torus(), round_crease_rad));
+    all.push_back(shaded_model(
+        "torus of 416 triangles", triangles_of(models::procedural::torus(26, 8)), round_crease_rad));
+    all.push_back(shaded_model("torus of 416 quads", models::procedural::torus(), round_crease_rad));
     for (const char* aircraft : {"f15", "500md"}) {
-        all.push_back(shaded(aircraft, models::polygons::read_obj(base::aircraft_file(aircraft))));
+        all.push_back(shaded_model(aircraft, models::polygons::read_obj(base::aircraft_file(aircraft))));
     }
-    all.push_back(shaded("uneven ball", uneven_ball(48, 97), round_crease_rad));
+    all.push_back(shaded_model("uneven ball", uneven_ball(48, 97), round_crease_rad));
     for (const std::filesystem::path& file : more) {
         const auto hierarchy =
             world::read_refine_mesh({.file = file.string(), .base = 0, .quiet = true}).mesh;
@@ -125,8 +125,8 @@ std::vector<ShadedModel> shading_models(const std::vector<std::filesystem::path>
             }
         }
         const std::string name = file.stem().string();
-        all.push_back(shaded(name, refine::active_mesh(whole).mesh, round_crease_rad));
-        all.push_back(shaded(name + " refined", refined_mesh(hierarchy), round_crease_rad));
+        all.push_back(shaded_model(name, refine::active_mesh(whole).mesh, round_crease_rad));
+        all.push_back(shaded_model(name + " refined", refined_mesh(hierarchy), round_crease_rad));
     }
     return all;
 }

@@ -127,7 +127,7 @@ std::vector<std::uint8_t> smooth_polygons(
     const glm::dvec3& eye_m,
     double share,
     std::uint64_t seed) {
-    shading::ShadingRuleSettings settings = shading::without_memory(rule.rule);
+    shading::ShadingRuleSettings settings = shading::without_hysteresis(rule.rule);
     settings.seed = seed;
     shading::ShadingSelector selector(polygons, settings);
     auto count = static_cast<int>(std::lround(share * static_cast<double>(polygons.size())));

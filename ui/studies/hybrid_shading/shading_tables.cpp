@@ -44,7 +44,7 @@ report::HtmlTable operation_table() {
     const int smooth = shading::device_smooth_count(printed_device_ratio, printed_polygons);
     const auto counts = shading::operation_counts(printed_polygons, smooth);
     const auto whole = shading::operation_counts(printed_polygons + 1, smooth);
-    const auto& printed = shading::printed_counts;
+    const auto& printed = shading::paper_counts;
     report::HtmlTable table;
     table.title = fmt::format("Operations for a torus, table 2 ({} smooth)", smooth);
     table.header = {"what", "formula", "printed, n = 415", "computed, n = 415", "n = 416"};
@@ -164,7 +164,7 @@ report::HtmlTable control_table(std::span<const ControlRun> runs) {
     for (const ControlRun& run : runs) {
         table.rows.push_back(
             {fmt::format("{:g}", run.machine.smooth_ms),
-             fmt::format("{:g}", run.share_ms),
+             fmt::format("{:g}", run.target_frame_ms),
              fmt::format(
                  "{:.2f} / {:.2f} / {:.2f}",
                  run.best_share[0],
@@ -177,9 +177,9 @@ report::HtmlTable control_table(std::span<const ControlRun> runs) {
                  run.settled_frames[2]),
              fmt::format("{:.1f} %", 100.0 * run.over_share),
              fmt::format("{:.3f}", run.changes_per_second),
-             run.no_gain ? "nothing: all smooth" : "time"});
+             run.has_no_gain ? "nothing: all smooth" : "time"});
     }
-    const MadeMachine machine;
+    const SimulatedMachine machine;
     table.note = fmt::format(
         "A made clock, 416 polygons: all flat take {:g} ms and a; noise of {:g} % (deviation), "
         "{:g} % of the frames 1.6 times as long; 600 frames each of three loads. Best share: the "

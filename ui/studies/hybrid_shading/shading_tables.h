@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/report/html_text.h"
-#include "ui/studies/hybrid_shading/shading_clock.h"
+#include "ui/studies/hybrid_shading/shading_control.h"
 #include "ui/studies/hybrid_shading/shading_runs.h"
 
 #include <span>

@@ -22,28 +22,28 @@ namespace {
 constexpr int frames = 100;
 constexpr int warm_up_frames = 10;
 
-struct Way {
+struct ShadingMode {
     const char* name;
     scene::AircraftShading shading;
     double share = 1.0;
     scene::HybridRule rule = scene::HybridRule::Error;
 };
 
-constexpr std::array ways{
-    Way{"flat", scene::AircraftShading::Flat},
-    Way{"hybrid, 20 %", scene::AircraftShading::Hybrid, 0.2},
-    Way{"hybrid, 20 %, paper's rule",
+constexpr std::array shading_modes{
+    ShadingMode{"flat", scene::AircraftShading::Flat},
+    ShadingMode{"hybrid, 20 %", scene::AircraftShading::Hybrid, 0.2},
+    ShadingMode{"hybrid, 20 %, paper's rule",
         scene::AircraftShading::Hybrid,
         0.2,
         scene::HybridRule::Paper},
-    Way{"hybrid, 50 %", scene::AircraftShading::Hybrid, 0.5},
-    Way{"Gouraud", scene::AircraftShading::Gouraud},
-    Way{"Phong", scene::AircraftShading::Phong}};
+    ShadingMode{"hybrid, 50 %", scene::AircraftShading::Hybrid, 0.5},
+    ShadingMode{"Gouraud", scene::AircraftShading::Gouraud},
+    ShadingMode{"Phong", scene::AircraftShading::Phong}};
 constexpr std::size_t flat_way = 0; ///< index into ways
 
 using Walk = visuals::raster::Renderer::Walk;
 
-struct Drawer {
+struct RendererMode {
     const char* name;
     settings::RendererKind renderer;
     int samples = 1;
@@ -51,22 +51,22 @@ struct Drawer {
     scene::HiddenSurface hidden_surface = scene::HiddenSurface::Octant;
 };
 
-constexpr std::array drawers{
-    Drawer{"OpenGL", settings::RendererKind::Gl},
-    Drawer{"raster, far to near", settings::RendererKind::Raster, 1, Walk::FarToNear},
-    Drawer{"raster, near to far", settings::RendererKind::Raster},
-    Drawer{
+constexpr std::array renderer_modes{
+    RendererMode{"OpenGL", settings::RendererKind::Gl},
+    RendererMode{"raster, far to near", settings::RendererKind::Raster, 1, Walk::FarToNear},
+    RendererMode{"raster, near to far", settings::RendererKind::Raster},
+    RendererMode{
         "raster, depth buffer",
         settings::RendererKind::Raster,
         1,
         Walk::NearToFar,
         scene::HiddenSurface::DepthBuffer},
-    Drawer{"raster, 16 samples", settings::RendererKind::Raster, 16}};
+    RendererMode{"raster, 16 samples", settings::RendererKind::Raster, 16}};
 constexpr std::size_t near_to_far_drawer = 2; ///< indices into drawers
 constexpr std::size_t depth_drawer = 3;
 
 settings::RunSettings
-settings_of(const std::string& aircraft, const Way& way, const Drawer& drawer) {
+settings_of(const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
     settings::RunSettings settings;
     settings.path.name = "turn";
     settings.view.kind = scene::View::Orbit; // so that the choice changes
@@ -85,14 +85,14 @@ settings_of(const std::string& aircraft, const Way& way, const Drawer& drawer) {
 }
 
 std::unique_ptr<flight::Session>
-session_of(const std::string& aircraft, const Way& way, const Drawer& drawer) {
+session_of(const std::string& aircraft, const ShadingMode& way, const RendererMode& drawer) {
     const settings::RunSettings settings = settings_of(aircraft, way, drawer);
     if (drawer.renderer == settings::RendererKind::Gl) {
         return std::make_unique<flight::Session>(settings);
     }
     auto renderer = flight::make_raster_renderer(settings);
     renderer->walk(drawer.walk);
-    return std::make_unique<flight::Session>(settings, flight::Shows::World, std::move(renderer));
+    return std::make_unique<flight::Session>(settings, flight::PictureContent::World, std::move(renderer));
 }
 
 double median_of(const std::vector<double>& times_ms) {
@@ -100,8 +100,8 @@ double median_of(const std::vector<double>& times_ms) {
 }
 
 /// One way of shading by all drawers.
-struct Measured {
-    std::array<std::vector<double>, drawers.size()> draw_ms;
+struct ShadingTimes {
+    std::array<std::vector<double>, renderer_modes.size()> draw_ms;
     std::vector<double> plan_ms;
     int polygons = 0;
     int smooth = 0;
@@ -114,20 +114,20 @@ struct Measured {
     }
 };
 
-std::array<Measured, ways.size()> measured(const std::string& aircraft, bool quiet) {
-    constexpr std::size_t all = ways.size() * drawers.size();
+std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircraft, bool quiet) {
+    constexpr std::size_t all = shading_modes.size() * renderer_modes.size();
     std::array<std::unique_ptr<flight::Session>, all> sessions;
     for (std::size_t i = 0; i < all; ++i) {
-        sessions[i] = session_of(aircraft, ways[i / drawers.size()], drawers[i % drawers.size()]);
+        sessions[i] = session_of(aircraft, shading_modes[i / renderer_modes.size()], renderer_modes[i % renderer_modes.size()]);
     }
-    std::array<Measured, ways.size()> result;
+    std::array<ShadingTimes, shading_modes.size()> result;
     base::Progress progress(fmt::format("{} flown", aircraft), frames, quiet);
     for (int frame = 0; frame < frames; ++frame) {
         for (std::size_t turn = 0; turn < all; ++turn) {
             const std::size_t i = (turn + static_cast<std::size_t>(frame)) % all;
             const report::FrameRecord record = sessions[i]->draw(frame);
             if (frame >= warm_up_frames) {
-                result[i / drawers.size()].add(record, i % drawers.size());
+                result[i / renderer_modes.size()].add(record, i % renderer_modes.size());
             }
         }
         progress.show(frame + 1);
@@ -142,22 +142,22 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
     report::HtmlTable table;
     table.title = "Times flown: drawing by each renderer, ms, and over that of all flat";
     table.header = {"aircraft", "shading", "polygons drawn", "smooth", "planning, ms"};
-    for (const Drawer& drawer : drawers) {
+    for (const RendererMode& drawer : renderer_modes) {
         table.header.push_back(fmt::format("{}, ms", drawer.name));
         table.header.push_back(fmt::format("{}, / flat", drawer.name));
     }
     table.header.emplace_back("raster: depth buffer / near to far");
     for (const std::string& each : aircraft) {
         const auto times = measured(each, quiet);
-        for (std::size_t way = 0; way < ways.size(); ++way) {
-            const Measured& own = times[way];
+        for (std::size_t way = 0; way < shading_modes.size(); ++way) {
+            const ShadingTimes& own = times[way];
             std::vector<std::string> cells{
                 std::filesystem::path(each).stem().string(),
-                ways[way].name,
+                shading_modes[way].name,
                 fmt::format("{}", own.polygons),
                 fmt::format("{}", own.smooth),
                 fmt::format("{:.3f}", median_of(own.plan_ms))};
-            for (std::size_t drawer = 0; drawer < drawers.size(); ++drawer) {
+            for (std::size_t drawer = 0; drawer < renderer_modes.size(); ++drawer) {
                 const double ms = median_of(own.draw_ms[drawer]);
                 const double flat_ms = median_of(times[flat_way].draw_ms[drawer]);
                 cells.push_back(fmt::format("{:.2f}", ms));

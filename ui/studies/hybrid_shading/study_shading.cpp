@@ -1,12 +1,12 @@
 #include "ui/studies/hybrid_shading/study_shading.h"
 
 #include "sim/base/output_file.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/progress.h"
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/hybrid_shading/held_times.h"
+#include "ui/studies/hybrid_shading/budget_times.h"
 #include "ui/studies/hybrid_shading/shading_models.h"
 #include "ui/studies/hybrid_shading/shading_runs.h"
 #include "ui/studies/hybrid_shading/shading_tables.h"
@@ -47,7 +47,7 @@ std::byte grey_of(float light) {
 
 /// Pictures side by side, below them their differences from the last but one.
 report::Picture
-strip_of(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
+column_rect(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& on) {
     const auto size = static_cast<std::size_t>(row.front().size_px);
     const LightPicture& reference = row[row.size() - 2];
     report::Picture strip;
@@ -73,7 +73,7 @@ strip_of(const std::vector<LightPicture>& row, const std::vector<std::uint8_t>& 
     return strip;
 }
 
-report::Picture strip_of(const ShadedModel& model, int size_px) {
+report::Picture column_rect(const ShadedModel& model, int size_px) {
     const glm::dvec3 eye_m = study_eyes(model.polygons).front();
     const ShadingPictures pictures(model.polygons, study_light(), eye_m, size_px);
     std::vector<LightPicture> row;
@@ -83,7 +83,7 @@ report::Picture strip_of(const ShadedModel& model, int size_px) {
     }
     row.push_back(pictures.hybrid(std::vector<std::uint8_t>(model.polygons.size(), 1)));
     row.push_back(pictures.per_pixel());
-    return strip_of(row, pictures.covered());
+    return column_rect(row, pictures.covered());
 }
 
 report::Plot curve_plot(const ShadingRun& run) {
@@ -123,11 +123,11 @@ std::string write_figures(
             "![curves.png](curves.png)\n\nPSNR against all Gouraud; a curve ends where it is "
             "exact.\n\n";
     } else {
-        base::say(options.quiet, "curves.png not made: gnuplot is not installed");
+        base::print_note(options.quiet, "curves.png not made: gnuplot is not installed");
     }
     for (const ShadedModel& model : models) {
         const std::string file = "strip-" + file_part(model.name) + ".png";
-        report::write_png(options.out / file, strip_of(model, options.size_px).view());
+        report::write_png(options.out / file, column_rect(model, options.size_px).view());
         markdown += fmt::format(
             "![{0}]({0})\n\n{1}: all flat; {2:.0f} % smooth at random, by the paper's rule, by the "
             "same among polygons that face the eye, by the error; all Gouraud; each pixel. Below: "
@@ -148,7 +148,7 @@ void study_shading(const ShadingStudyOptions& options) {
     make_folder(options.out);
     std::vector<ShadingRun> runs(models.size());
     const bool quiet = options.quiet || options.jobs > 1; // progress of one at a time only
-    share_out(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+    parallel_for(models.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
         const ShadedModel& model = models[i];
         const int eyes = static_cast<int>(study_eyes(model.polygons).size());
         base::Progress progress(model.name, eyes, quiet, "views");
@@ -170,7 +170,7 @@ void study_shading(const ShadingStudyOptions& options) {
         }
         tables.push_back(shading_times_table(aircraft, options.quiet));
         files.emplace_back("times");
-        tables.push_back(held_times_table(aircraft, options.quiet));
+        tables.push_back(budget_times_table(aircraft, options.quiet));
         files.emplace_back("held");
     }
     std::string markdown;
@@ -180,7 +180,7 @@ void study_shading(const ShadingStudyOptions& options) {
     }
     write_file(options.out / "shading.md", markdown + write_figures(options, models, runs));
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format(
             "tables and figures: {0}/shading.md; each table as .csv, each figure as .png",

@@ -1,4 +1,4 @@
-#include "ui/studies/refinement/refinement_place.h"
+#include "ui/studies/refinement/model_bounds.h"
 #include "ui/studies/refinement/refinement_tables.h"
 #include "visuals/refine/refine_region.h"
 #include "visuals/refine/view_refiner.h"
@@ -17,7 +17,7 @@ namespace {
 
 namespace refine = visuals::refine;
 
-refine::RefineView view_at(const Around& model, double turn_rad, double nearness) {
+refine::RefineView view_at(const BoundingSphere& model, double turn_rad, double nearness) {
     const double away_m = model.reach_m * (2.4 - 1.2 * nearness);
     const glm::dvec3 out = glm::normalize(glm::dvec3(std::cos(turn_rad), std::sin(turn_rad), 0.4));
     return refine::picture_view(
@@ -30,16 +30,16 @@ refine::RefineView view_at(const Around& model, double turn_rad, double nearness
 }
 
 /// Once around in `frames` frames, and twice near.
-refine::RefineView path_view(const Around& model, int frame, int frames) {
+refine::RefineView path_view(const BoundingSphere& model, int frame, int frames) {
     const double done = 2.0 * std::numbers::pi * frame / frames;
     return view_at(model, done, 0.5 - 0.5 * std::cos(2.0 * done));
 }
 
 glm::dvec2 pixel(const refine::RefineView& view, const glm::dvec3& point_m) {
-    const glm::dvec3 right = glm::normalize(glm::cross(view.ahead, glm::dvec3(0.0, 0.0, 1.0)));
+    const glm::dvec3 right = glm::normalize(glm::cross(view.forward, glm::dvec3(0.0, 0.0, 1.0)));
     const glm::dvec3 seen_m = point_m - view.eye_m;
-    const double depth_m = std::max(glm::dot(view.ahead, seen_m), view.near_m);
-    return glm::dvec2(glm::dot(right, seen_m), glm::dot(glm::cross(right, view.ahead), seen_m)) *
+    const double depth_m = std::max(glm::dot(view.forward, seen_m), view.near_m);
+    return glm::dvec2(glm::dot(right, seen_m), glm::dot(glm::cross(right, view.forward), seen_m)) *
            (view.focal_px / depth_m);
 }
 
@@ -54,7 +54,7 @@ public:
         }
     }
 
-    void look(const refine::ViewRefiner& refiner, int frame) {
+    void view_towards(const refine::ViewRefiner& refiner, int frame) {
         constexpr int soon_frames = 10;
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
             Node& node = nodes_[i];
@@ -62,17 +62,17 @@ public:
             split_ += is_split ? 1U : 0U;
             kept_ += is_split && refiner.keeps_split(leaves_ + i) ? 1U : 0U;
             if (is_split != node.is_split) {
-                soon_ += node.changed > 0 && frame - node.changed <= soon_frames ? 1U : 0U;
+                undone_soon_ += node.changed > 0 && frame - node.changed <= soon_frames ? 1U : 0U;
                 node = {is_split, frame};
             }
         }
     }
 
     /// Nodes split and merged, or merged and split, within 10 frames.
-    std::size_t soon() const { return soon_; }
+    std::size_t undone_soon() const { return undone_soon_; }
 
     /// Split ones over those that the criterion kept split, all frames.
-    double split_over_kept() const {
+    double split_to_kept_ratio() const {
         return static_cast<double>(split_) / static_cast<double>(std::max<std::size_t>(kept_, 1));
     }
 
@@ -84,7 +84,7 @@ private:
 
     std::uint32_t leaves_;
     std::vector<Node> nodes_;
-    std::size_t soon_ = 0;
+    std::size_t undone_soon_ = 0;
     std::size_t split_ = 0;
     std::size_t kept_ = 0;
 };
@@ -95,8 +95,8 @@ struct PathRun {
     double active_mean = 0.0;
     double largest_step_px = 0.0;
     double ms_mean = 0.0; ///< processor time of an update
-    std::size_t soon = 0; ///< see SplitWatch
-    double split_over_kept = 0.0;
+    std::size_t undone_soon = 0; ///< see SplitWatch
+    double split_to_kept_ratio = 0.0;
 };
 
 /// Where each original vertex is drawn.
@@ -109,7 +109,7 @@ void drawn_places(const refine::SelectiveRefiner& front, std::vector<glm::vec3>&
 
 PathRun run_path(const RefinedModel& model, int frames) {
     refine::ViewRefiner refiner(model);
-    const Around place = around(*model);
+    const BoundingSphere place = bounding_sphere(*model);
     const refine::RefineView first = path_view(place, 0, frames);
     for (int i = 0; i < 1000 && !refiner.update(first).settled; ++i) {
     }
@@ -120,10 +120,10 @@ PathRun run_path(const RefinedModel& model, int frames) {
     SplitWatch watch(refiner.front());
     for (int frame = 1; frame <= frames; ++frame) {
         const refine::RefineView view = path_view(place, frame, frames);
-        const double start_s = cpu_s();
+        const double start_s = process_cpu_time_s();
         const refine::RefinedFrame done = refiner.update(view);
-        run.ms_mean += 1000.0 * (cpu_s() - start_s) / frames;
-        watch.look(refiner, frame);
+        run.ms_mean += 1000.0 * (process_cpu_time_s() - start_s) / frames;
+        watch.view_towards(refiner, frame);
         const std::size_t operations = done.splits + done.collapses;
         run.operations_mean += static_cast<double>(operations) / frames;
         run.operations_max = std::max(run.operations_max, operations);
@@ -141,21 +141,21 @@ PathRun run_path(const RefinedModel& model, int frames) {
         }
         std::swap(before_m, after_m);
     }
-    run.soon = watch.soon();
-    run.split_over_kept = watch.split_over_kept();
+    run.undone_soon = watch.undone_soon();
+    run.split_to_kept_ratio = watch.split_to_kept_ratio();
     return run;
 }
 
-struct WantedSums {
+struct RequestedSums {
     std::size_t wanted = 0;
     std::size_t bare = 0;     ///< splits of a fresh front without repair
     std::size_t repaired = 0; ///< splits of a fresh front with repair
 };
 
 /// What views along the path want alone, and what is split for it.
-WantedSums wanted_along(const RefinedModel& model, int frames) {
-    WantedSums sums;
-    const Around place = around(*model);
+RequestedSums requested_along(const RefinedModel& model, int frames) {
+    RequestedSums sums;
+    const BoundingSphere place = bounding_sphere(*model);
     for (int frame = 0; frame < frames; frame += std::max(1, frames / 20)) {
         const refine::RefineView view = path_view(place, frame, frames);
         refine::SelectiveRefiner bare(model, {.repair = false});
@@ -187,7 +187,7 @@ report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, in
         "with repair"};
     for (const RefinedModel& model : models) {
         const PathRun run = run_path(model, frames);
-        const WantedSums sums = wanted_along(model, frames);
+        const RequestedSums sums = requested_along(model, frames);
         const auto wanted = static_cast<double>(std::max<std::size_t>(sums.wanted, 1));
         table.rows.push_back(
             {model->parts().name,
@@ -196,8 +196,8 @@ report::HtmlTable refinement_path_table(std::span<const RefinedModel> models, in
              fmt::format("{:.0f}", run.active_mean),
              fmt::format("{:.3f}", run.largest_step_px),
              fmt::format("{:.3f}", run.ms_mean),
-             fmt::format("{}", run.soon),
-             fmt::format("{:.4f}", run.split_over_kept),
+             fmt::format("{}", run.undone_soon),
+             fmt::format("{:.4f}", run.split_to_kept_ratio),
              fmt::format("{:.4f}", static_cast<double>(sums.bare) / wanted),
              fmt::format("{:.4f}", static_cast<double>(sums.repaired) / wanted)});
     }

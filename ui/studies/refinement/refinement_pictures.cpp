@@ -78,7 +78,7 @@ report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
 /// About the original vertex that lies nearest to three quarters of the way to the front and below
 /// the middle.
 refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
-    const models::Bounds bounds = models::bounds_of(original);
+    const models::BoundingBox bounds = models::bounds_of(original);
     const glm::dvec3 share = y_up ? glm::dvec3(0.72, 0.42, 0.8) : glm::dvec3(0.72, 0.2, 0.42);
     const glm::dvec3 wanted_m = glm::mix(bounds.min_m, bounds.max_m, share);
     const auto nearest = std::ranges::min_element(
@@ -108,7 +108,7 @@ std::string write_refinement_pictures(
     front.repair();
     markdown +=
         add("region",
-            visuals::refine::coloured_active(
+            visuals::refine::coloured_mesh(
                 refine::active_mesh(front), visuals::refine::ColourBy::Level));
     return fmt::format(
         "{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "

@@ -1,4 +1,4 @@
-#include "ui/studies/refinement/refinement_place.h"
+#include "ui/studies/refinement/model_bounds.h"
 #include "ui/studies/refinement/refinement_tables.h"
 #include "visuals/refine/selective_refiner.h"
 
@@ -22,9 +22,9 @@ struct Rates {
 /// Processor time of a call.
 template <class Work>
 double seconds_of(const Work& work) {
-    const double start_s = cpu_s();
+    const double start_s = process_cpu_time_s();
     work();
-    return cpu_s() - start_s;
+    return process_cpu_time_s() - start_s;
 }
 
 Rates rates_of(const RefinedModel& model) {

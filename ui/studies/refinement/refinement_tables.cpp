@@ -1,6 +1,6 @@
 #include "ui/studies/refinement/refinement_tables.h"
 
-#include "ui/studies/refinement/refinement_place.h"
+#include "ui/studies/refinement/model_bounds.h"
 #include "visuals/refine/refine_region.h"
 
 #include <array>
@@ -32,24 +32,24 @@ struct ForcedSums {
 
 void measure(
     const RefinedModel& model,
-    const std::shared_ptr<const refine::EarlierRules>& earlier,
+    const std::shared_ptr<const refine::ClassicSplitRules>& classic_rules,
     const Request& request,
     ForcedSums& sums) {
     for (std::size_t rule = 0; rule < rules.size(); ++rule) {
         refine::SelectiveRefiner front(
-            model, {.rule = rules[rule], .repair = false, .earlier = earlier});
+            model, {.rule = rules[rule], .repair = false, .classic_rules = classic_rules});
         const std::size_t requested = request(front);
         sums.forced[rule] += front.counts().splits - requested;
         if (rule == 0) {
             sums.requested += requested;
             sums.faces += front.face_count();
-            sums.turned += front.turned_faces();
+            sums.turned += front.flipped_faces();
         }
     }
     refine::SelectiveRefiner mended(model);
     request(mended);
     sums.repairs += mended.repair();
-    sums.turned_after += mended.turned_faces();
+    sums.turned_after += mended.flipped_faces();
 }
 
 double percent(std::size_t part, std::size_t whole) {
@@ -86,21 +86,21 @@ report::HtmlTable forced_splits_table(std::span<const RefinedModel> models) {
         "after repair (faces)",
         "repair"};
     for (const RefinedModel& model : models) {
-        const auto earlier = std::make_shared<const refine::EarlierRules>(*model);
+        const auto classic_rules = std::make_shared<const refine::ClassicSplitRules>(*model);
         ForcedSums below;
         for (const std::uint32_t root : model->roots()) {
             if (!model->is_leaf(root)) {
                 measure(
                     model,
-                    earlier,
+                    classic_rules,
                     [&](refine::SelectiveRefiner& front) {
-                        return refine::refine_below(front, root);
+                        return refine::refine_subtree(front, root);
                     },
                     below);
             }
         }
         table.rows.push_back(row_of(model->parts().name, "one base vertex", below));
-        const double diagonal_m = 2.0 * around(*model).reach_m;
+        const double diagonal_m = 2.0 * bounding_sphere(*model).reach_m;
         for (const int share : {2, 5, 10, 20}) {
             ForcedSums sums;
             std::mt19937 numbers(7);
@@ -111,7 +111,7 @@ report::HtmlTable forced_splits_table(std::span<const RefinedModel> models) {
                     0.01 * share * diagonal_m};
                 measure(
                     model,
-                    earlier,
+                    classic_rules,
                     [&](refine::SelectiveRefiner& front) {
                         return refine::refine_regions(front, std::span(&region, 1));
                     },

@@ -1,13 +1,13 @@
 #include "ui/studies/refinement/study_refinement.h"
 
-#include "models/made/made_terrain.h"
+#include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
 #include "ui/report/table_text.h"
 #include "ui/studies/refinement/refinement_pictures.h"
 #include "ui/studies/refinement/refinement_tables.h"
-#include "ui/world/refine_input.h"
+#include "ui/world/refine_mesh.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -38,9 +38,9 @@ models::TriangleMesh mesh_of(const models::heights::HeightField& field) {
 }
 
 RefinedModel made_ground(int base) {
-    models::made::MadeOptions made;
+    models::procedural::ProceduralTerrainOptions made;
     made.size = 129;
-    models::TriangleMesh mesh = mesh_of(models::made::made_hills(made));
+    models::TriangleMesh mesh = mesh_of(models::procedural::procedural_hills(made));
     mesh.name = "hills";
     models::simplify::SimplifyOptions options;
     options.length_share = 0.03;
@@ -52,11 +52,11 @@ RefinedModel made_ground(int base) {
 std::vector<RefinedModel> read_models(const RefinementStudyOptions& options) {
     std::vector<RefinedModel> models;
     for (const std::string& file : options.meshes) {
-        world::RefineInput input;
+        world::RefineMeshOptions input;
         input.file = file;
         input.base = static_cast<std::size_t>(options.base);
         input.quiet = options.quiet;
-        models.push_back(world::read_refine_input(input).mesh);
+        models.push_back(world::load_refine_mesh(input).mesh);
     }
     if (models.empty()) {
         models.push_back(made_ground(options.base));
@@ -75,7 +75,7 @@ void study_refinement(const RefinementStudyOptions& options) {
         write_file(options.out / (std::string(file) + ".csv"), report::csv_of(table));
         markdown += report::markdown_of(table) + "\n";
         tables.push_back(std::move(table));
-        base::say(options.quiet, fmt::format("done: {}", file));
+        base::print_note(options.quiet, fmt::format("done: {}", file));
     };
     add("forced-splits", forced_splits_table(models));
     add("refinement-path", refinement_path_table(models, options.frames));
@@ -83,7 +83,7 @@ void study_refinement(const RefinementStudyOptions& options) {
     // The made ground has z up, mesh files y.
     markdown +=
         write_refinement_pictures(models.back(), !options.meshes.empty(), options.out) + "\n";
-    base::say(options.quiet, "done: pictures");
+    base::print_note(options.quiet, "done: pictures");
     write_file(options.out / "refinement.md", markdown);
     std::fputs((options.json ? report::json_of(tables) : markdown).c_str(), stdout);
 }

@@ -20,20 +20,20 @@ namespace fs = std::filesystem;
 constexpr const char* repeats = "3";
 
 /// A file that goes when it is no longer needed.
-class PassingFile {
+class TemporaryFile {
 public:
-    explicit PassingFile(fs::path file)
+    explicit TemporaryFile(fs::path file)
         : path(std::move(file)) {}
 
-    ~PassingFile() {
+    ~TemporaryFile() {
         std::error_code ignored;
         fs::remove(path, ignored);
     }
 
-    PassingFile(const PassingFile&) = delete;
-    PassingFile& operator=(const PassingFile&) = delete;
-    PassingFile(PassingFile&&) = delete;
-    PassingFile& operator=(PassingFile&&) = delete;
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    TemporaryFile(TemporaryFile&&) = delete;
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
 
     const fs::path path;
 };
@@ -41,7 +41,7 @@ public:
 double time_in(const fs::path& program, const std::string& output) {
     const auto json = nlohmann::json::parse(output, nullptr, false);
     if (!json.is_object() || !json.contains("time_ms") || !json["time_ms"].is_number()) {
-        error_in(
+        throw_error_in(
             program,
             fmt::format("expected a line of JSON with time_ms, got '{}'", printable(output)));
     }
@@ -58,7 +58,7 @@ models::TriangleMesh bare(const models::TriangleMesh& mesh) {
 
 constexpr std::array peer_methods = {
     PeerMethod{"meshoptimizer", "meshoptimizer"},
-    PeerMethod{lindstrom_turk, "CGAL Lindstrom-Turk"},
+    PeerMethod{lindstrom_turk_name, "CGAL Lindstrom-Turk"},
     PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"},
     PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
 
@@ -74,7 +74,7 @@ models::TriangleMesh octahedron() {
 
 } // namespace
 
-std::vector<PeerMethod> peers_in(const fs::path& program, const fs::path& folder) {
+std::vector<PeerMethod> methods_of_peer(const fs::path& program, const fs::path& folder) {
     std::vector<PeerMethod> there;
     for (const PeerMethod& method : peer_methods) {
         if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) {
@@ -84,7 +84,7 @@ std::vector<PeerMethod> peers_in(const fs::path& program, const fs::path& folder
     return there;
 }
 
-std::optional<fs::path> peers_beside_us() {
+std::optional<fs::path> find_peer_program() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     const fs::path peers = program.parent_path() / "octant-peers";
@@ -100,8 +100,8 @@ std::optional<PeerResult> simplified_by_peer(
     const models::TriangleMesh& mesh,
     std::size_t faces,
     const fs::path& folder) {
-    const PassingFile input(folder / "peer-input.obj");
-    const PassingFile output(folder / "peer-output.obj");
+    const TemporaryFile input(folder / "peer-input.obj");
+    const TemporaryFile output(folder / "peer-output.obj");
     models::meshfile::write_mesh(input.path, bare(mesh));
     auto child = report::ChildProgram::start(
         {fs::absolute(program).string(),
@@ -112,14 +112,14 @@ std::optional<PeerResult> simplified_by_peer(
          "--repeat",
          repeats});
     if (!child) {
-        error_in(program, "expected the program octant-peers, got nothing that can be run");
+        throw_error_in(program, "expected the program octant-peers, got nothing that can be run");
     }
-    const report::ProgramEnding ending = child->finish();
+    const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) {
         if (ending.output.rfind("not built with", 0) == 0) {
             return std::nullopt;
         }
-        error_in(program, fmt::format("{} failed: {}", method, printable(ending.last_complaint)));
+        throw_error_in(program, fmt::format("{} failed: {}", method, printable(ending.last_error_line)));
     }
     PeerResult result;
     result.time_ms = time_in(program, ending.output);

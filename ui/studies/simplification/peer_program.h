@@ -16,14 +16,14 @@ struct PeerMethod {
     const char* shown; ///< in tables
 };
 
-inline constexpr const char* lindstrom_turk = "cgal-lindstrom-turk";
+inline constexpr const char* lindstrom_turk_name = "cgal-lindstrom-turk";
 
 /// What the program was built with, tried on a small mesh. Throws Error as simplified_by_peer.
 std::vector<PeerMethod>
-peers_in(const std::filesystem::path& program, const std::filesystem::path& folder);
+methods_of_peer(const std::filesystem::path& program, const std::filesystem::path& folder);
 
 /// The program octant-peers beside ours; nothing when it is not there.
-std::optional<std::filesystem::path> peers_beside_us();
+std::optional<std::filesystem::path> find_peer_program();
 
 struct PeerResult {
     models::TriangleMesh mesh;

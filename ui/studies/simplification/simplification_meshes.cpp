@@ -1,8 +1,8 @@
 #include "ui/studies/simplification/simplification_meshes.h"
 
-#include "models/made/made_globe.h"
-#include "models/made/made_part.h"
-#include "models/made/made_up.h"
+#include "models/procedural/globe.h"
+#include "models/procedural/machined_part.h"
+#include "models/procedural/background60.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/repair/repair.h"
 #include "sim/base/error.h"
@@ -32,7 +32,7 @@ StudyMesh study_mesh(std::string name, models::TriangleMesh original) {
 }
 
 models::TriangleMesh torus_mesh() {
-    const models::polygons::PolygonModel model = models::made::torus(256, 64);
+    const models::polygons::PolygonModel model = models::procedural::torus(256, 64);
     models::TriangleMesh mesh;
     mesh.vertices_m = model.vertices_m;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
@@ -83,7 +83,7 @@ StudyMesh bunny_from(const std::filesystem::path& file) {
     constexpr std::size_t vertices = 35947;
     constexpr std::size_t faces = 69451;
     if (mesh.original.vertices_m.size() != vertices || mesh.original.triangles.size() != faces) {
-        error_in(
+        throw_error_in(
             file,
             fmt::format(
                 "expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
@@ -99,16 +99,16 @@ StudyMesh bunny_from(const std::filesystem::path& file) {
 StudyMesh study_mesh_from(const std::filesystem::path& file) {
     StudyMesh mesh = study_mesh(file.stem().string(), models::meshfile::read_mesh(file));
     if (mesh.clean.triangles.empty()) {
-        error_in(file, "expected a mesh with triangles, got none");
+        throw_error_in(file, "expected a mesh with triangles, got none");
     }
     return mesh;
 }
 
-std::vector<StudyMesh> built_in_meshes() {
+std::vector<StudyMesh> built_in_mesh_names() {
     std::vector<StudyMesh> meshes;
-    meshes.push_back(study_mesh("globe", models::made::globe()));
+    meshes.push_back(study_mesh("globe", models::procedural::globe()));
     meshes.push_back(study_mesh("torus", torus_mesh()));
-    meshes.push_back(study_mesh("machined part", models::made::machined_part()));
+    meshes.push_back(study_mesh("machined part", models::procedural::machined_part()));
     meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
     return meshes;
 }

@@ -27,7 +27,7 @@ StudyMesh study_mesh_from(const std::filesystem::path& file);
 
 /// The coloured globe, a torus of 32,768 triangles, and what has sharp edges: a machined part, and
 /// the F-15 with every triangle cut in four until there are 40,000.
-std::vector<StudyMesh> built_in_meshes();
+std::vector<StudyMesh> built_in_mesh_names();
 
 /// The same mesh without the colours of its vertices.
 StudyMesh uncoloured(StudyMesh mesh);

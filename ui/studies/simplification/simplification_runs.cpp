@@ -1,7 +1,7 @@
 #include "ui/studies/simplification/simplification_runs.h"
 
 #include "models/simplify/simplify.h"
-#include "sim/base/worker_team.h"
+#include "sim/base/parallel_for.h"
 #include "ui/base/stopwatch.h"
 
 #include <string>
@@ -28,7 +28,7 @@ measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMe
 /// The methods on one mesh and one number of faces.
 class QualityRow {
 public:
-    QualityRow(const StudyMesh& mesh, std::size_t faces, const RunTick& tick)
+    QualityRow(const StudyMesh& mesh, std::size_t faces, const OnResult& tick)
         : mesh_(mesh)
         , faces_(faces)
         , tick_(tick) {}
@@ -37,7 +37,7 @@ public:
         QualityRun& run = runs.emplace_back();
         run.mesh = mesh_.name;
         run.method = method;
-        run.wanted_faces = faces_;
+        run.target_faces = faces_;
         run.faces = result.triangles.size();
         run.time_ms = time_ms;
         if (result.triangles.empty()) {
@@ -79,7 +79,7 @@ public:
             }
             add(peer.shown, result->mesh, result->time_ms);
             runs.back().peer = true;
-            runs.back().lindstrom_turk = std::string(peer.name) == lindstrom_turk;
+            runs.back().lindstrom_turk_name = std::string(peer.name) == lindstrom_turk_name;
         }
     }
 
@@ -88,13 +88,13 @@ public:
 private:
     const StudyMesh& mesh_;
     std::size_t faces_;
-    const RunTick& tick_;
+    const OnResult& tick_;
 };
 
 } // namespace
 
 std::vector<PaperRun>
-paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const RunTick& tick) {
+paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick) {
     std::vector<PaperRun> runs;
     for (const PaperMeasure by :
          {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
@@ -126,7 +126,7 @@ std::vector<QualityRun> quality_runs(
     const StudyMesh& mesh,
     const std::vector<std::size_t>& faces,
     const QualityOptions& options,
-    const RunTick& tick) {
+    const OnResult& tick) {
     std::vector<QualityRun> runs;
     for (const std::size_t wanted : faces) {
         QualityRow row(mesh, wanted, tick);

@@ -42,22 +42,22 @@ struct PaperRun {
 struct QualityRun {
     std::string mesh;
     std::string method;
-    std::size_t wanted_faces = 0;
+    std::size_t target_faces = 0;
     std::size_t faces = 0;
     double hausdorff = 0.0; ///< certified upper bound
     double rms = 0.0;
     std::optional<double> colour_rms;
     double time_ms = 0.0;
     bool peer = false;
-    bool lindstrom_turk = false;
+    bool lindstrom_turk_name = false;
 };
 
 /// Called after each result.
-using RunTick = std::function<void()>;
+using OnResult = std::function<void()>;
 
 /// The three measures of the paper on one mesh.
 std::vector<PaperRun>
-paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const RunTick& tick);
+paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick);
 
 struct QualityOptions {
     std::filesystem::path program; ///< octant-peers
@@ -73,6 +73,6 @@ std::vector<QualityRun> quality_runs(
     const StudyMesh& mesh,
     const std::vector<std::size_t>& faces,
     const QualityOptions& options,
-    const RunTick& tick);
+    const OnResult& tick);
 
 } // namespace octant::ui::studies::simplification

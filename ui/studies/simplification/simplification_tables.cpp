@@ -101,17 +101,17 @@ std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous
 
 /// Whether a result has the faces asked for, and not many more.
 bool is_at_goal(const QualityRun& run) {
-    return static_cast<double>(run.faces) <= 1.02 * static_cast<double>(run.wanted_faces);
+    return static_cast<double>(run.faces) <= 1.02 * static_cast<double>(run.target_faces);
 }
 
 /// The least value of the libraries on the same mesh at the same goal, of those that reach it.
 template <typename Value>
 std::optional<double>
-best_of_peers(std::span<const QualityRun> runs, const QualityRun& beside, const Value& value) {
+best_peer_value(std::span<const QualityRun> runs, const QualityRun& reference, const Value& value) {
     std::optional<double> best;
     for (const QualityRun& run : runs) {
-        if (run.peer && is_at_goal(run) && run.mesh == beside.mesh &&
-            run.wanted_faces == beside.wanted_faces) {
+        if (run.peer && is_at_goal(run) && run.mesh == reference.mesh &&
+            run.target_faces == reference.target_faces) {
             best = std::min(best.value_or(std::numeric_limits<double>::infinity()), value(run));
         }
     }
@@ -119,10 +119,10 @@ best_of_peers(std::span<const QualityRun> runs, const QualityRun& beside, const 
 }
 
 std::optional<double>
-time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& beside) {
+time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
     for (const QualityRun& run : runs) {
-        if (run.lindstrom_turk && run.mesh == beside.mesh &&
-            run.wanted_faces == beside.wanted_faces) {
+        if (run.lindstrom_turk_name && run.mesh == reference.mesh &&
+            run.target_faces == reference.target_faces) {
             return run.time_ms;
         }
     }
@@ -168,7 +168,7 @@ series_of(std::span<const QualityRun> runs, const std::string& mesh, const std::
 
 } // namespace
 
-std::string simplification_reading() {
+std::string paper_reading_text() {
     return fmt::format(
         "# Simplification by distances to triangles (Y. Kim, B. U. Lee, 2005)\n\n"
         "How the paper is read, where it leaves a choice:\n\n"
@@ -266,12 +266,12 @@ report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peer
         "time / Lindstrom-Turk"};
     for (const QualityRun& run : runs) {
         const auto hausdorff =
-            best_of_peers(runs, run, [](const QualityRun& r) { return r.hausdorff; });
-        const auto rms = best_of_peers(runs, run, [](const QualityRun& r) { return r.rms; });
+            best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
+        const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
         table.rows.push_back(
             {run.mesh,
              run.method,
-             fmt::format("{}", run.wanted_faces),
+             fmt::format("{}", run.target_faces),
              fmt::format("{}", run.faces),
              fmt::format("{:.3f}", 1e3 * run.hausdorff),
              fmt::format("{:.3f}", 1e4 * run.rms),

@@ -9,7 +9,7 @@
 namespace octant::ui::studies::simplification {
 
 /// How the paper was read, above its tables: Markdown.
-std::string simplification_reading();
+std::string paper_reading_text();
 
 /// Table 1: how many perpendiculars end outside their triangle.
 report::HtmlTable feet_table(std::span<const PaperRun> runs);

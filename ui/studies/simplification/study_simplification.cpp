@@ -31,7 +31,7 @@ StudyMeshes meshes_of(const SimplificationStudyOptions& options) {
         all.left_out = "Left out: the bunny, which is not ours to ship; give the Stanford "
                        "repository's bun_zipper.ply by --bunny.\n\n";
     }
-    std::vector<StudyMesh> built_in = built_in_meshes();
+    std::vector<StudyMesh> built_in = built_in_mesh_names();
     std::move(built_in.begin(), built_in.end(), std::back_inserter(all.meshes));
     for (const std::filesystem::path& file : options.meshes) {
         all.meshes.push_back(study_mesh_from(file));
@@ -69,7 +69,7 @@ std::vector<PaperRun> all_paper_runs(const std::vector<StudyMesh>& meshes, bool 
     int done = 0;
     std::vector<PaperRun> runs;
     for (const StudyMesh& mesh : meshes) {
-        const RunTick tick = [&] { progress.show(++done, mesh.name); };
+        const OnResult tick = [&] { progress.show(++done, mesh.name); };
         for (const ColourReading colour : colour_readings(mesh)) {
             auto of_mesh = paper_runs(mesh, paper_goal(mesh), colour, tick);
             std::move(of_mesh.begin(), of_mesh.end(), std::back_inserter(runs));
@@ -92,10 +92,10 @@ std::vector<std::size_t> goals_for(const StudyMesh& mesh, const std::vector<std:
 
 QualityOptions quality_options(const SimplificationStudyOptions& options) {
     QualityOptions quality;
-    if (const auto program = options.peers ? options.peers : peers_beside_us()) {
+    if (const auto program = options.peers ? options.peers : find_peer_program()) {
         quality.program = *program;
         quality.folder = options.out;
-        quality.peers = peers_in(*program, options.out);
+        quality.peers = methods_of_peer(*program, options.out);
     }
     return quality;
 }
@@ -115,7 +115,7 @@ std::vector<QualityRun> all_quality_runs(
     int done = 0;
     std::vector<QualityRun> runs;
     const auto add = [&](const StudyMesh& mesh, const QualityOptions& with) {
-        const RunTick tick = [&] { progress.show(++done, mesh.name); };
+        const OnResult tick = [&] { progress.show(++done, mesh.name); };
         auto of_mesh = quality_runs(mesh, goals_for(mesh, options.faces), with, tick);
         std::move(of_mesh.begin(), of_mesh.end(), std::back_inserter(runs));
     };
@@ -152,7 +152,7 @@ void write_and_print(
                     "faces.\n";
     }
     write_file(options.out / "simplification.md", markdown);
-    base::say(
+    base::print_note(
         options.quiet,
         fmt::format("tables: {0}/simplification.md and one .csv each", options.out.string()));
 }
@@ -173,12 +173,12 @@ void study_simplification(const SimplificationStudyOptions& options) {
         tables.emplace_back("quality", quality_table(runs, !quality.peers.empty()));
         figure = quality_figure(runs);
         if (figure.empty()) {
-            base::say(
+            base::print_note(
                 options.quiet,
                 "rms.png not made: it takes gnuplot and more than one number of faces");
         }
     }
-    write_and_print(tables, simplification_reading() + given.left_out, figure, options);
+    write_and_print(tables, paper_reading_text() + given.left_out, figure, options);
 }
 
 } // namespace octant::ui::studies::simplification

@@ -17,7 +17,7 @@ constexpr int side_px = 8;
 constexpr glm::ivec2 cut_px{4, 4}; ///< The pixel of the cut.
 constexpr double reach_px = 0.01;
 constexpr std::uint32_t far_one = 1;
-constexpr std::uint32_t near_one = 2;
+constexpr std::uint32_t occluder = 2;
 
 /// A rectangle that fills the picture from one column to another, counted from the middle of
 /// cut_px.
@@ -63,7 +63,7 @@ void draw(RayRenderer& rays, const std::vector<Piece>& pieces) {
 bool is_rounding(const std::vector<Piece>& pieces) {
     RayRenderer rays({side_px, side_px});
     draw(rays, pieces);
-    return rays.is_rounding(cut_px, far_one, near_one, reach_px);
+    return rays.is_rounding(cut_px, far_one, occluder, reach_px);
 }
 
 } // namespace
@@ -73,21 +73,21 @@ TEST_CASE("where one plane cuts two polygons rounding may show the farther one")
     // rounded, that of the far polygon may cover it, that of the near one not.
     constexpr float cut = 0.001F;
     const Piece far_left{far_one, 20.0F, -4.5F, cut};
-    const Piece near_left{near_one, 10.0F, -4.5F, cut};
+    const Piece near_left{occluder, 10.0F, -4.5F, cut};
     const Piece far_right{far_one, 20.0F, cut, 3.5F};
-    const Piece near_right{near_one, 10.0F, cut, 3.5F};
+    const Piece near_right{occluder, 10.0F, cut, 3.5F};
     CHECK(is_rounding({far_left, near_left, far_right, near_right}));
     // Not where the order is wrong,
     CHECK_FALSE(is_rounding({near_left, far_left, near_right, far_right}));
     // nor where the near polygon is one piece, so that the cut is no excuse,
-    CHECK_FALSE(is_rounding({far_left, far_right, {near_one, 10.0F}}));
+    CHECK_FALSE(is_rounding({far_left, far_right, {occluder, 10.0F}}));
     // nor where the far one is seen through a crack that should be closed,
     CHECK_FALSE(is_rounding({{far_one, 20.0F}, near_left, near_right}));
     // nor where the cut is out of reach.
     constexpr float away = 0.02F;
     CHECK_FALSE(is_rounding(
         {{far_one, 20.0F, -4.5F, away},
-         {near_one, 10.0F, -4.5F, away},
+         {occluder, 10.0F, -4.5F, away},
          {far_one, 20.0F, away, 3.5F},
-         {near_one, 10.0F, away, 3.5F}}));
+         {occluder, 10.0F, away, 3.5F}}));
 }

@@ -1,4 +1,4 @@
-#include "models/made/made_terrain.h"
+#include "models/procedural/procedural_terrain.h"
 #include "ui/studies/flicker/shimmer.h"
 #include "ui/terrain/random_view.h"
 
@@ -34,9 +34,9 @@ TEST_CASE("ground seen from above moves across the picture as far as the eye doe
     const glm::ivec2 size_px(160, 120);
     const double focal_px = 60.0 / std::tan(0.5 * looking_down(0.0).camera.vertical_fov_rad);
     const double east_m = 1000.0 / focal_px * 2.5; // two and a half pixels
-    const auto places = same_places(ground, looking_down(0.0), looking_down(east_m), size_px, 0.0);
-    REQUIRE(places.size() > 1000);
-    for (const SamePlace& place : places) {
+    const auto matches = reprojected_pixels(ground, looking_down(0.0), looking_down(east_m), size_px, 0.0);
+    REQUIRE(matches.size() > 1000);
+    for (const ReprojectedPixel& place : matches) {
         CHECK(place.before.x == Approx(place.pixel.x + 2.5).margin(1e-6));
         CHECK(place.before.y == Approx(place.pixel.y).margin(1e-6));
     }
@@ -46,8 +46,8 @@ TEST_CASE("a picture that moves with the ground does not change; another does") 
     const visuals::terrain::GroundSamples ground(level());
     const glm::ivec2 size_px(160, 120);
     const double focal_px = 60.0 / std::tan(0.5 * looking_down(0.0).camera.vertical_fov_rad);
-    const auto places =
-        same_places(ground, looking_down(0.0), looking_down(1000.0 / focal_px), size_px, 0.0);
+    const auto matches =
+        reprojected_pixels(ground, looking_down(0.0), looking_down(1000.0 / focal_px), size_px, 0.0);
     const auto ramp = [&](int offset) {
         visuals::scene::Picture picture;
         picture.width = size_px.x;
@@ -58,8 +58,8 @@ TEST_CASE("a picture that moves with the ground does not change; another does") 
         }
         return picture;
     };
-    CHECK(mean_change(ramp(0), ramp(1), places) == Approx(0.0).margin(1e-6));
-    CHECK(mean_change(ramp(0), ramp(4), places) == Approx(3.0).margin(1e-6));
+    CHECK(mean_change(ramp(0), ramp(1), matches) == Approx(0.0).margin(1e-6));
+    CHECK(mean_change(ramp(0), ramp(4), matches) == Approx(3.0).margin(1e-6));
     CHECK(mean_change(ramp(0), ramp(4), {}) == 0.0);
 }
 

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "visuals/terrain/curvature_drop.h"
+#include "visuals/terrain/ground_samples.h"
+#include "visuals/terrain/mesh_surface.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octant::ui::terrain {
+
+/// A place that is asked about, world axes, metres.
+struct QueryPoint {
+    double x_m = 0.0;
+    double y_m = 0.0;
+    std::optional<double> z_m;
+};
+
+/// "X,Y" or "X,Y,Z"; nothing for anything else.
+std::optional<QueryPoint> point_from_text(std::string_view text);
+
+/// One point a line; lines that begin with # are passed over, so is a first line of names. Throws
+/// Error with the line of a wrong one.
+std::vector<QueryPoint> read_points(const std::filesystem::path& file);
+
+struct QueryPointResult {
+    QueryPoint query_point;
+    std::optional<double> ground_m; ///< nothing outside the map or the mesh
+};
+
+struct LineOfSightAnswer {
+    bool visible = true;
+    std::optional<glm::dvec3> blocked_at_m; ///< the first ground that hides
+    std::optional<double> clearance_m;     ///< least height of the line above the ground
+    std::optional<glm::dvec3> min_clearance_at_m; ///< the ground there
+};
+
+struct QueryResults {
+    std::vector<QueryPointResult> points;
+    std::optional<LineOfSightAnswer> sight;
+};
+
+std::vector<QueryPointResult>
+ground_heights_at(const visuals::terrain::GroundSamples& ground, std::span<const QueryPoint> points);
+
+/// Ground as it is drawn for an eye point.
+struct DrawnMesh {
+    visuals::terrain::MeshSurface surface;
+    glm::dvec3 eye_m{0.0};       ///< world
+    double earth_radius_m = 0.0; ///< by which it sinks away from the eye; 0 = flat
+
+    /// How far it is drawn below its height above datum.
+    double drop_m(const glm::dvec2& at_m) const {
+        const glm::dvec2 away_m = at_m - glm::dvec2(eye_m);
+        return visuals::terrain::curvature_drop_m(glm::dot(away_m, away_m), earth_radius_m);
+    }
+};
+
+/// Where the asked points lie over the ground as its mesh is drawn; heights are above datum.
+std::vector<QueryPointResult>
+drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points);
+
+/// `radius_m`: of the earth, 0 = flat.
+LineOfSightAnswer line_of_sight_answer(
+    const visuals::terrain::GroundSamples& ground,
+    const glm::dvec3& from_m,
+    const glm::dvec3& to_m,
+    double radius_m);
+
+/// Straight between the ends where they are drawn.
+LineOfSightAnswer
+drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m);
+
+/// CSV, or one JSON object with "points" and "sight".
+std::string query_text(const QueryResults& answers, bool json);
+
+} // namespace octant::ui::terrain

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "models/polygons/polygon_model.h"
+#include "visuals/draworder/draw_order.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace octant::visuals::draworder {
+
+/// Which eyes and polygons a trial looks at.
+struct RayTestOptions {
+    /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can
+    /// be right for them.
+    bool turning_parts = true;
+    /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
+    double min_distance_m = 0.0;
+    glm::dvec3 centre_m{0.0};
+    /// About how long the proof may take on one core.
+    double proof_s = 0.4;
+};
+
+/// What a trial saw.
+struct RayTestResult {
+    long rays = 0;  ///< Rays that meet the front of a polygon away from its sides.
+    long wrong = 0; ///< Of these, rays along which a polygon farther away was painted last.
+    /// Pairs and polygons for which no proof was found (prove_order.h).
+    std::uint64_t unproved = 0;
+    bool is_proof_complete = false; ///< Whether the proof came to the end of the order.
+};
+
+/// Tries an order before it is used, with none of the code that made it: from eyes far and near,
+/// close to the planes of its nodes and close to polygons, at points of polygons; and by a proof.
+/// Pairs that it leaves open are looked at by rays that one of the two would hide the other along.
+/// The work is bounded, some tenths of a second and the proof; the same model and order give the
+/// same trial.
+RayTestResult ray_test_order(
+    const models::polygons::PolygonModel& model, const DrawOrder& order, const RayTestOptions& scope);
+
+} // namespace octant::visuals::draworder

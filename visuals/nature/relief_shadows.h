@@ -1,0 +1,49 @@
+#pragma once
+
+#include "visuals/terrain/ground_samples.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace octant::visuals::nature {
+
+/// What the relief leaves of the light at a place, 0..1.
+struct LightVisibility {
+    float sun = 1.0F; ///< 0 in the shadow of other ground
+    float sky = 1.0F; ///< of the light from everywhere; less in hollows
+};
+
+/// Shadows of the ground on itself and the light in its hollows, worked out once for a place of the
+/// sun, on at most 1,025 x 1,025 places.
+class ReliefShadows {
+public:
+    /// `to_sun` is a unit vector in world axes. The ground is needed by the constructor alone.
+    ReliefShadows(const terrain::GroundSamples& ground, const glm::dvec3& to_sun);
+
+    /// At a place in metres east and north of the ground's first sample, as the mean over about
+    /// `footprint_m`.
+    LightVisibility at(float east_m, float north_m, float footprint_m) const;
+
+private:
+    struct Cell {
+        std::uint8_t sun = 255;
+        std::uint8_t sky = 255;
+    };
+
+    /// Every second place of the level before, as the mean of its surroundings there.
+    struct MipLevel {
+        int columns = 0;
+        int rows = 0;
+        std::vector<Cell> cells; ///< row after row from the south
+    };
+
+    void add_coarser_level();
+
+    float spacing_m_; ///< of the first level
+    std::vector<MipLevel> levels_;
+};
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,326 @@
+// Seeks planes that prove that one polygon hides nothing of another. By Farkas' lemma every plane
+// with all eyes before it is a sum, with factors >= 0, of the planes that bound the eyes and of 1;
+// eyes that see a polygon are bounded by its plane, too. Where no single plane will do, a game
+// finds the factors, and where rounding spoils that a linear programme.
+#include "visuals/separation/separating_plane_proof.h"
+
+#include "visuals/separation/linear_program.h"
+#include "visuals/separation/matrix_game.h"
+#include "visuals/separation/refined_optimum.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace octant::visuals::separation {
+
+namespace {
+
+/// What is left of the tolerance for the rounding of this code.
+constexpr double safe = 0.999;
+
+/// Planes of which a sum may be made, and which factor each one has: 0 is that of the earlier
+/// polygon, 1 of the later one, the others those of the walls.
+struct UsablePlanes {
+    std::vector<Plane> planes;
+    std::vector<std::size_t> factors;
+};
+
+PlaneFactors
+factors_of(const UsablePlanes& usable, const std::vector<double>& found, double one, std::size_t region_planes) {
+    std::vector<double> all(region_planes + 2, 0.0);
+    for (std::size_t i = 0; i < usable.factors.size(); ++i) {
+        all[usable.factors[i]] = std::max(found[i], 0.0);
+    }
+    return {all[0], all[1], std::max(one, 0.0), {all.begin() + 2, all.end()}};
+}
+
+Plane sum_of(const UsablePlanes& usable, const std::vector<double>& found, double one) {
+    Plane sum{glm::dvec3(0.0), std::max(one, 0.0)};
+    for (std::size_t i = 0; i < usable.planes.size(); ++i) {
+        const double factor = std::max(found[i], 0.0);
+        sum.normal += usable.planes[i].normal * factor;
+        sum.offset_m += usable.planes[i].offset_m * factor;
+    }
+    return sum;
+}
+
+/// How the factors of a separating plane are held down.
+enum class Norm {
+    PlaneFactors, ///< They add up to 1.
+    /// The middles of the two polygons are 1 apart across the plane. Where the region of the eyes
+    /// is so thin that factors of another size nearly cancel out, a plane is left all the same.
+    Distance
+};
+
+glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& point : points) {
+        sum += point;
+    }
+    return sum / static_cast<double>(points.size());
+}
+
+/// The programme of a separating plane. Its unknowns are a factor for each plane, one for 1, and
+/// the margin, which is maximised.
+LinearProgram separation_programme(
+    const UsablePlanes& usable,
+    std::span<const glm::dvec3> behind,
+    std::span<const glm::dvec3> before,
+    Norm norm) {
+    LinearProgram program;
+    const std::size_t planes = usable.planes.size();
+    program.variables.assign(planes + 1, {});
+    program.variables.push_back({.weight = 1.0, .least = -1e3, .most = 1e3});
+    const auto add_corner = [&](const glm::dvec3& corner, double sign) {
+        LinearProgram::Row row;
+        for (const Plane& plane : usable.planes) {
+            row.factors.push_back(sign * distance_m(plane, corner));
+        }
+        row.factors.push_back(sign);
+        row.factors.push_back(-1.0);
+        row.least = 0.0;
+        program.rows.push_back(std::move(row));
+    };
+    for (const glm::dvec3& corner : behind) {
+        add_corner(corner, -1.0);
+    }
+    for (const glm::dvec3& corner : before) {
+        add_corner(corner, 1.0);
+    }
+    LinearProgram::Row total;
+    total.factors.assign(planes + 1, 1.0);
+    if (norm == Norm::Distance) {
+        const glm::dvec3 across = middle_of(before) - middle_of(behind);
+        for (std::size_t i = 0; i < planes; ++i) {
+            total.factors[i] = glm::dot(usable.planes[i].normal, across);
+        }
+        total.factors[planes] = 0.0;
+    }
+    total.factors.push_back(0.0);
+    total.least = total.most = 1.0;
+    program.rows.push_back(std::move(total));
+    return program;
+}
+
+/// The programme of a sum that is negative everywhere. Its unknowns are a factor for each plane and
+/// the error, which is minimised; those of the polygons add up to 1.
+LinearProgram nowhere_programme(const UsablePlanes& usable) {
+    LinearProgram program;
+    program.variables.assign(usable.planes.size(), {});
+    program.variables.push_back({.weight = -1.0});
+    for (int i = 0; i < 4; ++i) {
+        for (const double sign : {1.0, -1.0}) {
+            if (i == 3 && sign < 0.0) {
+                continue;
+            }
+            LinearProgram::Row row;
+            for (const Plane& plane : usable.planes) {
+                row.factors.push_back(sign * (i < 3 ? plane.normal[i] : plane.offset_m));
+            }
+            row.factors.push_back(-1.0);
+            row.most = 0.0;
+            program.rows.push_back(std::move(row));
+        }
+    }
+    LinearProgram::Row total;
+    for (const std::size_t factor : usable.factors) {
+        total.factors.push_back(factor < 2 ? 1.0 : 0.0);
+    }
+    total.factors.push_back(0.0);
+    total.least = total.most = 1.0;
+    program.rows.push_back(std::move(total));
+    return program;
+}
+
+/// Two polygons and the eyes for which their order is to be proved.
+struct ProofQuery {
+    const LocalModel& model;
+    std::span<const Plane> region_planes;
+    std::uint32_t earlier;
+    std::uint32_t later;
+    bool turns; ///< They do not turn together about one axis.
+};
+
+bool separate_angles(const LocalModel& model, std::uint32_t earlier, std::uint32_t later) {
+    const auto& axis = model.polygons[earlier].axis;
+    return !(axis && axis == model.polygons[later].axis);
+}
+
+/// The planes that all eyes that see both are before; polygons that turn together see walls turn.
+UsablePlanes usable(const ProofQuery& query) {
+    UsablePlanes out;
+    const auto add = [&](std::size_t factor, const Plane& plane) {
+        out.factors.push_back(factor);
+        out.planes.push_back(plane);
+    };
+    const auto add_front = [&](std::size_t factor, std::uint32_t polygon) {
+        if (query.model.polygons[polygon].keeps_plane || !query.turns) {
+            add(factor, query.model.polygons[polygon].plane);
+        }
+    };
+    add_front(0, query.earlier);
+    if (query.later != query.earlier) {
+        add_front(1, query.later);
+    }
+    for (std::size_t wall = 0; query.turns && wall < query.region_planes.size(); ++wall) {
+        add(wall + 2, query.region_planes[wall]);
+    }
+    return out;
+}
+
+/// The factors for planes and for 1, if their sum is a witness.
+std::optional<PlaneFactors>
+verified(const ProofQuery& query, const UsablePlanes& planes, const std::vector<double>& found) {
+    const double one = found[planes.planes.size()];
+    const Plane sum = sum_of(planes, found, one);
+    const bool good = glm::length(sum.normal) > 0.0 &&
+                      is_behind(query.model, query.earlier, sum, query.turns) &&
+                      is_before(query.model, query.later, sum, query.turns);
+    return good ? std::optional(factors_of(planes, found, one, query.region_planes.size())) : std::nullopt;
+}
+
+/// What a plane must have behind it, or before it.
+std::span<const glm::dvec3> corners_of(const ProofQuery& query, std::uint32_t polygon) {
+    const LocalPolygon& one = query.model.polygons[polygon];
+    return query.turns ? one.swept : one.corners;
+}
+
+/// A plane by a game: each corner asks how far it is on its side of the sum.
+std::optional<PlaneFactors> separate_by_game(const ProofQuery& query, const UsablePlanes& planes) {
+    Payoffs payoffs{planes.planes.size() + 1, {}};
+    for (const auto& [polygon, sign] : {std::pair(query.earlier, -1.0), {query.later, 1.0}}) {
+        for (const glm::dvec3& corner : corners_of(query, polygon)) {
+            for (const Plane& plane : planes.planes) {
+                payoffs.values.push_back(sign * distance_m(plane, corner));
+            }
+            payoffs.values.push_back(sign);
+        }
+    }
+    return verified(query, planes, best_shares(payoffs));
+}
+
+std::optional<PlaneFactors> separating(const ProofQuery& query, const UsablePlanes& planes) {
+    for (const Norm norm : {Norm::PlaneFactors, Norm::Distance}) {
+        const LinearProgram program = separation_programme(
+            planes, corners_of(query, query.earlier), corners_of(query, query.later), norm);
+        for (const auto& solve : {&optimum, &refined_optimum}) {
+            const auto found = solve(program);
+            auto factors = found ? verified(query, planes, *found) : std::nullopt;
+            if (factors) {
+                return factors;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// How many of the planes are those of polygons; they stand first.
+std::ptrdiff_t planes_of_polygons(const UsablePlanes& planes) {
+    return std::ranges::count_if(planes.factors, [](std::size_t factor) { return factor < 2; });
+}
+
+/// Factors for planes, if their sum is negative everywhere.
+std::optional<PlaneFactors>
+verified_negative(const ProofQuery& query, const UsablePlanes& planes, std::vector<double> found) {
+    const std::ptrdiff_t of_polygons = planes_of_polygons(planes);
+    double total = 0.0;
+    for (std::ptrdiff_t i = 0; i < of_polygons; ++i) {
+        total += std::max(found[static_cast<std::size_t>(i)], 0.0);
+    }
+    if (total <= 0.0) {
+        return std::nullopt;
+    }
+    // Those of the polygons have to add up to 1 at least, rounded as they are.
+    const double scale = (of_polygons == 1 ? 1.0 : 1.0 + 1e-15) / total;
+    for (double& factor : found) {
+        factor = std::max(factor, 0.0) * scale;
+    }
+    if (of_polygons == 1) {
+        found.front() = 1.0;
+    }
+    const Plane sum = sum_of(planes, found, 0.0);
+    const glm::dvec3 size = glm::abs(sum.normal);
+    const bool good =
+        std::max({size.x, size.y, size.z, sum.offset_m}) <= safe * query.model.tolerance;
+    return good ? std::optional(factors_of(planes, found, 0.0, query.region_planes.size())) : std::nullopt;
+}
+
+/// A sum that is negative everywhere by a game: each axis, either way, and the middle ask how far
+/// it is from being positive.
+std::optional<PlaneFactors> never_both_visible_by_game(const ProofQuery& query, const UsablePlanes& planes) {
+    if (planes_of_polygons(planes) == 0) {
+        return std::nullopt;
+    }
+    Payoffs payoffs{planes.planes.size(), {}};
+    for (const double sign : {1.0, -1.0}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const Plane& plane : planes.planes) {
+                payoffs.values.push_back(sign * plane.normal[axis]);
+            }
+        }
+    }
+    for (const Plane& plane : planes.planes) {
+        payoffs.values.push_back(-plane.offset_m);
+    }
+    return verified_negative(query, planes, best_shares(payoffs));
+}
+
+std::optional<PlaneFactors> find_never_both_visible(const ProofQuery& query, const UsablePlanes& planes) {
+    if (planes_of_polygons(planes) == 0) {
+        return std::nullopt;
+    }
+    const auto found = refined_optimum(nowhere_programme(planes));
+    return found ? verified_negative(query, planes, *found) : std::nullopt;
+}
+
+} // namespace
+
+DecidingPolygon
+deciding_polygon(const LocalModel& model, std::uint32_t earlier, std::uint32_t later, DecidingPolygon preferred) {
+    const bool turns = separate_angles(model, earlier, later);
+    const auto decides = [&](DecidingPolygon one) {
+        const LocalPolygon& polygon = model.polygons[one == DecidingPolygon::Earlier ? earlier : later];
+        return (polygon.keeps_plane || !turns) &&
+               (one == DecidingPolygon::Earlier ? is_before(model, later, polygon.plane, turns)
+                                        : is_behind(model, earlier, polygon.plane, turns));
+    };
+    const DecidingPolygon first = preferred == DecidingPolygon::Later ? DecidingPolygon::Later : DecidingPolygon::Earlier;
+    const DecidingPolygon other = first == DecidingPolygon::Later ? DecidingPolygon::Earlier : DecidingPolygon::Later;
+    return decides(first) ? first : decides(other) ? other : DecidingPolygon::Neither;
+}
+
+SeparatingPlaneProof find_separating_plane(
+    const LocalModel& model,
+    std::span<const Plane> region_planes,
+    std::uint32_t earlier,
+    std::uint32_t later) {
+    const ProofQuery query{model, region_planes, earlier, later, separate_angles(model, earlier, later)};
+    const UsablePlanes planes = usable(query);
+    using Search = std::optional<PlaneFactors> (*)(const ProofQuery&, const UsablePlanes&);
+    constexpr std::array<std::pair<Search, SeparatingPlaneProof::Kind>, 4> searches{
+        {{&separate_by_game, SeparatingPlaneProof::Kind::Sum},
+         {&never_both_visible_by_game, SeparatingPlaneProof::Kind::Never},
+         {&separating, SeparatingPlaneProof::Kind::Sum},
+         {&find_never_both_visible, SeparatingPlaneProof::Kind::Never}}};
+    for (const auto& [search, kind] : searches) {
+        if (auto factors = search(query, planes)) {
+            return {kind, std::move(*factors)};
+        }
+    }
+    return {};
+}
+
+std::optional<PlaneFactors>
+find_back_facing_proof(const LocalModel& model, std::span<const Plane> region_planes, std::uint32_t polygon) {
+    const ProofQuery query{model, region_planes, polygon, polygon, true};
+    const UsablePlanes planes = usable(query);
+    auto factors = never_both_visible_by_game(query, planes);
+    return factors ? std::move(factors) : find_never_both_visible(query, planes);
+}
+
+} // namespace octant::visuals::separation
