@@ -43,35 +43,35 @@ planning::PlanRequest FrameRenderer::request(const FrameState& now, std::optiona
         .states = now.states,
         .triangle_target = now.triangle_target,
         .smooth = {.polygons = smooth, .share = std::nullopt},
-        .when_refined = nullptr,
-        .words = overlay_lines_,
-        .turned = now.turned};
+        .on_refined = nullptr,
+        .overlay_lines = overlay_lines_,
+        .articulated_parts = now.articulated_parts};
 }
 
 planning::PlanCounts FrameRenderer::plan(
-    const FrameState& now, std::optional<int> smooth, std::function<void()> when_refined) {
+    const FrameState& now, std::optional<int> smooth, std::function<void()> on_refined) {
     planning::PlanRequest wanted = request(now, smooth);
-    wanted.when_refined = std::move(when_refined);
+    wanted.on_refined = std::move(on_refined);
     const planning::PlannedFrame frame = planner_->plan(wanted);
     plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
     std::optional<double> share; // of the picture's polygons, and so of the inset's
     if (smooth && frame.counts.smoothable_polygons > 0) {
         share = std::min(static_cast<double>(*smooth) / frame.counts.smoothable_polygons, 1.0);
     }
-    inset_plan_ = inset_ ? &inset_->plan(now.inset_camera, now.states, now.turned, share) : nullptr;
+    inset_plan_ = inset_ ? &inset_->plan(now.inset_camera, now.states, now.articulated_parts, share) : nullptr;
     return frame.counts;
 }
 
 void FrameRenderer::advance_without_drawing(const FrameState& now, std::optional<int> smooth) {
     planner_->advance_without_drawing(request(now, smooth));
     if (inset_) {
-        inset_->advance_without_drawing(now.inset_camera, now.states, now.turned);
+        inset_->advance_without_drawing(now.inset_camera, now.states, now.articulated_parts);
     }
 }
 
 void FrameRenderer::mesh_async(const FrameState& next) {
     const auto on_idle_thread = [this](std::function<void()> work) {
-        return renderer_.begin_beside(std::move(work));
+        return renderer_.begin_on_idle_thread(std::move(work));
     };
     planner_->begin_next_mesh(next.camera, next.triangle_target, on_idle_thread);
     if (inset_) {
@@ -107,11 +107,11 @@ void FrameRenderer::read(const FrameState& now, std::optional<int> smooth) {
     if (picture_is_read_) {
         return;
     }
-    if (renderer_.is_in_window()) {
+    if (renderer_.is_drawn_to_window()) {
         if (plan_ == nullptr) {
             plan(now, smooth, nullptr);
         }
-        renderer_.aim_at_window(glm::ivec2(0));
+        renderer_.set_window_target(glm::ivec2(0));
         draw_plans();
     }
     renderer_.finish_and_read(picture_);

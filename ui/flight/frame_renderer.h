@@ -61,7 +61,7 @@ public:
     void set_presenter(Presenter presenter) { presenter_ = std::move(presenter); }
 
     /// The next pictures may be drawn straight into a window of that size.
-    void aim_at_window(const glm::ivec2& window_px) { renderer_.aim_at_window(window_px); }
+    void set_window_target(const glm::ivec2& window_px) { renderer_.set_window_target(window_px); }
 
     /// Whether pictures are read before they are shown, as whoever records each of them wants. A
     /// driver must not draw them straight into the window then.
@@ -74,9 +74,9 @@ public:
     }
 
     /// Plans a moment, after the pictures before it. `smooth`: polygons that are smooth, nothing =
-    /// as the settings' share says. `when_refined`: PlanRequest::when_refined.
+    /// as the settings' share says. `on_refined`: PlanRequest::on_refined.
     visuals::planning::PlanCounts
-    plan(const FrameState& now, std::optional<int> smooth, std::function<void()> when_refined);
+    plan(const FrameState& now, std::optional<int> smooth, std::function<void()> on_refined);
 
     /// Goes on as if a moment had been planned, for a picture that nobody sees
     /// (Planner::advance_without_drawing).

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
-#include "visuals/planning/turned_part.h"
+#include "visuals/planning/articulated_part.h"
 #include "visuals/scene/camera.h"
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct FrameState {
     double time_s = 0.0;
     std::vector<sim::AircraftState> states;
     /// Parts that do not turn by themselves.
-    std::vector<visuals::planning::TurnedPart> turned;
+    std::vector<visuals::planning::ArticulatedPart> articulated_parts;
     visuals::scene::Camera camera;
     visuals::scene::Camera inset_camera;
     /// Triangles of ground that the picture aims at.

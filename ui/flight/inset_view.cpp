@@ -82,22 +82,22 @@ void InsetView::set_sun(const settings::RunSettings& settings) {
 const scene::FramePlan& InsetView::plan(
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
-    std::span<const planning::TurnedPart> turned,
+    std::span<const planning::ArticulatedPart> articulated_parts,
     std::optional<double> smooth_share) {
     reset_detail(camera);
     planning::PlanRequest request{camera, states};
     request.smooth.share = smooth_share;
-    request.turned = turned;
+    request.articulated_parts = articulated_parts;
     return planner_->plan(request).plan;
 }
 
 void InsetView::advance_without_drawing(
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
-    std::span<const planning::TurnedPart> turned) {
+    std::span<const planning::ArticulatedPart> articulated_parts) {
     reset_detail(camera);
     planning::PlanRequest request{camera, states};
-    request.turned = turned;
+    request.articulated_parts = articulated_parts;
     planner_->advance_without_drawing(request);
 }
 

@@ -50,18 +50,18 @@ public:
     /// Returns when nothing is being prepared, as Planner::wait.
     void wait() { planner_->wait(); }
 
-    /// `smooth_share`: SmoothWish::share.
+    /// `smooth_share`: SmoothTarget::share.
     const visuals::scene::FramePlan& plan(
         const visuals::scene::Camera& camera,
         std::span<const sim::AircraftState> states,
-        std::span<const visuals::planning::TurnedPart> turned,
+        std::span<const visuals::planning::ArticulatedPart> articulated_parts,
         std::optional<double> smooth_share);
 
     /// Planner::advance_without_drawing, of what plan() would have been given.
     void advance_without_drawing(
         const visuals::scene::Camera& camera,
         std::span<const sim::AircraftState> states,
-        std::span<const visuals::planning::TurnedPart> turned);
+        std::span<const visuals::planning::ArticulatedPart> articulated_parts);
 
 private:
     void reset_detail(const visuals::scene::Camera& camera);

@@ -88,7 +88,7 @@ public:
         const visuals::scene::Camera& default_camera,
         double aspect) const override;
 
-    std::span<const visuals::planning::TurnedPart> turned_parts() const override { return turned_; }
+    std::span<const visuals::planning::ArticulatedPart> turned_parts() const override { return turned_; }
 
     /// Tells it the width over height of the pictures to come.
     void set_aspect(double aspect) { aspect_ = aspect; }
@@ -131,7 +131,7 @@ private:
     double newest_s_ = -1.0;
     /// By vehicle, as far as they are shown.
     std::vector<VehicleSlot> slots_;
-    std::vector<visuals::planning::TurnedPart> turned_;
+    std::vector<visuals::planning::ArticulatedPart> turned_;
     /// Width over height of the pictures.
     double aspect_ = 1.0;
     std::vector<sim::AircraftState> vehicle_states_;

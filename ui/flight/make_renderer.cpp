@@ -47,7 +47,7 @@ std::unique_ptr<Renderer> make_renderer(const settings::RunSettings& settings) {
         return make_raster_renderer(settings);
     }
     std::unique_ptr<Renderer> renderer = make_gl_renderer(settings);
-    const bool no_gpu = renderer->info().on_processor;
+    const bool no_gpu = renderer->info().is_software;
     return wanted == RendererKind::Auto && no_gpu ? make_raster_renderer(settings)
                                                   : std::move(renderer);
 }

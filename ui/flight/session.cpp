@@ -58,7 +58,7 @@ Session::Session(
 }
 
 world::RenderDevice Session::render_device() const {
-    return renderer_->info().on_processor ? world::RenderDevice::Cpu : world::RenderDevice::Gpu;
+    return renderer_->info().is_software ? world::RenderDevice::Cpu : world::RenderDevice::Gpu;
 }
 
 /// Frees the texels of the texture, which the renderer has.
@@ -132,7 +132,7 @@ void Session::simulate_to(double time_s, int frame, FrameState& frame_state) {
     frame_state.states.assign(simulation_->states().begin(), simulation_->states().end());
     if (source_ != nullptr) {
         const auto turned = source_->turned_parts();
-        frame_state.turned.assign(turned.begin(), turned.end());
+        frame_state.articulated_parts.assign(turned.begin(), turned.end());
     }
     frame_state.state_hash = simulation_->state_hash();
     set_cameras(frame_state);

@@ -98,7 +98,7 @@ world::SceneGround Session::ground_for(const settings::RunSettings& settings) co
 
 void Session::apply_picture_change(const settings::RunSettings& settings) {
     settings::check_settings(settings);
-    const scene::FixedPoints points = world::fixed_points(settings, world_);
+    const scene::FixedViewpoints points = world::fixed_points(settings, world_);
     world::SceneGround ground = ground_for(settings);
     world::check_clouds(settings.air, *ground.ground);
     pictures_.wait();

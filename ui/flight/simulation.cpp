@@ -68,7 +68,7 @@ void Simulation::begin_at(double time_s) {
     time_s_ = time_s;
     next_step_ = sim::step_at(time_s);
     update_states(world_.flight.trajectory.state_at(time_s), time_s);
-    rig_ = scene::advanced({}, states_.front());
+    rig_ = scene::next_rig_state({}, states_.front());
 }
 
 long Simulation::step() const {
@@ -114,7 +114,7 @@ void Simulation::take_step_by_hand() {
 }
 
 void Simulation::finish_step() {
-    rig_ = scene::advanced(rig_, states_.front());
+    rig_ = scene::next_rig_state(rig_, states_.front());
     add_to_hash();
     if (is_logging_) {
         log_.push_back(states_.front());
@@ -144,7 +144,7 @@ void Simulation::advance_live(double time_s) {
     time_s_ = time_s;
     source_->states_at(time_s, states_);
     for (; next_step_ <= sim::step_at(time_s); ++next_step_) {
-        rig_ = scene::advanced(rig_, states_.front());
+        rig_ = scene::next_rig_state(rig_, states_.front());
     }
     add_to_hash();
 }

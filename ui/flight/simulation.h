@@ -51,7 +51,7 @@ public:
     /// At time_s(), in the order of Scene::aircraft.
     std::span<const sim::AircraftState> states() const { return states_; }
 
-    const visuals::scene::RigMemory& rig() const { return rig_; }
+    const visuals::scene::RigState& rig() const { return rig_; }
 
     /// Over the states of all aircraft at every step since the simulation began or since
     /// start_log(), the step that was the last one then among them.
@@ -117,7 +117,7 @@ private:
     double time_s_ = 0.0;
     long next_step_ = 0;
     std::vector<sim::AircraftState> states_;
-    visuals::scene::RigMemory rig_;
+    visuals::scene::RigState rig_;
     Hash hash_;
     bool is_logging_ = false;
     std::vector<sim::AircraftState> log_;

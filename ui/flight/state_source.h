@@ -2,7 +2,7 @@
 
 #include "sim/aircraft_state.h"
 #include "sim/base/earth_frame.h"
-#include "visuals/planning/turned_part.h"
+#include "visuals/planning/articulated_part.h"
 #include "visuals/scene/camera.h"
 
 #include <cstddef>
@@ -43,7 +43,7 @@ public:
         double aspect) const = 0;
 
     /// Parts that the source turns, as of the last states_at().
-    virtual std::span<const visuals::planning::TurnedPart> turned_parts() const = 0;
+    virtual std::span<const visuals::planning::ArticulatedPart> turned_parts() const = 0;
 
     /// How the world lies on the earth; null until that is known.
     virtual const EarthFrame* frame() const = 0;

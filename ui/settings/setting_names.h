@@ -62,16 +62,16 @@ inline constexpr std::array enum_names<visuals::scene::DetailControl>{
     EnumName{visuals::scene::DetailControl::Fixed, "fixed"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::MeshLook>{
-    EnumName{visuals::scene::MeshLook::None, "none"},
-    EnumName{visuals::scene::MeshLook::Edges, "edges"},
-    EnumName{visuals::scene::MeshLook::Levels, "levels"}};
+inline constexpr std::array enum_names<visuals::scene::MeshDisplay>{
+    EnumName{visuals::scene::MeshDisplay::None, "none"},
+    EnumName{visuals::scene::MeshDisplay::Edges, "edges"},
+    EnumName{visuals::scene::MeshDisplay::Levels, "levels"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::ModelLook>{
-    EnumName{visuals::scene::ModelLook::None, "none"},
-    EnumName{visuals::scene::ModelLook::Shading, "shading"},
-    EnumName{visuals::scene::ModelLook::Levels, "levels"}};
+inline constexpr std::array enum_names<visuals::scene::ModelDisplay>{
+    EnumName{visuals::scene::ModelDisplay::None, "none"},
+    EnumName{visuals::scene::ModelDisplay::Shading, "shading"},
+    EnumName{visuals::scene::ModelDisplay::Levels, "levels"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::Palette>{

@@ -2,7 +2,7 @@
 
 #include "ui/terrain/ground_view.h"
 #include "visuals/gl/make_renderer.h"
-#include "visuals/planning/facing.h"
+#include "visuals/planning/front_facing.h"
 #include "visuals/planning/step_writer.h"
 
 #include <glm/geometric.hpp>
@@ -53,7 +53,7 @@ void CrackFinder::draw(const visuals::terrain::GroundMesh& mesh, const scene::Ca
     plan.view_to_clip = scene::view_to_clip(camera, static_cast<double>(size_px_.x) / size_px_.y);
     plan.background = {1.0F, 0.0F, 1.0F};
     const planning::GroundFrame ground{{vertices_, mesh.indices}, {}, {}};
-    plan.ground = planning::facing_the_eye(ground, camera.vertical_fov_rad / size_px_.y, facing_);
+    plan.ground = planning::front_facing(ground, camera.vertical_fov_rad / size_px_.y, facing_);
     planning::StepWriter(plan).add_ground();
     renderer_->draw(plan);
     renderer_->finish_and_read(picture_);

@@ -41,7 +41,7 @@ terrain::MeshView mesh_view(const scene::Camera& camera, const GroundViewOptions
     view.magnification =
         std::max(1.0, std::tan(reference_fov_rad / 2.0) / std::tan(camera.vertical_fov_rad / 2.0));
     view.focal_px = scene::focal_px(camera, options.size_px.y);
-    view.ahead = scene::ahead_of(camera);
+    view.ahead = scene::view_direction(camera);
     view.corner_cos = scene::corner_cos(camera, aspect_of(options.size_px));
     view.earth_radius_m = options.earth_radius_m;
     return view;

@@ -50,15 +50,15 @@ private:
     ImVec2 size_;
 };
 
-glm::dvec3 centroid_of(const planning::SightPolygon& polygon) {
+glm::dvec3 centroid_of(const planning::ViewPolygon& polygon) {
     glm::dvec3 sum(0.0);
-    for (const planning::SightCorner& corner : polygon) {
+    for (const planning::ViewVertex& corner : polygon) {
         sum += corner.at_m;
     }
     return sum / static_cast<double>(polygon.size());
 }
 
-bool faces_eye(const planning::SightPolygon& polygon) {
+bool faces_eye(const planning::ViewPolygon& polygon) {
     glm::dvec3 normal(0.0);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         normal += glm::cross(polygon[i].at_m, polygon[(i + 1) % polygon.size()].at_m);
@@ -67,10 +67,10 @@ bool faces_eye(const planning::SightPolygon& polygon) {
 }
 
 /// Returns the area on the screen; 0 where a corner is not in front of the eye.
-double area_px(const planning::SightPolygon& polygon, const ScreenPositions& positions) {
+double area_px(const planning::ViewPolygon& polygon, const ScreenPositions& positions) {
     double twice = 0.0;
     std::optional<ImVec2> before = positions.of(polygon.back().at_m);
-    for (const planning::SightCorner& corner : polygon) {
+    for (const planning::ViewVertex& corner : polygon) {
         const auto at = positions.of(corner.at_m);
         if (!at || !before) {
             return 0.0;
@@ -121,7 +121,7 @@ void write_order_numbers(const flight::Session& session) {
         visuals::draworder::eye_in_body(camera.eye_m, state.position_m, state.body_to_world),
         walk,
         list);
-    planning::SightPolygon polygon;
+    planning::ViewPolygon polygon;
     int painted = 0;
     for (const std::uint32_t number : list) {
         planning::place_polygon(placed, number, polygon);

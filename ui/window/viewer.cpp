@@ -47,7 +47,7 @@ double refresh_hz_of(GLFWmonitor* monitor) {
 bool gl_draws(const gl::WindowContext& context, const settings::RunSettings& settings) {
     using settings::RendererKind;
     const RendererKind next_settings = settings.drawing.renderer;
-    const bool gpu_draws = !context.info().on_processor;
+    const bool gpu_draws = !context.info().is_software;
     return next_settings == RendererKind::Gl || (next_settings == RendererKind::Auto && gpu_draws);
 }
 
@@ -107,12 +107,12 @@ std::unique_ptr<scene::Renderer> Viewer::make_renderer(
 
 void Viewer::present(scene::Renderer& renderer) {
     const glm::ivec2 size_px = input_->size_px();
-    if (painter_ && renderer.is_in_window() && painter_->puts_straight(size_px)) {
+    if (painter_ && renderer.is_drawn_to_window() && painter_->presents_directly(size_px)) {
         gui_->draw_into(painter_->pixels(), size_px);
         renderer.copy_to_window(size_px);
         return;
     }
-    if (painter_ ? renderer.is_in_window() : !renderer.is_in_window()) {
+    if (painter_ ? renderer.is_drawn_to_window() : !renderer.is_drawn_to_window()) {
         renderer.copy_to_window(size_px);
     }
     gui_->draw(size_px);
@@ -314,7 +314,7 @@ void Viewer::draw() {
     const bool ahead = session_->settings().ground.mesh_async;
     const double input_of_next_s = input_s_;
     const double time_s = ahead ? shown_s_ : next_s;
-    session_->pictures().aim_at_window(input_->size_px());
+    session_->pictures().set_window_target(input_->size_px());
     report::FrameRecord record =
         session_->draw_at(time_s, ahead ? std::optional(next_s) : std::nullopt);
     const double now_s = clock_.s();

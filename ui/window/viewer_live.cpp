@@ -37,7 +37,7 @@ void Viewer::draw_live() {
     state_.next_settings.air = session_->settings().air; // a host may have told another
     const bool records = live_recorder_.has_value();
     session_->pictures().set_reads_before_presenting(records);
-    session_->pictures().aim_at_window(records && !painter_ ? glm::ivec2(0) : input_->size_px());
+    session_->pictures().set_window_target(records && !painter_ ? glm::ivec2(0) : input_->size_px());
     report::FrameRecord record = session_->draw_at(time_s, std::nullopt);
     listener_->finish_picture(record);
     const double now_s = clock_.s();

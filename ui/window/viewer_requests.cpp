@@ -35,10 +35,10 @@ void next_inset(settings::RunSettings& settings) {
 }
 
 void next_mesh_look(settings::RunSettings& settings) {
-    using scene::MeshLook;
-    settings.ground.show_mesh = settings.ground.show_mesh == MeshLook::None    ? MeshLook::Edges
-                                : settings.ground.show_mesh == MeshLook::Edges ? MeshLook::Levels
-                                                                               : MeshLook::None;
+    using scene::MeshDisplay;
+    settings.ground.show_mesh = settings.ground.show_mesh == MeshDisplay::None    ? MeshDisplay::Edges
+                                : settings.ground.show_mesh == MeshDisplay::Edges ? MeshDisplay::Levels
+                                                                               : MeshDisplay::None;
 }
 
 } // namespace

@@ -173,11 +173,11 @@ MeshAircraft read_mesh_aircraft(
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
-        std::vector<planning::TurningMesh> parts;
+        std::vector<planning::TurningPartMesh> parts;
         for (const meshfile::RotatingPart& part : aircraft.turning) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
         }
-        planning::add_turning(model, parts);
+        planning::add_turning_parts(model, parts);
         if (!aircraft.clear.mesh.triangles.empty()) {
             planning::add_transparent(model, aircraft.clear.mesh, aircraft.clear.opacity);
         }

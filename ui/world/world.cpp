@@ -154,7 +154,7 @@ std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
 }
 
 /// What the tower is placed by; `flight` keeps the states.
-scene::TowerWish tower_request(const World& world, std::vector<sim::AircraftState>& flight) {
+scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftState>& flight) {
     constexpr int looks = 160;
     const sim::Trajectory& path = world.flight.trajectory;
     for (int i = 0; i <= looks; ++i) {
@@ -219,9 +219,9 @@ void formation_states(
     }
 }
 
-scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world) {
+scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const World& world) {
     settings::check_eye_point(settings.view);
-    scene::FixedPoints points;
+    scene::FixedViewpoints points;
     if (settings.view.kind == scene::View::Free) {
         points.free_eye_m = *settings.view.eye_m;
         points.free_look_m = *settings.view.look_m;
@@ -233,7 +233,7 @@ scene::FixedPoints fixed_points(const settings::RunSettings& settings, const Wor
         return world.scene.ground->height_at(x_m, y_m);
     };
     std::vector<sim::AircraftState> flight;
-    const scene::TowerWish wish = tower_request(world, flight);
+    const scene::TowerRequest wish = tower_request(world, flight);
     const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
     points.tower = placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground)
                                   : scene::tower_for(wish, ground);

@@ -33,7 +33,7 @@ struct World {
         .title = {},
         .legs = {},
         .other_trajectories = {}};
-    visuals::scene::FixedPoints points;
+    visuals::scene::FixedViewpoints points;
     /// What `scene` has its aircraft of.
     LoadedAircraft aircraft;
     TerrainSources terrain;
@@ -59,7 +59,7 @@ void formation_states(
 
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye
 /// points that the view does not take.
-visuals::scene::FixedPoints fixed_points(const settings::RunSettings& settings, const World& world);
+visuals::scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const World& world);
 
 /// Throws Error where clouds would lie in the ground.
 void check_clouds(const visuals::scene::AirSettings& air, const visuals::landscape::Ground& ground);

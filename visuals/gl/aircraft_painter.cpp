@@ -29,19 +29,19 @@ AircraftPainter::AircraftPainter(const Functions& gl, DrawState& state)
     , smooth_buffer_(gl, "smooth polygons", first_capacity_bytes)
     , instance_buffer_(gl, "aircraft instances", first_capacity_bytes)
     , command_buffer_(gl, "aircraft draws", first_capacity_bytes)
-    , gathered_buffer_(gl, "gathered model indices", first_capacity_bytes)
+    , joined_index_buffer_(gl, "gathered model indices", first_capacity_bytes)
     , array_(make_model_array(
           gl, model_vertices_.name(), model_indices_.name(), instance_buffer_.name()))
-    , gathered_array_(make_model_array(
-          gl, model_vertices_.name(), gathered_buffer_.name(), instance_buffer_.name())) {}
+    , joined_array_(make_model_array(
+          gl, model_vertices_.name(), joined_index_buffer_.name(), instance_buffer_.name())) {}
 
 void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
     std::vector<ModelVertex> vertices;
     indices_.clear();
     models_.clear();
-    has_meshes_ = false;
+    has_depth_drawn_meshes_ = false;
     for (const scene::ModelBuffers& model : models) {
-        has_meshes_ = has_meshes_ || model.has_meshes;
+        has_depth_drawn_meshes_ = has_depth_drawn_meshes_ || model.has_depth_drawn_meshes;
         std::size_t parts = 0;
         for (const ModelVertex& vertex : model.vertices) {
             parts = std::max(parts, std::size_t{vertex.part} + 1);
@@ -63,7 +63,7 @@ void AircraftPainter::load_models(std::span<const scene::ModelBuffers> models) {
         GL_STATIC_DRAW);
 }
 
-void AircraftPainter::add_any(scene::FramePlan& plan) const {
+void AircraftPainter::add_one_of_each(scene::FramePlan& plan) const {
     if (!models_.empty()) {
         const auto indices = static_cast<std::uint32_t>(models_.front().index_count);
         glm::mat4 body_to_eye_world(1.0F);
@@ -81,13 +81,13 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
             make_program_pair(gl_, "aircraft", {aircraft_vert, aircraft_frag}, "PHONG");
     }
     commands_.clear();
-    is_gathered_.clear();
-    gathered_.clear();
+    uses_joined_indices_.clear();
+    joined_indices_.clear();
     instances_.clear();
     for (const AircraftDraw& draw : plan.aircraft) {
         assert(draw.model < models_.size());
         assert(draw.first_smooth < plan.smooth.size());
-        const ModelPlace& model = models_[draw.model];
+        const ModelRange& model = models_[draw.model];
         assert(std::size_t{draw.first_index} + draw.index_count <= model.index_count);
         assert(std::size_t{draw.first_part} + model.parts <= plan.parts.size());
         Command command{
@@ -97,10 +97,10 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
             .first_vertex = model.first_vertex,
             .first_instance = static_cast<GLuint>(commands_.size())};
         if (!draw.ranges.empty()) {
-            gather(draw, command);
+            append_ranges(draw, command);
         }
         commands_.push_back(command);
-        is_gathered_.push_back(draw.ranges.empty() ? 0 : 1);
+        uses_joined_indices_.push_back(draw.ranges.empty() ? 0 : 1);
         instances_.push_back(
             {draw.first_part, draw.first_smooth, draw.tints.smooth, draw.tints.flat});
     }
@@ -108,25 +108,25 @@ void AircraftPainter::upload(const scene::FramePlan& plan) {
     smooth_buffer_.fill({std::as_bytes(std::span(plan.smooth))});
     instance_buffer_.fill({std::as_bytes(std::span(instances_))});
     command_buffer_.fill({std::as_bytes(std::span(commands_))});
-    if (!gathered_.empty()) {
-        gathered_buffer_.fill({std::as_bytes(std::span(gathered_))});
+    if (!joined_indices_.empty()) {
+        joined_index_buffer_.fill({std::as_bytes(std::span(joined_indices_))});
     }
     gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, parts_binding, part_buffer_.name());
     gl_.bind_buffer_base(GL_SHADER_STORAGE_BUFFER, smooth_binding, smooth_buffer_.name());
     gl_.bind_buffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
 }
 
-void AircraftPainter::gather(const AircraftDraw& draw, Command& command) {
-    const ModelPlace& model = models_[draw.model];
-    const std::size_t before = gathered_.size();
+void AircraftPainter::append_ranges(const AircraftDraw& draw, Command& command) {
+    const ModelRange& model = models_[draw.model];
+    const std::size_t before = joined_indices_.size();
     for (const scene::IndexRange& range : draw.ranges) {
         assert(std::size_t{range.first_index} + range.index_count <= model.index_count);
         const auto from =
             std::span(indices_).subspan(model.first_index + range.first_index, range.index_count);
-        gathered_.insert(gathered_.end(), from.begin(), from.end());
+        joined_indices_.insert(joined_indices_.end(), from.begin(), from.end());
     }
     command.first_index = static_cast<GLuint>(before);
-    command.index_count = static_cast<GLuint>(gathered_.size() - before);
+    command.index_count = static_cast<GLuint>(joined_indices_.size() - before);
 }
 
 void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip) {
@@ -145,7 +145,7 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
     const std::size_t end = std::size_t{step.first} + step.count;
     for (std::size_t first = step.first; first < end;) {
         std::size_t next = first + 1;
-        while (next < end && is_gathered_[next] == is_gathered_[first]) {
+        while (next < end && uses_joined_indices_[next] == uses_joined_indices_[first]) {
             ++next;
         }
         draw_commands(first, next - first);
@@ -158,7 +158,7 @@ void AircraftPainter::draw(const scene::PaintStep& step, const scene::Clip* clip
 
 /// Draws by commands that all read the same index buffer.
 void AircraftPainter::draw_commands(std::size_t first, std::size_t count) {
-    gl_.bind_vertex_array((is_gathered_[first] != 0 ? gathered_array_ : array_).name());
+    gl_.bind_vertex_array((uses_joined_indices_[first] != 0 ? joined_array_ : array_).name());
     gl_.multi_draw_elements_indirect(
         GL_TRIANGLES,
         GL_UNSIGNED_INT,

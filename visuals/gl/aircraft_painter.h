@@ -22,7 +22,7 @@ public:
     void load_models(std::span<const scene::ModelBuffers> models);
 
     /// Whether a plan may draw an aircraft by depth among others that are painted in order.
-    bool has_meshes() const { return has_meshes_; }
+    bool has_depth_drawn_meshes() const { return has_depth_drawn_meshes_; }
 
     /// Of the last upload's plan. They draw any mesh that comes as scene::ModelVertex.
     const ProgramPair& programs() const { return lights_pixels_ ? *phong_programs_ : programs_; }
@@ -31,14 +31,14 @@ public:
     void upload(const scene::FramePlan& plan);
 
     /// Puts an aircraft 100 m ahead into a plan without any, if a model is loaded.
-    void add_any(scene::FramePlan& plan) const;
+    void add_one_of_each(scene::FramePlan& plan) const;
 
     /// A step of Aircraft, by one call unless aircraft of one range and of several take turns. No
     /// clip = not cut.
     void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
-    struct ModelPlace {
+    struct ModelRange {
         std::size_t first_index = 0;
         std::size_t index_count = 0;
         GLint first_vertex = 0;
@@ -54,9 +54,9 @@ private:
         GLuint first_instance = 0; ///< of instance_buffer_
     };
 
-    /// Appends the indices of a draw of several ranges to gathered_ and lets its command read them
+    /// Appends the indices of a draw of several ranges to joined_indices_ and lets its command read them
     /// there.
-    void gather(const scene::AircraftDraw& draw, Command& command);
+    void append_ranges(const scene::AircraftDraw& draw, Command& command);
     void draw_commands(std::size_t first, std::size_t count);
 
     const Functions& gl_;
@@ -70,16 +70,16 @@ private:
     StreamBuffer smooth_buffer_;
     StreamBuffer instance_buffer_;
     StreamBuffer command_buffer_;
-    StreamBuffer gathered_buffer_;
+    StreamBuffer joined_index_buffer_;
     Object array_;
-    Object gathered_array_; ///< with gathered_buffer_ in place of model_indices_
-    std::vector<ModelPlace> models_;
+    Object joined_array_; ///< with joined_index_buffer_ in place of model_indices_
+    std::vector<ModelRange> models_;
     std::vector<std::uint32_t> indices_;    ///< of all models
-    std::vector<std::uint32_t> gathered_;   ///< of the draws of several ranges, one after the other
+    std::vector<std::uint32_t> joined_indices_;   ///< of the draws of several ranges, one after the other
     std::vector<Command> commands_;         ///< one for each aircraft
-    std::vector<std::uint8_t> is_gathered_; ///< whether a command reads gathered_buffer_
+    std::vector<std::uint8_t> uses_joined_indices_; ///< whether a command reads joined_index_buffer_
     std::vector<ModelInstance> instances_;
-    bool has_meshes_ = false;
+    bool has_depth_drawn_meshes_ = false;
 };
 
 } // namespace octant::visuals::gl

@@ -17,7 +17,7 @@ std::string text(const Functions& gl, GLenum what) {
 
 } // namespace
 
-bool is_processor(std::string_view renderer) {
+bool is_software_device(std::string_view renderer) {
     constexpr std::array<std::string_view, 5> known = {
         "llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"};
     return std::ranges::any_of(known, [&](std::string_view name) {
@@ -25,8 +25,8 @@ bool is_processor(std::string_view renderer) {
     });
 }
 
-bool draws_on_processor(const Functions& gl) {
-    return is_processor(text(gl, GL_RENDERER));
+bool is_software_renderer(const Functions& gl) {
+    return is_software_device(text(gl, GL_RENDERER));
 }
 
 void Context::make_current() {
@@ -52,12 +52,12 @@ void Context::leave() {
     }
 }
 
-void Context::start(const std::string& kind, AddressOf address_of) {
+void Context::start(const std::string& kind, ProcAddressLookup look_up_address) {
     make_current();
-    functions_ = load_functions(address_of);
+    functions_ = load_functions(look_up_address);
     const std::string device = text(functions_, GL_RENDERER);
     const std::string description = kind + ", OpenGL " + text(functions_, GL_VERSION);
-    info_ = {description, device, is_processor(device)};
+    info_ = {description, device, is_software_device(device)};
     print_debug_messages(functions_);
 }
 

@@ -11,8 +11,8 @@ namespace octant::visuals::gl {
 
 /// Whether a processor draws, not a GPU: by the driver's GL_RENDERER, and by that of the current
 /// context.
-bool is_processor(std::string_view renderer);
-bool draws_on_processor(const Functions& gl);
+bool is_software_device(std::string_view renderer);
+bool is_software_renderer(const Functions& gl);
 
 /// An OpenGL 4.5 core context without a picture of its own: draw into a Framebuffer. Must outlive
 /// whatever was made with its functions.
@@ -42,7 +42,7 @@ protected:
 
     /// Makes it current and fills functions and info; in debug builds its messages are printed from
     /// now on. Throws Error.
-    void start(const std::string& kind, AddressOf address_of);
+    void start(const std::string& kind, ProcAddressLookup look_up_address);
 
     /// For the destructor of a maker: releases the context where it is still current.
     void leave();

@@ -28,19 +28,19 @@ constexpr float edge_on_steps = -0x1p23F * 0.02F;
 
 ProgramPair make_program_pair(
     const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
-    const std::string cut = std::string(name) + ", cut";
+    const std::string clipped = std::string(name) + ", cut";
     if (defined == nullptr) {
-        return {make_program(gl, name, text), make_program(gl, cut.c_str(), text, {"CUT"})};
+        return {make_program(gl, name, text), make_program(gl, clipped.c_str(), text, {"CUT"})};
     }
     return {
         make_program(gl, name, text, {defined}),
-        make_program(gl, cut.c_str(), text, {defined, "CUT"})};
+        make_program(gl, clipped.c_str(), text, {defined, "CUT"})};
 }
 
-void DrawState::begin_picture(Rows rows) {
+void DrawState::begin_picture(RowOrder row_order) {
     // The upper left origin brings the rows out from the top. Which side of a triangle is its
     // front does not change with it: OpenGL turns the sign of the area along with the origin.
-    gl_.clip_control(rows == Rows::FromTop ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl_.clip_control(row_order == RowOrder::TopDown ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.front_face(GL_CCW);
     gl_.cull_face(GL_BACK);
     gl_.provoking_vertex(GL_FIRST_VERTEX_CONVENTION);
@@ -101,10 +101,10 @@ void DrawState::blend_by(float opacity) {
 }
 
 void DrawState::use_program(const ProgramPair& programs, const Clip* clip) {
-    const bool cut = clip != nullptr;
-    const Object& program = cut ? programs.cut : programs.whole;
+    const bool clipped = clip != nullptr;
+    const Object& program = clipped ? programs.clipped : programs.unclipped;
     gl_.use_program(program.name());
-    if (cut) {
+    if (clipped) {
         assert(clip->count >= 0 && clip->count <= Clip::max_planes);
         std::array<glm::vec4, Clip::max_planes> planes;
         planes.fill(glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)); // cuts nothing

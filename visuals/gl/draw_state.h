@@ -9,8 +9,8 @@ namespace octant::visuals::gl {
 /// A program of two kinds: for draws that are cut by planes, and for all others, which then pay
 /// nothing for the planes.
 struct ProgramPair {
-    Object whole;
-    Object cut; ///< empty where nothing is ever cut
+    Object unclipped;
+    Object clipped; ///< empty where nothing is ever cut
 };
 
 /// Links both kinds, the second with CUT defined, both with `defined`. Throws Error with `name`.
@@ -18,9 +18,9 @@ ProgramPair make_program_pair(
     const Functions& gl, const char* name, const ProgramText& text, const char* defined = nullptr);
 
 /// Where the first row of a picture lies.
-enum class Rows {
-    FromTop,  ///< as pictures are read
-    FromBelow ///< as windows show them
+enum class RowOrder {
+    TopDown,  ///< as pictures are read
+    BottomUp ///< as windows show them
 };
 
 /// The state of the context that draws of one picture share, and their number.
@@ -31,7 +31,7 @@ public:
 
     /// Sets what stays the same in the whole picture, and the number of draw calls to 0. Nothing
     /// about the context is taken for granted.
-    void begin_picture(Rows rows);
+    void begin_picture(RowOrder row_order);
 
     /// DepthOnly as Nearest: whoever draws so keeps the colours himself.
     void use_depth(scene::DepthUse use);

@@ -26,7 +26,7 @@ bool has_word(const char* words, std::string_view wanted) {
 }
 
 /// Displays that need no screen, the likeliest first. Not yet initialised.
-std::vector<EGLDisplay> displays_without_screen() {
+std::vector<EGLDisplay> surfaceless_displays() {
     const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<EGLDisplay> displays;
     if (has_word(extensions, "EGL_MESA_platform_surfaceless")) {
@@ -56,11 +56,11 @@ public:
         if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
             throw Error("expected EGL to initialise without a display, got a refusal");
         }
-        const std::array<EGLint, 5> config_wanted{
+        const std::array<EGLint, 5> requested_config{
             EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
         EGLConfig config = nullptr;
         EGLint configs = 0;
-        eglChooseConfig(display, config_wanted.data(), &config, 1, &configs);
+        eglChooseConfig(display, requested_config.data(), &config, 1, &configs);
         const std::array<EGLint, 9> wanted{
             EGL_CONTEXT_MAJOR_VERSION,
             4,
@@ -112,7 +112,7 @@ private:
 std::unique_ptr<Context> make_egl_context() {
     std::string fault = "expected EGL without a display, got neither its surfaceless platform nor "
                         "a device";
-    for (EGLDisplay display : displays_without_screen()) {
+    for (EGLDisplay display : surfaceless_displays()) {
         try {
             auto context = std::make_unique<EglContext>(display);
             context->start();

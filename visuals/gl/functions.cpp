@@ -24,8 +24,8 @@ std::pair<int, int> version_numbers(std::string_view version) {
 }
 
 template <typename Function>
-void load(Function& function, const char* name, AddressOf address_of) {
-    function = reinterpret_cast<Function>(address_of(name));
+void load(Function& function, const char* name, ProcAddressLookup look_up_address) {
+    function = reinterpret_cast<Function>(look_up_address(name));
     if (function == nullptr) {
         throw Error(std::string("expected the driver to have ") + name + ", got nothing");
     }
@@ -33,18 +33,18 @@ void load(Function& function, const char* name, AddressOf address_of) {
 
 } // namespace
 
-void expect_gl_4_5(std::string_view version) {
+void require_gl_4_5(std::string_view version) {
     if (version_numbers(version) < std::pair(4, 5)) {
         throw Error("expected OpenGL 4.5, got " + printable(std::string(version)));
     }
 }
 
-Functions load_functions(AddressOf address_of) {
+Functions load_functions(ProcAddressLookup look_up_address) {
     Functions gl;
-    load(gl.get_string, "glGetString", address_of);
+    load(gl.get_string, "glGetString", look_up_address);
     const GLubyte* const version = gl.get_string(GL_VERSION);
-    expect_gl_4_5(version == nullptr ? "no version" : reinterpret_cast<const char*>(version));
-#define OCTANT_GL_LOAD(member, type, name) load(gl.member, name, address_of);
+    require_gl_4_5(version == nullptr ? "no version" : reinterpret_cast<const char*>(version));
+#define OCTANT_GL_LOAD(member, type, name) load(gl.member, name, look_up_address);
     OCTANT_GL_FUNCTIONS(OCTANT_GL_LOAD)
 #undef OCTANT_GL_LOAD
     return gl;

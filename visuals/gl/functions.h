@@ -116,14 +116,14 @@ struct Functions {
 
 /// What OSMesa, EGL, GLX and GLFW all offer: a function by its name.
 using AnyFunction = void (*)();
-using AddressOf = AnyFunction (*)(const char* name);
+using ProcAddressLookup = AnyFunction (*)(const char* name);
 
 /// Fills the table from the current context. Throws Error when it is older than OpenGL 4.5 or
 /// lacks a function.
-Functions load_functions(AddressOf address_of);
+Functions load_functions(ProcAddressLookup look_up_address);
 
 /// Throws Error "expected OpenGL 4.5, got ..." unless `version` (a driver's GL_VERSION) starts with
 /// 4.5 or more.
-void expect_gl_4_5(std::string_view version);
+void require_gl_4_5(std::string_view version);
 
 } // namespace octant::visuals::gl

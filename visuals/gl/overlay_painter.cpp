@@ -49,7 +49,7 @@ void OverlayPainter::upload(const scene::OverlayDraw& overlay, const glm::ivec2&
     const glm::vec4 clip_per_px(
         2.0F / static_cast<float>(size_px.x), 2.0F / static_cast<float>(size_px.y), 0.0F, 0.0F);
     gl_.program_uniform_4fv(
-        programs_.whole.name(), clip_per_px_uniform, 1, glm::value_ptr(clip_per_px));
+        programs_.unclipped.name(), clip_per_px_uniform, 1, glm::value_ptr(clip_per_px));
 }
 
 void OverlayPainter::draw(const scene::PaintStep& step) {

@@ -16,7 +16,7 @@ PicturePainter::~PicturePainter() {
 std::uint8_t* PicturePainter::begin(const glm::ivec2& size_px) {
     if (size_px != size_px_) {
         size_px_ = size_px;
-        shared_ = context_->info().on_processor ? make_shared_picture(context_->window(), size_px)
+        shared_ = context_->info().is_software ? make_shared_picture(context_->window(), size_px)
                                                 : nullptr;
         own_.resize(
             shared_ ? 0
@@ -30,7 +30,7 @@ std::uint8_t* PicturePainter::begin(const glm::ivec2& size_px) {
 }
 
 void PicturePainter::show(const glm::ivec2& window_px) {
-    if (puts_straight(window_px)) {
+    if (presents_directly(window_px)) {
         shared_->put();
     } else {
         blit(window_px);

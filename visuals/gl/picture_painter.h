@@ -28,7 +28,7 @@ public:
 
     /// Whether show() puts the picture into a window of this size without OpenGL: nothing is to be
     /// drawn over it and no buffers are to be swapped then.
-    bool puts_straight(const glm::ivec2& window_px) const {
+    bool presents_directly(const glm::ivec2& window_px) const {
         return shared_ && window_px == size_px_;
     }
 

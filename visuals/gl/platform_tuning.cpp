@@ -37,7 +37,7 @@ std::vector<pid_t> raster_threads() {
 }
 
 /// Processors that this process may use.
-std::vector<int> own_processors() {
+std::vector<int> allowed_cpus() {
     std::vector<int> processors;
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
@@ -63,7 +63,7 @@ void tune_allocator() {
 
 int spread_raster_threads() {
     const std::vector<pid_t> threads = raster_threads();
-    const std::vector<int> processors = own_processors();
+    const std::vector<int> processors = allowed_cpus();
     if (processors.empty() || processors.size() > threads.size()) {
         return 0;
     }

@@ -19,7 +19,7 @@ RefinedPainter::RefinedPainter(const Functions& gl, DrawState& state)
           gl, vertices_.name(), indices_.name(), instances_.name(), "refined aircraft")) {}
 
 void RefinedPainter::upload(const scene::FramePlan& plan) {
-    places_.clear();
+    ranges_.clear();
     instance_values_.clear();
     if (plan.refined.empty()) {
         return;
@@ -29,7 +29,7 @@ void RefinedPainter::upload(const scene::FramePlan& plan) {
     std::size_t indices = 0;
     for (const scene::RefinedDraw& draw : plan.refined) {
         assert(draw.first_smooth < plan.smooth.size() && draw.first_part < plan.parts.size());
-        places_.push_back({indices, draw.indices.size(), static_cast<GLint>(vertices)});
+        ranges_.push_back({indices, draw.indices.size(), static_cast<GLint>(vertices)});
         instance_values_.push_back(
             {draw.first_part, draw.first_smooth, draw.tints.smooth, draw.tints.flat});
         vertices += draw.vertices.size();
@@ -47,7 +47,7 @@ void RefinedPainter::upload(const scene::FramePlan& plan) {
 
 void RefinedPainter::draw(
     const scene::PaintStep& step, const scene::Clip* clip, const ProgramPair& programs) {
-    assert(std::size_t{step.first} + step.count <= places_.size());
+    assert(std::size_t{step.first} + step.count <= ranges_.size());
     assert(step.depth != scene::DepthUse::DepthOnly);
     if (step.count == 0) {
         return;
@@ -59,11 +59,11 @@ void RefinedPainter::draw(
     for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
         gl_.draw_elements_instanced(
             GL_TRIANGLES,
-            static_cast<GLsizei>(places_[i].index_count),
+            static_cast<GLsizei>(ranges_[i].index_count),
             GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(places_[i].first_index * sizeof(std::uint32_t)),
+            reinterpret_cast<const void*>(ranges_[i].first_index * sizeof(std::uint32_t)),
             1,
-            places_[i].first_vertex,
+            ranges_[i].first_vertex,
             i);
         state_.count_draw_call();
     }

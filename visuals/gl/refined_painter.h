@@ -25,7 +25,7 @@ public:
     void draw(const scene::PaintStep& step, const scene::Clip* clip, const ProgramPair& programs);
 
 private:
-    struct Place {
+    struct BufferRange {
         std::size_t first_index = 0;
         std::size_t index_count = 0;
         GLint first_vertex = 0;
@@ -37,7 +37,7 @@ private:
     StreamBuffer indices_;
     StreamBuffer instances_;
     Object array_;
-    std::vector<Place> places_; ///< one a draw
+    std::vector<BufferRange> ranges_; ///< one a draw
     std::vector<ModelInstance> instance_values_;
     std::vector<std::span<const std::byte>> pieces_;
 };

@@ -22,7 +22,7 @@ using scene::PixelRect;
 constexpr GLuint picture_binding = 0; ///< place in the shaders
 
 /// The block Picture of the shaders.
-struct PictureValues {
+struct FrameUniforms {
     glm::mat4 world_to_clip;
     glm::vec4 haze;
     glm::vec4 haze_sunward;
@@ -31,19 +31,19 @@ struct PictureValues {
     glm::vec4 ambient;
     glm::vec4 sunlight;
     glm::mat4 ray_from_pixel;
-    scene::TexturePlaces ground_texture;
-    glm::vec4 grain_x;
-    glm::vec4 grain_y;
-    glm::vec4 grain_up;
+    scene::GroundTextureTransforms ground_texture;
+    glm::vec4 detail_x;
+    glm::vec4 detail_y;
+    glm::vec4 detail_up;
 };
 
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
 
 /// Pixels of the target to world axes, one unit deep; `rect` lies on the target.
-glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows) {
+glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, RowOrder row_order) {
     const float across = 1.0F / plan.view_to_clip[0][0];
-    const float up = (rows == Rows::FromTop ? 1.0F : -1.0F) / plan.view_to_clip[1][1];
+    const float up = (row_order == RowOrder::TopDown ? 1.0F : -1.0F) / plan.view_to_clip[1][1];
     glm::mat4 view_ray(0.0F);
     view_ray[0].x = 2.0F * across / static_cast<float>(rect.width);
     view_ray[1].y = -2.0F * up / static_cast<float>(rect.height);
@@ -57,32 +57,32 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, Rows rows
 }
 
 /// A part of the eye's place in the fine pattern at each scale; negative where there is none.
-glm::vec4 eye_in_grain(const std::optional<scene::Grain>& grain, glm::length_t part) {
+glm::vec4 eye_detail_position(const std::optional<scene::DetailTexture>& detail_texture, glm::length_t part) {
     glm::vec4 at_eye(-1.0F);
-    if (grain) {
-        for (std::size_t scale = 0; scale < grain->at_eye.size(); ++scale) {
+    if (detail_texture) {
+        for (std::size_t scale = 0; scale < detail_texture->at_eye.size(); ++scale) {
             at_eye[static_cast<glm::length_t>(scale)] =
-                part == 2 ? grain->up_at_eye[scale] : grain->at_eye[scale][part];
+                part == 2 ? detail_texture->eye_height_tiles[scale] : detail_texture->at_eye[scale][part];
         }
     }
     return at_eye;
 }
 
-PictureValues values_of(const FramePlan& plan, const PixelRect& rect, Rows rows) {
+FrameUniforms values_of(const FramePlan& plan, const PixelRect& rect, RowOrder row_order) {
     const float visibility_m = plan.haze.visibility_m;
     return {
         plan.view_to_clip * plan.world_to_view,
         glm::vec4(plan.haze.colour, visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F),
-        glm::vec4(plan.haze.sunward, plan.haze.falloff_per_m),
+        glm::vec4(plan.haze.sunward_colour, plan.haze.falloff_per_m),
         glm::vec4(plan.haze.horizontal_to_sun, 0.0F, 0.0F),
         glm::vec4(plan.to_sun, 0.0F),
         glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F),
-        ray_from_pixel(plan, rect, rows),
-        plan.ground_texture.value_or(scene::TexturePlaces()),
-        eye_in_grain(plan.grain, 0),
-        eye_in_grain(plan.grain, 1),
-        eye_in_grain(plan.grain, 2)};
+        ray_from_pixel(plan, rect, row_order),
+        plan.ground_texture.value_or(scene::GroundTextureTransforms()),
+        eye_detail_position(plan.detail_texture, 0),
+        eye_detail_position(plan.detail_texture, 1),
+        eye_detail_position(plan.detail_texture, 2)};
 }
 
 } // namespace
@@ -91,7 +91,7 @@ Renderer::Renderer(std::shared_ptr<Context> context, const glm::ivec2& size_px, 
     : context_(std::move(context))
     , gl_(context_->current_functions())
     , framebuffer_(gl_, size_px.x, size_px.y, samples)
-    , picture_values_(gl_, "picture values", sizeof(PictureValues))
+    , frame_uniforms_(gl_, "picture values", sizeof(FrameUniforms))
     , state_(gl_)
     , triangles_(gl_, state_)
     , aircraft_(gl_, state_)
@@ -133,11 +133,11 @@ void Renderer::load_ground_texture(const scene::GroundTexture& texture) {
 void Renderer::draw(const FramePlan& plan) {
     context_->make_current();
     const bool fits =
-        plan.depth_boxes.empty() && !aircraft_.has_meshes() && framebuffer_.fits(window_px_, 1);
-    rows_ = fits ? Rows::FromBelow : Rows::FromTop;
+        plan.depth_boxes.empty() && !aircraft_.has_depth_drawn_meshes() && framebuffer_.fits(window_px_, 1);
+    row_order_ = fits ? RowOrder::BottomUp : RowOrder::TopDown;
     const GLuint target = target_of(plan);
     gl_.bind_framebuffer(GL_FRAMEBUFFER, target);
-    state_.begin_picture(rows_);
+    state_.begin_picture(row_order_);
     draw_into(plan, {target, {0, 0, framebuffer_.width(), framebuffer_.height()}, false});
 }
 
@@ -160,14 +160,14 @@ void Renderer::draw_inset(const FramePlan& plan, const PixelRect& rect) {
 
 PixelRect Renderer::on_target(const PixelRect& rect) const {
     PixelRect at = rect;
-    if (rows_ == Rows::FromBelow) {
+    if (row_order_ == RowOrder::BottomUp) {
         at.y = framebuffer_.height() - rect.y - rect.height;
     }
     return at;
 }
 
 GLuint Renderer::target_of(const FramePlan& plan) const {
-    if (rows_ == Rows::FromBelow) {
+    if (row_order_ == RowOrder::BottomUp) {
         assert(plan.depth_boxes.empty());
         return 0;
     }
@@ -175,7 +175,7 @@ GLuint Renderer::target_of(const FramePlan& plan) const {
 }
 
 /// The place's target must be bound.
-void Renderer::draw_into(const FramePlan& plan, const Place& place) {
+void Renderer::draw_into(const FramePlan& plan, const DrawTarget& place) {
     gl_.viewport(place.rect.x, place.rect.y, place.rect.width, place.rect.height);
     const glm::vec4 background(plan.background, 1.0F);
     gl_.clear_named_framebufferfv(place.target, GL_COLOR, 0, glm::value_ptr(background));
@@ -184,36 +184,36 @@ void Renderer::draw_into(const FramePlan& plan, const Place& place) {
 }
 
 void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
-    const PictureValues values = values_of(plan, rect, rows_);
-    picture_values_.fill({std::as_bytes(std::span(&values, 1))});
-    gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, picture_values_.name());
+    const FrameUniforms values = values_of(plan, rect, row_order_);
+    frame_uniforms_.fill({std::as_bytes(std::span(&values, 1))});
+    gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, frame_uniforms_.name());
     triangles_.upload(plan);
     aircraft_.upload(plan);
     refined_.upload(plan);
     overlay_.upload(plan.overlay, {rect.width, rect.height});
 }
 
-void Renderer::paint(const FramePlan& plan, const Place& place) {
+void Renderer::paint(const FramePlan& plan, const DrawTarget& place) {
     for (const PaintStep& step : plan.steps) {
         const scene::Clip* const clip =
-            step.clip == PaintStep::whole ? nullptr : &plan.clips[step.clip];
-        switch (step.what) {
-        case PaintStep::What::ClearDepth:
+            step.clip == PaintStep::no_clip ? nullptr : &plan.clips[step.clip];
+        switch (step.content) {
+        case PaintStep::Content::ClearDepth:
             clear_depth(plan.depth_boxes[step.first], place);
             break;
-        case PaintStep::What::Sky:
-        case PaintStep::What::Ground:
-        case PaintStep::What::GroundAgain:
+        case PaintStep::Content::Sky:
+        case PaintStep::Content::Ground:
+        case PaintStep::Content::GroundRepaint:
             triangles_.draw(step, clip);
             break;
-        case PaintStep::What::Aircraft:
+        case PaintStep::Content::Aircraft:
             aircraft_.draw(step, clip);
             break;
-        case PaintStep::What::Refined:
+        case PaintStep::Content::Refined:
             refined_.draw(step, clip, aircraft_.programs());
             break;
-        case PaintStep::What::Veil:
-        case PaintStep::What::Overlay:
+        case PaintStep::Content::Transparent:
+        case PaintStep::Content::Overlay:
             overlay_.draw(step);
             break;
         }
@@ -222,7 +222,7 @@ void Renderer::paint(const FramePlan& plan, const Place& place) {
 
 /// In a box of the plan's picture; picture and target have their rows in one order where depth is
 /// used.
-void Renderer::clear_depth(const scene::PixelBox& box, const Place& place) {
+void Renderer::clear_depth(const scene::PixelBox& box, const DrawTarget& place) {
     const PixelRect& rect = place.rect;
     const glm::ivec2 least = glm::max(box.least, glm::ivec2(0));
     const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - least;
@@ -252,7 +252,7 @@ void Renderer::finish() {
 }
 
 void Renderer::finish_and_read(scene::Picture& picture) {
-    assert(!is_in_window());
+    assert(!is_drawn_to_window());
     finish();
     picture.width = framebuffer_.width();
     picture.height = framebuffer_.height();

@@ -57,15 +57,15 @@ public:
 
     /// Pictures are drawn straight into framebuffer 0, the window's, where they have its size, one
     /// sample a pixel and no depth, not even for meshes that later plans may draw.
-    void aim_at_window(const glm::ivec2& window_px) override { window_px_ = window_px; }
+    void set_window_target(const glm::ivec2& window_px) override { window_px_ = window_px; }
 
-    bool is_in_window() const override { return rows_ == Rows::FromBelow; }
+    bool is_drawn_to_window() const override { return row_order_ == RowOrder::BottomUp; }
 
     void copy_to_window(const glm::ivec2& size_px) override;
 
 private:
     /// Where on the target a plan is drawn.
-    struct Place {
+    struct DrawTarget {
         GLuint target = 0; ///< framebuffer
         scene::PixelRect rect;
         bool is_inset = false; ///< the scissor leaves no more than `rect`
@@ -73,22 +73,22 @@ private:
 
     GLuint target_of(const scene::FramePlan& plan) const;
     scene::PixelRect on_target(const scene::PixelRect& rect) const;
-    void draw_into(const scene::FramePlan& plan, const Place& place);
+    void draw_into(const scene::FramePlan& plan, const DrawTarget& place);
     void upload(const scene::FramePlan& plan, const scene::PixelRect& rect);
-    void paint(const scene::FramePlan& plan, const Place& place);
-    void clear_depth(const scene::PixelBox& box, const Place& place);
+    void paint(const scene::FramePlan& plan, const DrawTarget& place);
+    void clear_depth(const scene::PixelBox& box, const DrawTarget& place);
 
     std::shared_ptr<Context> context_; ///< goes after all that was made with it
     const Functions& gl_;
     Framebuffer framebuffer_;
-    StreamBuffer picture_values_; ///< what all shaders read about the picture
+    StreamBuffer frame_uniforms_; ///< what all shaders read about the picture
     DrawState state_;
     TrianglePainter triangles_;
     AircraftPainter aircraft_;
     RefinedPainter refined_;
     OverlayPainter overlay_;
     glm::ivec2 window_px_{0};
-    Rows rows_ = Rows::FromTop; ///< of the last picture
+    RowOrder row_order_ = RowOrder::TopDown; ///< of the last picture
 };
 
 } // namespace octant::visuals::gl

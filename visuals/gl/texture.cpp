@@ -2,7 +2,7 @@
 
 #include "sim/base/error.h"
 #include "visuals/gl/context.h"
-#include "visuals/scene/grain_pattern.h"
+#include "visuals/scene/detail_pattern.h"
 
 #include <algorithm>
 #include <bit>
@@ -37,7 +37,7 @@ void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
     set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     set(GL_TEXTURE_WRAP_S, beyond);
     set(GL_TEXTURE_WRAP_T, beyond);
-    if (!draws_on_processor(gl) && (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
+    if (!is_software_renderer(gl) && (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                     has_extension(gl, "GL_ARB_texture_filter_anisotropic"))) {
         GLfloat most = 1.0F;
         gl.get_floatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
@@ -80,14 +80,14 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
     return texture;
 }
 
-Object make_grain_texture(const Functions& gl) {
+Object make_detail_texture(const Functions& gl) {
     Object texture = make_texture(gl, "ground's fine pattern");
-    const auto& levels = scene::grain_levels();
+    const auto& levels = scene::detail_mip_levels();
     const auto side = static_cast<GLsizei>(levels.front().size);
     gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     GLint number = 0;
-    for (const scene::GrainPattern& level : levels) {
+    for (const scene::DetailPattern& level : levels) {
         gl.texture_sub_image_2d(
             texture.name(),
             number++,
@@ -103,7 +103,7 @@ Object make_grain_texture(const Functions& gl) {
     return texture;
 }
 
-Object make_texture(const Functions& gl, const scene::CoverContrast& contrast) {
+Object make_texture(const Functions& gl, const scene::LandCoverContrast& contrast) {
     Object texture = make_texture(gl, "contrast of ground's covers");
     // As the table has them, but from -1 on: one word is read for three shares.
     constexpr std::uint32_t signs = 0x80200800U;
@@ -112,8 +112,8 @@ Object make_texture(const Functions& gl, const scene::CoverContrast& contrast) {
     for (const std::uint32_t entry : contrast.table()) {
         shares.push_back(entry ^ signs);
     }
-    constexpr GLsizei width = scene::CoverContrast::patterns;
-    constexpr GLsizei height = scene::CoverContrast::kinds;
+    constexpr GLsizei width = scene::LandCoverContrast::pattern_step_count;
+    constexpr GLsizei height = scene::LandCoverContrast::mixture_count;
     gl.texture_storage_2d(texture.name(), 1, GL_RGB10_A2, width, height);
     gl.texture_sub_image_2d(
         texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_INT_10_10_10_2, shares.data());

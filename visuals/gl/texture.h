@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/gl/object.h"
-#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/ground_texture.h"
 
 namespace octant::visuals::gl {
@@ -18,9 +18,9 @@ enum class TextureKind {
 Object make_texture(const Functions& gl, const scene::GroundImage& image, TextureKind kind);
 
 /// The ground's fine pattern, a byte a texel, with its own levels; it repeats beyond its edge.
-Object make_grain_texture(const Functions& gl);
+Object make_detail_texture(const Functions& gl);
 
 /// A texel for each kind (up) and pattern (right): the shares by which a colour changes.
-Object make_texture(const Functions& gl, const scene::CoverContrast& contrast);
+Object make_texture(const Functions& gl, const scene::LandCoverContrast& contrast);
 
 } // namespace octant::visuals::gl

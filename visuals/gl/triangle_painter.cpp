@@ -18,7 +18,7 @@ using scene::PaintStep;
 // Places in the shaders.
 constexpr GLuint albedo_unit = 0;
 constexpr GLuint normal_unit = 1;
-constexpr GLuint grain_unit = 2;
+constexpr GLuint detail_unit = 2;
 constexpr GLuint contrast_unit = 3;
 constexpr GLint mesh_look_uniform = 8;
 
@@ -40,7 +40,7 @@ TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     , state_(state)
     , ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag}))
     , sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}
-    , grain_(make_grain_texture(gl))
+    , detail_texture_(make_detail_texture(gl))
     , vertices_(gl, "ground and sky vertices", first_capacity_bytes)
     , indices_(gl, "ground and sky indices", first_capacity_bytes)
     , array_(make_array(gl, vertices_, indices_)) {}
@@ -53,8 +53,8 @@ void TrianglePainter::load_texture(const scene::GroundTexture& texture) {
 }
 
 /// The programs that show the mesh are made when first asked for: few runs look at it.
-void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
-    shows_mesh_ = plan.mesh_look != scene::MeshLook::None;
+void TrianglePainter::use_mesh_display(const scene::FramePlan& plan) {
+    shows_mesh_ = plan.mesh_display != scene::MeshDisplay::None;
     if (!shows_mesh_) {
         return;
     }
@@ -63,34 +63,34 @@ void TrianglePainter::use_mesh_look(const scene::FramePlan& plan) {
             gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, "MESH");
     }
     const std::array<float, 4> look{
-        plan.sample_spacing_m, plan.mesh_look == scene::MeshLook::Levels ? 1.0F : 0.0F, 0.0F, 0.0F};
-    for (const Object* const program : {&mesh_programs_->whole, &mesh_programs_->cut}) {
+        plan.sample_spacing_m, plan.mesh_display == scene::MeshDisplay::Levels ? 1.0F : 0.0F, 0.0F, 0.0F};
+    for (const Object* const program : {&mesh_programs_->unclipped, &mesh_programs_->clipped}) {
         gl_.program_uniform_4fv(program->name(), mesh_look_uniform, 1, look.data());
     }
 }
 
-void TrianglePainter::use_grain(const scene::FramePlan& plan) {
-    if (!plan.grain) {
+void TrianglePainter::use_detail_texture(const scene::FramePlan& plan) {
+    if (!plan.detail_texture) {
         return;
     }
-    if (plan.grain->contrast != shown_contrast_) {
-        shown_contrast_ = plan.grain->contrast;
-        contrast_ = make_texture(gl_, *shown_contrast_);
+    if (plan.detail_texture->contrast != uploaded_contrast_) {
+        uploaded_contrast_ = plan.detail_texture->contrast;
+        contrast_ = make_texture(gl_, *uploaded_contrast_);
     }
-    gl_.bind_texture_unit(grain_unit, grain_.name());
+    gl_.bind_texture_unit(detail_unit, detail_texture_.name());
     gl_.bind_texture_unit(contrast_unit, contrast_->name());
 }
 
 void TrianglePainter::upload(const scene::FramePlan& plan) {
-    use_mesh_look(plan);
-    has_numbers_ = plan.ground_has_numbers;
-    if (has_numbers_ && !number_programs_) {
-        number_programs_ =
+    use_mesh_display(plan);
+    has_polygon_numbers_ = plan.ground_has_polygon_numbers;
+    if (has_polygon_numbers_ && !polygon_number_programs_) {
+        polygon_number_programs_ =
             make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
     }
-    use_grain(plan);
-    textured_ = plan.ground_texture.has_value();
-    if (textured_) {
+    use_detail_texture(plan);
+    is_textured_ = plan.ground_texture.has_value();
+    if (is_textured_) {
         assert(texture_);
         gl_.bind_texture_unit(albedo_unit, texture_->albedo.name());
         gl_.bind_texture_unit(normal_unit, texture_->normal.name());
@@ -106,14 +106,14 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
          std::as_bytes(again),
          std::as_bytes(plan.sky.indices)});
     ground_ = {0, plan.ground.indices.size()};
-    repainted_ = {ground_.count, again.size()};
-    sky_ = {repainted_.first + repainted_.count, plan.sky.indices.size()};
+    repaint_range_ = {ground_.count, again.size()};
+    sky_ = {repaint_range_.first + repaint_range_.count, plan.sky.indices.size()};
     first_sky_vertex_ = static_cast<GLint>(plan.ground.vertices.size() + shadow_vertices.size());
 }
 
 void TrianglePainter::draw(const PaintStep& step, const scene::Clip* clip) {
-    const bool is_sky = step.what == PaintStep::What::Sky;
-    const Range& list = is_sky ? sky_ : step.what == PaintStep::What::Ground ? ground_ : repainted_;
+    const bool is_sky = step.content == PaintStep::Content::Sky;
+    const Range& list = is_sky ? sky_ : step.content == PaintStep::Content::Ground ? ground_ : repaint_range_;
     assert(std::size_t{step.first} + step.count <= list.count);
     assert(clip == nullptr || !is_sky);
     if (step.count == 0) {

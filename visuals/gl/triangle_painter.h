@@ -26,7 +26,7 @@ public:
 
     void upload(const scene::FramePlan& plan);
 
-    /// A step of Sky, Ground or GroundAgain. No clip = not cut; the sky never is.
+    /// A step of Sky, Ground or GroundRepaint. No clip = not cut; the sky never is.
     void draw(const scene::PaintStep& step, const scene::Clip* clip);
 
 private:
@@ -44,32 +44,32 @@ private:
 
     const ProgramPair& ground_programs() const {
         return shows_mesh_    ? *mesh_programs_
-               : textured_    ? texture_->programs
-               : has_numbers_ ? *number_programs_
+               : is_textured_    ? texture_->programs
+               : has_polygon_numbers_ ? *polygon_number_programs_
                               : ground_programs_;
     }
 
-    void use_mesh_look(const scene::FramePlan& plan);
-    void use_grain(const scene::FramePlan& plan);
+    void use_mesh_display(const scene::FramePlan& plan);
+    void use_detail_texture(const scene::FramePlan& plan);
 
     const Functions& gl_;
     DrawState& state_;
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
-    Object grain_;
-    std::shared_ptr<const scene::CoverContrast> shown_contrast_; ///< in contrast_
+    Object detail_texture_;
+    std::shared_ptr<const scene::LandCoverContrast> uploaded_contrast_; ///< in contrast_
     std::optional<Object> contrast_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
-    std::optional<ProgramPair> number_programs_;
+    std::optional<ProgramPair> polygon_number_programs_;
     bool shows_mesh_ = false;  ///< as the plan says
-    bool textured_ = false;    ///< as the plan says
-    bool has_numbers_ = false; ///< as the plan says
+    bool is_textured_ = false;    ///< as the plan says
+    bool has_polygon_numbers_ = false; ///< as the plan says
     StreamBuffer vertices_;    ///< ground, shadows, sky
     StreamBuffer indices_;     ///< ground, what is painted again, sky
     Object array_;
     Range ground_;
-    Range repainted_;
+    Range repaint_range_;
     Range sky_;
     GLint first_sky_vertex_ = 0;
 };

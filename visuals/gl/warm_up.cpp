@@ -14,9 +14,9 @@ using models::ColourVertex;
 using scene::DepthUse;
 using scene::FramePlan;
 using scene::PaintStep;
-using What = scene::PaintStep::What;
+using Content = scene::PaintStep::Content;
 
-constexpr std::uint32_t whole = PaintStep::whole;
+constexpr std::uint32_t whole = PaintStep::no_clip;
 
 /// A triangle 2 m ahead and its corners, of every kind.
 struct Corners {
@@ -52,13 +52,13 @@ FramePlan plan_of(const Corners& corners) {
 void paint_in_order(FramePlan& plan) {
     const auto aircraft = static_cast<std::uint32_t>(plan.aircraft.size());
     plan.steps = {
-        {What::Sky, 0, 3},
-        {What::Ground, 0, 3},
-        {What::GroundAgain, 0, 3},
-        {What::GroundAgain, 0, 3, 0},
-        {What::Aircraft, 0, aircraft},
-        {What::Aircraft, 0, aircraft, 0},
-        {What::Overlay, 0, 3}};
+        {Content::Sky, 0, 3},
+        {Content::Ground, 0, 3},
+        {Content::GroundRepaint, 0, 3},
+        {Content::GroundRepaint, 0, 3, 0},
+        {Content::Aircraft, 0, aircraft},
+        {Content::Aircraft, 0, aircraft, 0},
+        {Content::Overlay, 0, 3}};
 }
 
 void paint_meshes(FramePlan& plan, const Corners& corners) {
@@ -66,10 +66,10 @@ void paint_meshes(FramePlan& plan, const Corners& corners) {
     plan.depth_boxes.push_back({{0, 0}, {1, 1}});
     plan.refined.push_back({corners.mesh, corners.triangle, 0, 0, {}});
     for (const PaintStep& step : std::initializer_list<PaintStep>{
-             {What::ClearDepth, 0, 1},
-             {What::GroundAgain, 0, 3, whole, DepthUse::DepthOnly},
-             {What::Aircraft, 0, aircraft, whole, DepthUse::Nearest},
-             {What::Refined, 0, 1, whole, DepthUse::Nearest}}) {
+             {Content::ClearDepth, 0, 1},
+             {Content::GroundRepaint, 0, 3, whole, DepthUse::DepthOnly},
+             {Content::Aircraft, 0, aircraft, whole, DepthUse::Nearest},
+             {Content::Refined, 0, 1, whole, DepthUse::Nearest}}) {
         plan.steps.push_back(step);
     }
 }
@@ -78,18 +78,18 @@ void paint_by_depth(FramePlan& plan, const glm::ivec2& size_px) {
     const auto aircraft = static_cast<std::uint32_t>(plan.aircraft.size());
     plan.depth_boxes = {{glm::ivec2(0), size_px}};
     plan.steps = {
-        {What::ClearDepth, 0, 1},
-        {What::Aircraft, 0, aircraft, whole, DepthUse::Nearest},
-        {What::Refined,
+        {Content::ClearDepth, 0, 1},
+        {Content::Aircraft, 0, aircraft, whole, DepthUse::Nearest},
+        {Content::Refined,
          0,
          static_cast<std::uint32_t>(plan.refined.size()),
          whole,
          DepthUse::Nearest},
-        {What::Ground, 0, 3, whole, DepthUse::Nearest},
-        {What::Ground, 0, 3, whole, DepthUse::EdgeOn},
-        {What::GroundAgain, 0, 3, whole, DepthUse::OnGround},
-        {What::Sky, 0, 3, whole, DepthUse::InfinitelyFar},
-        {What::Overlay, 0, 3}};
+        {Content::Ground, 0, 3, whole, DepthUse::Nearest},
+        {Content::Ground, 0, 3, whole, DepthUse::EdgeOn},
+        {Content::GroundRepaint, 0, 3, whole, DepthUse::OnGround},
+        {Content::Sky, 0, 3, whole, DepthUse::InfinitelyFar},
+        {Content::Overlay, 0, 3}};
 }
 
 } // namespace
@@ -100,7 +100,7 @@ void Renderer::warm_up() {
     if (triangles_.has_texture()) {
         plan.ground_texture.emplace();
     }
-    aircraft_.add_any(plan);
+    aircraft_.add_one_of_each(plan);
     const auto draw_twice = [&] {
         scene::Picture picture;
         draw(plan);
@@ -108,7 +108,7 @@ void Renderer::warm_up() {
         finish_and_read(picture);
     };
     paint_in_order(plan);
-    if (aircraft_.has_meshes()) {
+    if (aircraft_.has_depth_drawn_meshes()) {
         paint_meshes(plan, corners);
     }
     draw_twice();

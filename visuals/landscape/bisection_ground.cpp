@@ -21,7 +21,7 @@ BisectionGround::BisectionGround(
               ? std::move(roads)
               : std::make_shared<SharedRoads>(air.water_level_m))
     , terrain_shadows_(make_relief_shadows(terrain::GroundSamples(*tiles_), air))
-    , contrast_(std::make_shared<const scene::CoverContrast>(
+    , contrast_(std::make_shared<const scene::LandCoverContrast>(
           GroundPalette(air, climate_at(tiles_->metadata().place)).contrast()))
     , mean_colour_(VertexColours(*tiles_, air, terrain_shadows_).mean()) {}
 

@@ -4,7 +4,7 @@
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/landscape/shared_roads.h"
 #include "visuals/nature/relief_shadows.h"
-#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>
@@ -46,7 +46,7 @@ public:
 
     glm::vec3 mean_colour() const override { return mean_colour_; }
 
-    std::shared_ptr<const scene::CoverContrast> cover_contrast() const override {
+    std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override {
         return contrast_;
     }
 
@@ -67,7 +67,7 @@ private:
     scene::AirSettings air_;
     std::shared_ptr<SharedRoads> roads_;
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows_;
-    std::shared_ptr<const scene::CoverContrast> contrast_;
+    std::shared_ptr<const scene::LandCoverContrast> contrast_;
     glm::vec3 mean_colour_;
 };
 

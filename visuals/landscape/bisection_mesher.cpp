@@ -220,7 +220,7 @@ private:
             .frustum_normals = frustum_normals(request.camera, request.aspect),
             .order = order_,
             .focal_px = focal_px(request.camera, picture_height_px_),
-            .ahead = ahead_of(request.camera),
+            .ahead = view_direction(request.camera),
             .corner_cos = corner_cos(request.camera, request.aspect),
             .earth_radius_m = earth_radius_m_};
     }

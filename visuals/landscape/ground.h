@@ -8,7 +8,7 @@
 #include "visuals/nature/backdrop.h"
 #include "visuals/nature/relief_shadows.h"
 #include "visuals/roads/road_network.h"
-#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 #include "visuals/terrain/ground_tiles.h"
@@ -59,7 +59,7 @@ public:
 
     /// How pixels differ from the colours of its vertices, whose alpha says of which covers they
     /// are mixed; null where it says nothing.
-    virtual std::shared_ptr<const scene::CoverContrast> cover_contrast() const { return nullptr; }
+    virtual std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const { return nullptr; }
 
     /// Colour of a place on the map as the mean over about `footprint_m`, display values.
     virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const {

@@ -123,11 +123,11 @@ float GroundPalette::cover_code(const TerrainPoint& point, float footprint_m) co
     return glm::mix(temperate_cover_code(site), snow_code, white);
 }
 
-scene::CoverContrast GroundPalette::contrast() const {
+scene::LandCoverContrast GroundPalette::contrast() const {
     if (climate_.dust) {
-        return scene::CoverContrast(dust_covers(*climate_.dust));
+        return scene::LandCoverContrast(dust_covers(*climate_.dust));
     }
-    return scene::CoverContrast(climate_.arid ? arid_covers() : temperate_covers());
+    return scene::LandCoverContrast(climate_.arid ? arid_covers() : temperate_covers());
 }
 
 bool GroundPalette::is_water(const TerrainPoint& point) const {
@@ -148,7 +148,7 @@ nature::SceneryDensity GroundPalette::scenery_density(const TerrainPoint& point,
     }
     site.height_m = temperate_height_m(site.height_m, climate_);
     site.summer_share = summer_share_of(climate_);
-    const Cover cover = land_cover(site);
+    const LandCover cover = land_cover(site);
     const float trees =
         0.85F * cover.forest_share + 0.02F * site.summer_share * cover.below_tree_line * (1.0F - cover.farmland);
     const float conifers = glm::smoothstep(500.0F, 1100.0F, site.height_m + 300.0F * site.patchiness);

@@ -6,7 +6,7 @@
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/relief_shadows.h"
 #include "visuals/nature/scenery.h"
-#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_samples.h"
 
@@ -54,14 +54,14 @@ public:
     glm::vec3 lit_colour(const TerrainPoint& point, float footprint_m) const;
 
     /// The colour as lit_colour() gives it, packed; alpha is the number of the covers that it is mixed of
-    /// (scene::CoverContrast): 0 on water and nowhere else.
+    /// (scene::LandCoverContrast): 0 on water and nowhere else.
     std::uint32_t packed(const TerrainPoint& point, float footprint_m) const;
 
-    /// The number of the covers at a place (scene::CoverContrast), 0..255; 0 on water.
+    /// The number of the covers at a place (scene::LandCoverContrast), 0..255; 0 on water.
     float cover_code(const TerrainPoint& point, float footprint_m) const;
 
     /// How pixels differ from the mean of the covers around them.
-    scene::CoverContrast contrast() const;
+    scene::LandCoverContrast contrast() const;
 
     /// Whether a place lies under water.
     bool is_water(const TerrainPoint& point) const;

@@ -132,7 +132,7 @@ glm::vec3 mean_lit(const scene::GroundTexture& texture, const nature::Daylight& 
     return glm::vec3(sum / (255.0 * normal.width * normal.height));
 }
 
-scene::TexturePlace place_in(const scene::GroundImage& image, const glm::dvec3& eye_m) {
+scene::TextureTransform place_in(const scene::GroundImage& image, const glm::dvec3& eye_m) {
     const glm::dvec2 extent_m = image.step_m * glm::dvec2(image.width, image.height);
     const glm::dvec2 corner_m = image.first_m - 0.5 * image.step_m;
     return {
@@ -181,7 +181,7 @@ scene::GroundTexture without_texels(const scene::GroundTexture& texture) {
     return {bare(texture.albedo), bare(texture.normal), texture.mean_colour};
 }
 
-scene::TexturePlaces texture_places(const scene::GroundTexture& texture, const glm::dvec3& eye_m) {
+scene::GroundTextureTransforms ground_texture_transforms(const scene::GroundTexture& texture, const glm::dvec3& eye_m) {
     return {place_in(texture.albedo, eye_m), place_in(texture.normal, eye_m)};
 }
 

@@ -33,6 +33,6 @@ scene::GroundTexture ground_texture(
 scene::GroundTexture without_texels(const scene::GroundTexture& texture);
 
 /// Where an eye stands in the texture.
-scene::TexturePlaces texture_places(const scene::GroundTexture& texture, const glm::dvec3& eye_m);
+scene::GroundTextureTransforms ground_texture_transforms(const scene::GroundTexture& texture, const glm::dvec3& eye_m);
 
 } // namespace octant::visuals::landscape

@@ -48,7 +48,7 @@ constexpr glm::vec3 scree(0.54F, 0.51F, 0.46F);
 constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
 constexpr float shrub_share = 0.35F; ///< of ground where they grow
 constexpr glm::vec3 hedge(0.19F, 0.29F, 0.13F);
-constexpr scene::Cover snow_on_ground{snow_colour, 0.03F};
+constexpr scene::LandCover snow_on_ground{snow_colour, 0.03F};
 constexpr float bare_rock_share = 0.78F; ///< of the brightness of dust, without it
 constexpr float band_m = 85.0F;          ///< thickness of a stratum of arid rock ...
 constexpr float ledge_m = 13.0F;         ///< ... of a layer within it ...
@@ -191,8 +191,8 @@ float tree_line_height_m(const SiteConditions& site) {
 
 } // namespace
 
-Cover land_cover(const SiteConditions& site) {
-    Cover cover;
+LandCover land_cover(const SiteConditions& site) {
+    LandCover cover;
     cover.below_tree_line =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, tree_line_height_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
@@ -228,7 +228,7 @@ float scree_cover(const SiteConditions& site) {
 } // namespace
 
 glm::vec3 temperate_colour(const SiteConditions& site) {
-    const Cover cover = land_cover(site);
+    const LandCover cover = land_cover(site);
     const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
     glm::vec3 colour = glm::mix(
         stop_colour(meadow_stops, tree_line_height_m(site)),
@@ -280,32 +280,32 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
     return glm::mix(level, rock, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
 }
 
-std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers() {
+std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers() {
     return {
-        scene::Cover{forest, 0.17F},
-        scene::Cover{meadow_stops[1].colour, 0.08F},
-        scene::Cover{{0.45F, 0.44F, 0.39F}, 0.15F},
+        scene::LandCover{forest, 0.17F},
+        scene::LandCover{meadow_stops[1].colour, 0.08F},
+        scene::LandCover{{0.45F, 0.44F, 0.39F}, 0.15F},
         snow_on_ground};
 }
 
-std::array<scene::Cover, scene::CoverContrast::covers> arid_covers() {
+std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers() {
     return {
-        scene::Cover{shrubs, 0.15F},
-        scene::Cover{arid_stops[1].colour, 0.09F},
-        scene::Cover{arid_stops[2].colour, 0.15F},
+        scene::LandCover{shrubs, 0.15F},
+        scene::LandCover{arid_stops[1].colour, 0.09F},
+        scene::LandCover{arid_stops[2].colour, 0.15F},
         snow_on_ground};
 }
 
-std::array<scene::Cover, scene::CoverContrast::covers> dust_covers(const glm::vec3& dust) {
+std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const glm::vec3& dust) {
     return {
-        scene::Cover{dust, 0.05F},
-        scene::Cover{dust, 0.09F},
-        scene::Cover{bare_rock_share * dust, 0.15F},
+        scene::LandCover{dust, 0.05F},
+        scene::LandCover{dust, 0.09F},
+        scene::LandCover{bare_rock_share * dust, 0.15F},
         snow_on_ground};
 }
 
 float temperate_cover_code(const SiteConditions& site) {
-    const Cover cover = land_cover(site);
+    const LandCover cover = land_cover(site);
     const float vegetated = glm::mix(meadow_code, woods_code, cover.forest_share);
     return glm::mix(vegetated, rock_code, std::max(cover.rock_share, 0.6F * scree_cover(site)));
 }

@@ -2,7 +2,7 @@
 
 #include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
-#include "visuals/scene/cover_contrast.h"
+#include "visuals/scene/land_cover_contrast.h"
 
 #include <glm/vec3.hpp>
 
@@ -28,7 +28,7 @@ struct SiteConditions {
 };
 
 /// What covers a place of temperate ground, shares 0..1.
-struct Cover {
+struct LandCover {
     float below_tree_line = 0.0F;
     float farmland = 0.0F;
     float forest_share = 0.0F;
@@ -51,7 +51,7 @@ float temperate_height_m(float height_m, const nature::Climate& climate);
 float snow_share(const SiteConditions& site, const glm::vec3& normal, const nature::Climate& climate);
 
 /// What covers a place whose height is what temperate_height_m() gives.
-Cover land_cover(const SiteConditions& site);
+LandCover land_cover(const SiteConditions& site);
 
 /// The colour of temperate ground before light falls on it, display values. The height of the place
 /// is what temperate_height_m() gives.
@@ -69,15 +69,15 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust);
 
 constexpr glm::vec3 snow_colour(0.93F, 0.94F, 0.96F);
 
-/// The covers of ground for scene::CoverContrast, by their numbers: woods or shrubs, meadows or
+/// The covers of ground for scene::LandCoverContrast, by their numbers: woods or shrubs, meadows or
 /// bare soil, rock and snow.
 constexpr float woods_code = 64.0F;
 constexpr float meadow_code = 128.0F;
 constexpr float rock_code = 192.0F;
 constexpr float snow_code = 255.0F;
-std::array<scene::Cover, scene::CoverContrast::covers> temperate_covers();
-std::array<scene::Cover, scene::CoverContrast::covers> arid_covers();
-std::array<scene::Cover, scene::CoverContrast::covers> dust_covers(const glm::vec3& dust);
+std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers();
+std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers();
+std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const glm::vec3& dust);
 
 /// What temperate_colour(), arid_colour() and dust_colour() are mixed of, as such a number; at least woods_code.
 float temperate_cover_code(const SiteConditions& site);

@@ -56,7 +56,7 @@ void PathAnnotations::begin(
 
 /// An arrow in a circle: up is the way one looks, level.
 void PathAnnotations::draw_north(const glm::vec2& centre_px) {
-    const glm::dvec3 ahead = scene::ahead_of(camera_);
+    const glm::dvec3 ahead = scene::view_direction(camera_);
     const glm::dvec3 up = camera_.view_to_world * glm::dvec3(0.0, 1.0, 0.0);
     // Looking straight down or up, the top of the picture is what lies ahead.
     const glm::dvec2 level =

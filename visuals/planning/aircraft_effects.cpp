@@ -27,7 +27,7 @@ using models::polygons::PolygonModel;
 constexpr double quick_turns_per_s = 3.0;
 /// The share of a disc's radius that the rest may reach through its plane.
 constexpr double slack = 0.06;
-constexpr int spokes = 32;
+constexpr int segments = 32;
 /// The length of a plume.
 constexpr double plume_radii = 9.0;
 /// The length of a trail of vapour.
@@ -73,19 +73,19 @@ void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius
     std::array<std::uint32_t, rings.size()> first{};
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
         first[ring] = static_cast<std::uint32_t>(shape.vertices.size());
-        for (int spoke = 0; spoke < spokes; ++spoke) {
-            const double turn = 2.0 * pi * spoke / spokes;
+        for (int segment_index = 0; segment_index < segments; ++segment_index) {
+            const double turn = 2.0 * pi * segment_index / segments;
             shape.add(
                 centre_m + rings[ring] * radius_m * (std::cos(turn) * right + std::sin(turn) * up),
                 clear_colour(grey, alphas[ring]));
         }
     }
     for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
-        for (std::uint32_t spoke = 0; spoke < spokes; ++spoke) {
-            const std::uint32_t next = (spoke + 1) % spokes;
+        for (std::uint32_t segment_index = 0; segment_index < segments; ++segment_index) {
+            const std::uint32_t next = (segment_index + 1) % segments;
             shape.quad(
-                first[ring] + spoke,
-                first[ring + 1] + spoke,
+                first[ring] + segment_index,
+                first[ring + 1] + segment_index,
                 first[ring + 1] + next,
                 first[ring] + next);
         }
@@ -151,10 +151,10 @@ void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
 
 /// How far the model reaches along a direction, without one of its parts.
 double reach_along(
-    const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> but_part) {
+    const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> excluded_part) {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-        if (but_part && model.polygons[polygon].part == *but_part) {
+        if (excluded_part && model.polygons[polygon].part == *excluded_part) {
             continue;
         }
         for (const std::uint32_t vertex : model.corners(polygon)) {
@@ -187,11 +187,11 @@ AircraftEffects::AircraftEffects(const PolygonModel& model) {
 
 void AircraftEffects::add_effect(const Effect& effect, const glm::dvec3& reach_m) {
     const glm::dvec3 half_m(effect.radius_m);
-    const glm::dvec3 least = glm::min(effect.place_m, effect.place_m + reach_m) - half_m;
-    const glm::dvec3 most = glm::max(effect.place_m, effect.place_m + reach_m) + half_m;
-    extent_.min_m = veils_.empty() ? least : glm::min(extent_.min_m, least);
-    extent_.max_m = veils_.empty() ? most : glm::max(extent_.max_m, most);
-    veils_.push_back(effect);
+    const glm::dvec3 least = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
+    const glm::dvec3 most = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
+    extent_.min_m = effects_.empty() ? least : glm::min(extent_.min_m, least);
+    extent_.max_m = effects_.empty() ? most : glm::max(extent_.max_m, most);
+    effects_.push_back(effect);
 }
 
 void AircraftEffects::find_discs(const PolygonModel& model) {
@@ -220,9 +220,9 @@ void AircraftEffects::find_discs(const PolygonModel& model) {
         }
         const glm::dvec3 centre_m = pivot.point_m + along_sum_m / corners * pivot.axis;
         for (const double side : {-1.0, 1.0}) {
-            const glm::dvec3 out = side * pivot.axis;
-            if (reach_along(model, out, pivot.part) <= glm::dot(out, centre_m) + slack * radius_m) {
-                add_effect({Kind::Disc, centre_m, out, radius_m, number}, glm::dvec3(0.0));
+            const glm::dvec3 outward = side * pivot.axis;
+            if (reach_along(model, outward, pivot.part) <= glm::dot(outward, centre_m) + slack * radius_m) {
+                add_effect({Kind::Disc, centre_m, outward, radius_m, number}, glm::dvec3(0.0));
                 break;
             }
         }
@@ -252,18 +252,18 @@ void AircraftEffects::find_plumes(const PolygonModel& model) {
             continue;
         }
         const double radius_m = 0.42 * std::min(most.y - least.y, most.z - least.z);
-        const glm::dvec3 place_m(rear_m, 0.5 * (least.y + most.y), 0.5 * (least.z + most.z));
-        add_effect({Kind::Plume, place_m, aft, radius_m}, plume_radii * radius_m * aft);
+        const glm::dvec3 position_m(rear_m, 0.5 * (least.y + most.y), 0.5 * (least.z + most.z));
+        add_effect({Kind::Plume, position_m, aft, radius_m}, plume_radii * radius_m * aft);
     }
 }
 
 /// Only of jets: what has a plume. Others hardly ever load their tips so.
 void AircraftEffects::find_vapour(const PolygonModel& model) {
-    if (std::ranges::none_of(veils_, [](const Effect& one) { return one.kind == Kind::Plume; })) {
+    if (std::ranges::none_of(effects_, [](const Effect& one) { return one.kind == Kind::Plume; })) {
         return;
     }
     for (const double side : {-1.0, 1.0}) {
-        const glm::dvec3 out(0.0, side, 0.0);
+        const glm::dvec3 outward(0.0, side, 0.0);
         glm::dvec3 tip_m(0.0);
         double max_m = 0.0;
         for (const glm::dvec3& at_m : model.vertices_m) {
@@ -274,42 +274,42 @@ void AircraftEffects::find_vapour(const PolygonModel& model) {
                 tip_m = at_m;
             }
         }
-        add_effect({Kind::Vapour, tip_m, out, vapour_high_m}, {-vapour_m, 0.0, 0.0});
+        add_effect({Kind::Vapour, tip_m, outward, vapour_high_m}, {-vapour_m, 0.0, 0.0});
     }
 }
 
-AircraftEffects::Ranges AircraftEffects::add(
+AircraftEffects::TransparentRanges AircraftEffects::add(
     const glm::dmat4& body_to_eye_world,
     const EffectStrength& strength,
-    std::span<const TurnedPart> turned,
+    std::span<const ArticulatedPart> articulated_parts,
     std::uint32_t number,
-    Veils& veils) {
-    const auto is_moved = [&](std::uint32_t pivot) {
-        return std::ranges::any_of(turned, [&](const TurnedPart& part) {
+    TransparentGeometry& transparents) {
+    const auto is_articulated = [&](std::uint32_t pivot) {
+        return std::ranges::any_of(articulated_parts, [&](const ArticulatedPart& part) {
             return part.aircraft == number && part.pivot == pivot;
         });
     };
     const glm::dvec3 eye_m(glm::inverse(body_to_eye_world)[3]);
-    Ranges ranges;
+    TransparentRanges ranges;
     for (const bool after : {false, true}) {
         vertices_.clear();
         indices_.clear();
         Shape shape{body_to_eye_world, vertices_, indices_};
-        for (const Effect& effect : veils_) {
-            if ((glm::dot(eye_m - effect.place_m, effect.out) > 0.0) != after) {
+        for (const Effect& effect : effects_) {
+            if ((glm::dot(eye_m - effect.position_m, effect.outward) > 0.0) != after) {
                 continue;
             }
             if (effect.kind == Kind::Disc) {
-                if (!is_moved(effect.pivot)) {
-                    draw_disc(effect.place_m, effect.out, effect.radius_m, shape);
+                if (!is_articulated(effect.pivot)) {
+                    draw_disc(effect.position_m, effect.outward, effect.radius_m, shape);
                 }
             } else if (effect.kind == Kind::Plume) {
-                draw_plume(effect.place_m, effect.radius_m, strength, shape);
+                draw_plume(effect.position_m, effect.radius_m, strength, shape);
             } else if (strength.vapour > 0.0) {
-                draw_vapour(effect.place_m, strength.vapour, shape);
+                draw_vapour(effect.position_m, strength.vapour, shape);
             }
         }
-        (after ? ranges.after : ranges.before) = veils.add(shape.vertices, shape.indices);
+        (after ? ranges.after : ranges.before) = transparents.add(shape.vertices, shape.indices);
     }
     return ranges;
 }

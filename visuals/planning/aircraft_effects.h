@@ -5,9 +5,9 @@
 #include "models/polygons/polygon_model.h"
 #include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
-#include "visuals/planning/aircraft_hull.h"
-#include "visuals/planning/turned_part.h"
-#include "visuals/planning/veils.h"
+#include "visuals/planning/bounding_box.h"
+#include "visuals/planning/articulated_part.h"
+#include "visuals/planning/transparent_geometry.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -42,34 +42,34 @@ public:
     /// burners, and the ends of its span, of models with a nozzle.
     explicit AircraftEffects(const models::polygons::PolygonModel& model);
 
-    bool empty() const { return veils_.empty(); }
+    bool empty() const { return effects_.empty(); }
 
     /// Corners of a box in body axes that holds them all, at any strength.
-    const HullExtent& extent() const { return extent_; }
+    const AxisAlignedBox& extent() const { return extent_; }
 
-    struct Ranges {
+    struct TransparentRanges {
         /// What is painted before the aircraft, and what after it.
-        VeilRange before;
-        VeilRange after;
+        TransparentRange before;
+        TransparentRange after;
     };
 
-    /// Adds what is seen to a frame's veils. A rotor that somebody else moves, as `turned` says of
+    /// Adds what is seen to a frame's veils. A rotor that somebody else moves, as `articulated_parts` says of
     /// the scene's aircraft `number`, has no disc.
-    Ranges
+    TransparentRanges
     add(const glm::dmat4& body_to_eye_world,
         const EffectStrength& strength,
-        std::span<const TurnedPart> turned,
+        std::span<const ArticulatedPart> articulated_parts,
         std::uint32_t number,
-        Veils& veils);
+        TransparentGeometry& transparents);
 
 private:
     enum class Kind : std::uint8_t { Disc, Plume, Vapour };
 
-    /// `out` is the unit vector from the plane through `place_m` to the effect's side.
+    /// `outward` is the unit vector from the plane through `position_m` to the effect's side.
     struct Effect {
         Kind kind = Kind::Disc;
-        glm::dvec3 place_m{0.0};
-        glm::dvec3 out{0.0, 0.0, -1.0};
+        glm::dvec3 position_m{0.0};
+        glm::dvec3 outward{0.0, 0.0, -1.0};
         double radius_m = 1.0;
         /// The pivot whose blades a disc shows.
         std::uint32_t pivot = models::invalid_index;
@@ -80,8 +80,8 @@ private:
     void find_vapour(const models::polygons::PolygonModel& model);
     void add_effect(const Effect& effect, const glm::dvec3& reach_m);
 
-    std::vector<Effect> veils_;
-    HullExtent extent_;
+    std::vector<Effect> effects_;
+    AxisAlignedBox extent_;
     /// The corners and triangles of one effect in the frame at hand.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;

@@ -57,9 +57,9 @@ std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint3
     return best;
 }
 
-class BufferMaker {
+class BufferBuilder {
 public:
-    BufferMaker(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
+    BufferBuilder(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
         : model_(model)
         , normals_(normals) {
         for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
@@ -194,13 +194,13 @@ AircraftModel aircraft_model(
     assert(normals.size() == polygons.corner_vertices.size());
     const models::polygons::PolygonModel drawn = closed(polygons, normals);
     shading::ShadedPolygons shaded = shading::shaded_polygons(drawn, normals);
-    BufferMaker maker(drawn, normals);
+    BufferBuilder maker(drawn, normals);
     std::vector<std::uint32_t> first_indices = first_indices_of(drawn, order.polygons());
     maker.append(order.polygons());
     std::vector<std::uint32_t> file_list = models::polygons::distinct_polygons(polygons);
     const scene::IndexRange all = maker.append(file_list);
     const double radius_m = models::polygons::radius_m(polygons);
-    const HullExtent hull = hull_extent(polygons);
+    const AxisAlignedBox hull = model_bounds(polygons);
     scene::ModelBuffers buffers = maker.take();
     return {
         std::move(polygons),
@@ -253,13 +253,13 @@ void add_progressive(
     }
     model.progressive = std::move(mesh);
     model.errors_m = {0.0, polygons_error_m};
-    model.buffers.has_meshes = true;
+    model.buffers.has_depth_drawn_meshes = true;
 }
 
-void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
+void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> parts) {
     assert(model.progressive != nullptr && model.turning.index_count == 0);
     model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
-    for (const TurningMesh& part : parts) {
+    for (const TurningPartMesh& part : parts) {
         const models::polygons::Pivot& pivot = model.polygons.pivots[part.pivot];
         const std::size_t first = model.buffers.vertices.size();
         const MeshLevel level = append_level(model.buffers, {part.mesh, 0.0});
@@ -268,7 +268,7 @@ void add_turning(AircraftModel& model, std::span<const TurningMesh> parts) {
         for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
             vertex.part = part.pivot + 1;
             vertex.polygon = 0;
-            const HullExtent circle = circle_of(pivot, glm::dvec3(vertex.position_m));
+            const AxisAlignedBox circle = rotation_bounds(pivot, glm::dvec3(vertex.position_m));
             include(model, circle.min_m);
             include(model, circle.max_m);
         }

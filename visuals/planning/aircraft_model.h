@@ -2,7 +2,7 @@
 
 #include "models/polygons/polygon_model.h"
 #include "visuals/draworder/draw_order.h"
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/mesh_levels.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/camera_rig.h"
@@ -35,7 +35,7 @@ struct AircraftModel {
     /// The polygons that file_order draws, without repeats.
     std::vector<std::uint32_t> file_list;
     /// Holds polygons and meshes.
-    HullExtent hull;
+    AxisAlignedBox hull;
     scene::Subject subject;
     /// How the polygons are shaded.
     shading::ShadedPolygons shaded;
@@ -91,7 +91,7 @@ void add_progressive(
     double polygons_error_m);
 
 /// A part of a mesh aircraft that turns by a pivot of its polygons.
-struct TurningMesh {
+struct TurningPartMesh {
     /// The part as at the time 0, in body axes.
     const models::TriangleMesh* mesh = nullptr;
     /// Index into PolygonModel::pivots.
@@ -99,7 +99,7 @@ struct TurningMesh {
 };
 
 /// Gives a model with a progressive mesh the parts that turn beside it. Loading work.
-void add_turning(AircraftModel& model, std::span<const TurningMesh> parts);
+void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> parts);
 
 /// Gives a model with a progressive mesh its transparent surfaces; body axes. Loading work.
 void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);

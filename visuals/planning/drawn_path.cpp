@@ -7,7 +7,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr double usual_step_s = 0.1;
+constexpr double default_step_s = 0.1;
 constexpr double max_points = 4000.0;
 
 } // namespace
@@ -16,7 +16,7 @@ DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTim
     DrawnPath path;
     const double length_s = trajectory.end_s() - trajectory.start_s();
     path.first_s = trajectory.start_s();
-    path.step_s = std::max(usual_step_s, length_s / max_points);
+    path.step_s = std::max(default_step_s, length_s / max_points);
     const auto last = static_cast<std::size_t>(std::floor(length_s / path.step_s));
     for (std::size_t i = 0; i <= last; ++i) {
         const sim::AircraftState state = trajectory.state_at(path.time_s(i));

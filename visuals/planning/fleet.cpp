@@ -43,13 +43,13 @@ sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, doubl
     return state;
 }
 
-scene::Tints tints_of(const PlacedAircraft& aircraft, scene::ModelLook look) {
+scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisplay look) {
     const AircraftModel& model = *aircraft.model;
-    if (look == scene::ModelLook::None ||
-        (look == scene::ModelLook::Levels && is_refined(aircraft))) {
+    if (look == scene::ModelDisplay::None ||
+        (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
         return {};
     }
-    if (look == scene::ModelLook::Shading) {
+    if (look == scene::ModelDisplay::Shading) {
         return scene::shading_tints;
     }
     const double radius_m =
@@ -68,7 +68,7 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings)
     for (const std::uint32_t model : scene.aircraft) {
         add(model);
     }
-    hulls_.resize(placed_.size());
+    bounding_boxes_.resize(placed_.size());
     if (scene.cockpit && settings.view.kind == scene::View::Cockpit) {
         add(*scene.cockpit);
     }
@@ -112,17 +112,17 @@ void Fleet::place(
     for (std::size_t i = 0; i < aircraft.states.size(); ++i) {
         const sim::AircraftState state = sunk(aircraft.states[i], eye_m, view.earth_radius_m);
         placed_[i].is_hidden = sim::is_absent_height(aircraft.states[i].position_m.z);
-        place(placed_[i], state, aircraft.turned, view);
-        hulls_[i] = hull_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
+        place(placed_[i], state, aircraft.articulated_parts, view);
+        bounding_boxes_[i] = bounding_box_of(placed_[i], state, i < effects.size() ? &effects[i] : nullptr, view);
     }
     if (placed_.size() > aircraft.states.size()) {
         sim::AircraftState around_eye = aircraft.states.front();
         around_eye.position_m = eye_m;
-        place(placed_.back(), around_eye, aircraft.turned, view);
+        place(placed_.back(), around_eye, aircraft.articulated_parts, view);
     }
 }
 
-HullBox Fleet::hull_of(
+OrientedBox Fleet::bounding_box_of(
     const PlacedAircraft& aircraft,
     const sim::AircraftState& state,
     const AircraftEffects* effects,
@@ -130,18 +130,18 @@ HullBox Fleet::hull_of(
     const glm::dvec3 position_m = state.position_m - view.camera.eye_m;
     const double margin_m =
         hull_margin_m + hull_margin_px * view.pixel_rad * glm::length(position_m);
-    HullExtent extent = aircraft.model->hull;
+    AxisAlignedBox extent = aircraft.model->hull;
     if (effects != nullptr && !effects->empty()) {
         extent.min_m = glm::min(extent.min_m, effects->extent().min_m);
         extent.max_m = glm::max(extent.max_m, effects->extent().max_m);
     }
-    return placed_hull(extent, position_m, state.body_to_world, margin_m);
+    return placed_box(extent, position_m, state.body_to_world, margin_m);
 }
 
 void Fleet::place(
     PlacedAircraft& aircraft,
     const sim::AircraftState& state,
-    std::span<const TurnedPart> turned,
+    std::span<const ArticulatedPart> articulated_parts,
     const FrameView& view) {
     const glm::dvec3& eye_m = view.camera.eye_m;
     choose_model(aircraft, glm::length(state.position_m - eye_m), view);
@@ -151,16 +151,16 @@ void Fleet::place(
     place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
     const models::polygons::PolygonModel& numbered =
         aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
-    for (const TurnedPart& part : turned) {
+    for (const ArticulatedPart& part : articulated_parts) {
         if (part.aircraft == aircraft.number) {
-            place_turned_part(model.polygons, numbered, part, parts);
+            place_articulated_part(model.polygons, numbered, part, parts);
         }
     }
     const glm::dvec3 eye_in_body_m =
         draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
-    represent(aircraft, view);
-    aircraft.tints = tints_of(aircraft, settings_.shading.show_model);
+    choose_representation(aircraft, view);
+    aircraft.tints = model_tints(aircraft, settings_.shading.show_model);
     choose_ranges(aircraft, eye_in_body_m);
     aircraft.polygon_count = 0;
     for (const scene::IndexRange& range : aircraft.ranges) {
@@ -176,7 +176,7 @@ void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const Fram
     }
     const double nearest_m = std::max(distance_m - aircraft.near_model->subject.radius_m, 0.0);
     const std::array errors_m{0.0, aircraft.far_error_m};
-    const bool far = chosen_level(
+    const bool far = select_level(
                          errors_m,
                          settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
                          is_far(aircraft) ? 1 : 0) == 1;
@@ -188,7 +188,7 @@ void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const Fram
 
 /// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of
 /// all.
-void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
+void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& view) const {
     const AircraftModel& model = *aircraft.model;
     if (model.polygons_from_mesh() == 0) {
         return;
@@ -201,7 +201,7 @@ void Fleet::represent(PlacedAircraft& aircraft, const FrameView& view) const {
         return;
     }
     const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
-    aircraft.representation = static_cast<std::size_t>(chosen_level(
+    aircraft.representation = static_cast<std::size_t>(select_level(
         model.errors_m,
         settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
         aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));

@@ -3,7 +3,7 @@
 #include "sim/aircraft_state.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/planning/aircraft_effects.h"
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/refined_aircraft.h"
@@ -24,7 +24,7 @@ namespace octant::visuals::planning {
 struct AircraftStates {
     /// The states of Scene::aircraft.
     std::span<const sim::AircraftState> states;
-    std::span<const TurnedPart> turned = {};
+    std::span<const ArticulatedPart> articulated_parts = {};
 };
 
 /// The aircraft of one view, and the cockpit around its eye: where each one is in a frame, as what
@@ -53,11 +53,11 @@ public:
     std::span<PlacedAircraft> placed() { return placed_; }
 
     /// The boxes of Scene::aircraft.
-    std::span<const HullBox> hulls() const { return hulls_; }
+    std::span<const OrientedBox> bounding_boxes() const { return bounding_boxes_; }
 
     /// What is around the eye: nearer than all else. Null where the view is from outside.
     const PlacedAircraft* cockpit() const {
-        return placed_.size() > hulls_.size() ? &placed_.back() : nullptr;
+        return placed_.size() > bounding_boxes_.size() ? &placed_.back() : nullptr;
     }
 
     /// The meshes that are refined, one for each of placed(): null for most.
@@ -76,12 +76,12 @@ private:
     void place(
         PlacedAircraft& aircraft,
         const sim::AircraftState& state,
-        std::span<const TurnedPart> turned,
+        std::span<const ArticulatedPart> articulated_parts,
         const FrameView& view);
     void choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view);
-    void represent(PlacedAircraft& aircraft, const FrameView& view) const;
+    void choose_representation(PlacedAircraft& aircraft, const FrameView& view) const;
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
-    HullBox hull_of(
+    OrientedBox bounding_box_of(
         const PlacedAircraft& aircraft,
         const sim::AircraftState& state,
         const AircraftEffects* effects,
@@ -90,7 +90,7 @@ private:
     const Scene& scene_;
     const scene::Settings& settings_;
     std::vector<PlacedAircraft> placed_;
-    std::vector<HullBox> hulls_;
+    std::vector<OrientedBox> bounding_boxes_;
     std::vector<glm::dmat4> parts_;
     draworder::DrawOrder::Walk walk_;
     std::vector<std::unique_ptr<RefinedAircraft>> refined_;

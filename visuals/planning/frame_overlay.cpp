@@ -3,14 +3,14 @@
 namespace octant::visuals::planning {
 
 scene::OverlayDraw FrameOverlay::draw(
-    const scene::OverlayDraw& veils,
+    const scene::OverlayDraw& transparents,
     const scene::Camera& camera,
     std::span<const sim::AircraftState> states,
     bool marks_path,
-    std::span<const std::string> words) {
+    std::span<const std::string> overlay_lines) {
     const glm::ivec2& size_px = settings_.view.size_px;
     layers_.clear();
-    layers_.add(veils);
+    layers_.add(transparents);
     if (marks_path) {
         layers_.add(path_marks(camera, states.front().position_m));
     }
@@ -21,8 +21,8 @@ scene::OverlayDraw FrameOverlay::draw(
             layers_.add(head_up_display_.draw(inputs, camera, size_px));
         }
     }
-    if (!words.empty()) {
-        layers_.add(text_.draw(words, size_px));
+    if (!overlay_lines.empty()) {
+        layers_.add(text_.draw(overlay_lines, size_px));
     }
     return layers_.all();
 }

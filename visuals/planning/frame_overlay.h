@@ -25,14 +25,14 @@ public:
         : scene_(scene)
         , settings_(settings) {}
 
-    /// The overlay of a frame, `veils` first; valid until the next call. `marks_path`: legs of the
+    /// The overlay of a frame, `transparents` first; valid until the next call. `marks_path`: legs of the
     /// first aircraft's path are named, which must be known.
     scene::OverlayDraw draw(
-        const scene::OverlayDraw& veils,
+        const scene::OverlayDraw& transparents,
         const scene::Camera& camera,
         std::span<const sim::AircraftState> states,
         bool marks_path,
-        std::span<const std::string> words);
+        std::span<const std::string> overlay_lines);
 
 private:
     scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m);

@@ -14,7 +14,7 @@ frame_view(const scene::Camera& camera, const glm::ivec2& size_px, double earth_
         earth_radius_m};
 }
 
-bool in_view(const HullBox& box, const FrameView& view) {
+bool in_view(const OrientedBox& box, const FrameView& view) {
     return scene::in_view(box.centre_m, radius_m(box), view.frustum);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/scene/camera.h"
 
 #include <glm/vec2.hpp>
@@ -26,6 +26,6 @@ struct FrameView {
 FrameView frame_view(const scene::Camera& camera, const glm::ivec2& size_px, double earth_radius_m);
 
 /// False only for a box of which nothing is in view.
-bool in_view(const HullBox& box, const FrameView& view);
+bool in_view(const OrientedBox& box, const FrameView& view);
 
 } // namespace octant::visuals::planning

@@ -14,7 +14,7 @@ std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_
 }
 
 void place_triangle(
-    const scene::TriangleDraw& ground, std::uint32_t triangle, SightPolygon& placed) {
+    const scene::TriangleDraw& ground, std::uint32_t triangle, ViewPolygon& placed) {
     placed.resize(3);
     for (std::size_t corner = 0; corner < 3; ++corner) {
         const std::uint32_t vertex = ground.indices[std::size_t{3} * triangle + corner];

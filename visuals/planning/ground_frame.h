@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/planning/ground_paint.h"
-#include "visuals/planning/sight.h"
+#include "visuals/planning/ground_decals.h"
+#include "visuals/planning/view_polygon.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <cstdint>
@@ -34,6 +34,6 @@ std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_
 
 /// Three corners of a triangle of the ground.
 void place_triangle(
-    const scene::TriangleDraw& ground, std::uint32_t triangle, SightPolygon& placed);
+    const scene::TriangleDraw& ground, std::uint32_t triangle, ViewPolygon& placed);
 
 } // namespace octant::visuals::planning

@@ -16,7 +16,7 @@ namespace {
 
 /// Adds the plane through the eye that leans on the box from below and runs level across the line
 /// of sight: what lies under it hides nothing. None when the box reaches over the eye's place.
-void add_lowest_sight_plane(ConvexRoom& room, const HullBox& box) {
+void add_lowest_sight_plane(ConvexVolume& volume, const OrientedBox& box) {
     const double level_m = std::hypot(box.centre_m.x, box.centre_m.y);
     if (level_m <= 0.0) {
         return;
@@ -30,18 +30,18 @@ void add_lowest_sight_plane(ConvexRoom& room, const HullBox& box) {
         }
         min_slope = std::min(min_slope, corner_m.z / along_m);
     }
-    room.add({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - ahead * min_slope), 0.0});
+    volume.add({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) - ahead * min_slope), 0.0});
 }
 
 } // namespace
 
-bool may_meet(const ConvexRoom& room, const glm::dvec3& min_m, const glm::dvec3& max_m) {
-    if (glm::any(glm::lessThan(max_m, room.extent.min_m)) ||
-        glm::any(glm::greaterThan(min_m, room.extent.max_m))) {
+bool may_intersect(const ConvexVolume& volume, const glm::dvec3& min_m, const glm::dvec3& max_m) {
+    if (glm::any(glm::lessThan(max_m, volume.extent.min_m)) ||
+        glm::any(glm::greaterThan(min_m, volume.extent.max_m))) {
         return false;
     }
-    for (int i = 0; i < room.count; ++i) {
-        const Plane& plane = room.planes[static_cast<std::size_t>(i)];
+    for (int i = 0; i < volume.count; ++i) {
+        const Plane& plane = volume.planes[static_cast<std::size_t>(i)];
         const glm::dvec3 foremost_m(
             plane.normal.x > 0.0 ? max_m.x : min_m.x,
             plane.normal.y > 0.0 ? max_m.y : min_m.y,
@@ -53,85 +53,85 @@ bool may_meet(const ConvexRoom& room, const glm::dvec3& min_m, const glm::dvec3&
     return true;
 }
 
-ConvexRoom sight_lines_to(const HullBox& box) {
-    ConvexRoom room;
-    room.extent = world_extent(box);
-    room.extent.min_m = glm::min(room.extent.min_m, glm::dvec3(0.0));
-    room.extent.max_m = glm::max(room.extent.max_m, glm::dvec3(0.0));
-    add_lowest_sight_plane(room, box);
-    if (!holds_eye(box)) {
-        const SightCone cone = cone_of(box);
+ConvexVolume sight_volume_of(const OrientedBox& box) {
+    ConvexVolume volume;
+    volume.extent = world_bounds(box);
+    volume.extent.min_m = glm::min(volume.extent.min_m, glm::dvec3(0.0));
+    volume.extent.max_m = glm::max(volume.extent.max_m, glm::dvec3(0.0));
+    add_lowest_sight_plane(volume, box);
+    if (!contains_eye(box)) {
+        const ViewCone cone = cone_of(box);
         for (const glm::dvec3& normal : cone.planes()) {
-            room.add({normal, 0.0});
+            volume.add({normal, 0.0});
         }
     }
     for (int side = 0; side < 6; ++side) {
         const Plane plane = side_of(box, side);
         if (plane.offset_m <= 0.0) { // behind the box
-            room.add(turned_over(plane));
+            volume.add(turned_over(plane));
         }
     }
-    return room;
+    return volume;
 }
 
 void GroundInFront::find(
-    const HullBox& box,
+    const OrientedBox& box,
     const landscape::GroundMesher& ground,
     const scene::TriangleDraw& triangles,
     const glm::dvec3& eye_m) {
     candidates_.clear();
     found_.clear();
     meeting_.clear();
-    const ConvexRoom room = sight_lines_to(box);
+    const ConvexVolume volume = sight_volume_of(box);
 
     struct Look {
-        const ConvexRoom& room;
+        const ConvexVolume& volume;
         const glm::dvec3& eye_m;
-    } const look{room, eye_m};
+    } const look{volume, eye_m};
 
     ground.triangles_in(
         [&look](const glm::dvec3& min_m, const glm::dvec3& max_m) {
-            return may_meet(look.room, min_m - look.eye_m, max_m - look.eye_m);
+            return may_intersect(look.volume, min_m - look.eye_m, max_m - look.eye_m);
         },
         candidates_);
     if (candidates_.empty()) {
         return;
     }
-    const SightCone cone = holds_eye(box) ? SightCone{} : cone_of(box);
+    const ViewCone cone = contains_eye(box) ? ViewCone{} : cone_of(box);
     for (const std::uint32_t candidate : candidates_) {
         place_triangle(triangles, candidate, triangle_);
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
         if (glm::dot(glm::cross(b - a, c - a), a) >= 0.0 ||
-            !may_meet(room, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
+            !may_intersect(volume, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
             continue;
         }
-        const Place place = place_of(box, cone.planes());
-        if (place != Place::Elsewhere) {
-            found_.push_back({candidate, place == Place::Meets});
+        const BoxRelation place = relation_to(box, cone.planes());
+        if (place != BoxRelation::Elsewhere) {
+            found_.push_back({candidate, place == BoxRelation::Meets});
         }
-        if (place == Place::Meets) {
+        if (place == BoxRelation::Meets) {
             meeting_.push_back(candidate);
         }
     }
 }
 
-GroundInFront::Place GroundInFront::place_of(const HullBox& box, std::span<const glm::dvec3> cone) {
+GroundInFront::BoxRelation GroundInFront::relation_to(const OrientedBox& box, std::span<const glm::dvec3> cone) {
     part_ = triangle_;
-    cut_to_inside(part_, box, scratch_);
+    clip_to_box(part_, box, scratch_);
     if (!part_.empty()) {
-        return Place::Meets;
+        return BoxRelation::Meets;
     }
     if (cone.empty()) {
-        return Place::Elsewhere; // beyond a box that is all around the eye
+        return BoxRelation::Elsewhere; // beyond a box that is all around the eye
     }
     part_ = triangle_;
-    cut_to_cone(part_, cone, scratch_);
+    clip_to_cone(part_, cone, scratch_);
     if (solid_angle_sr(part_) < min_solid_angle_sr) {
-        return Place::Elsewhere;
+        return BoxRelation::Elsewhere;
     }
-    return entry_of(box, middle_of(part_)) > 1.0 ? Place::Before : Place::Elsewhere;
+    return entry_distance(box, middle_of(part_)) > 1.0 ? BoxRelation::Before : BoxRelation::Elsewhere;
 }
 
 } // namespace octant::visuals::planning

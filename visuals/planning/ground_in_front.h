@@ -1,8 +1,8 @@
 #pragma once
 
 #include "visuals/landscape/ground_mesher.h"
-#include "visuals/planning/aircraft_hull.h"
-#include "visuals/planning/sight.h"
+#include "visuals/planning/bounding_box.h"
+#include "visuals/planning/view_polygon.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,8 +15,8 @@ namespace octant::visuals::planning {
 
 /// Convex set of points: the common front of some planes and the inside of a box along the world's
 /// axes. World axes with the eye at the origin.
-struct ConvexRoom {
-    HullExtent extent;
+struct ConvexVolume {
+    AxisAlignedBox extent;
     std::array<Plane, 14> planes{};
     int count = 0;
 
@@ -24,17 +24,17 @@ struct ConvexRoom {
 };
 
 /// False only when the room holds no point of the box between two corners.
-bool may_meet(const ConvexRoom& room, const glm::dvec3& min_m, const glm::dvec3& max_m);
+bool may_intersect(const ConvexVolume& volume, const glm::dvec3& min_m, const glm::dvec3& max_m);
 
 /// A room that holds all sight lines from the eye to points of a box.
-ConvexRoom sight_lines_to(const HullBox& box);
+ConvexVolume sight_volume_of(const OrientedBox& box);
 
 /// A triangle of the ground that hides part of a box or meets it.
-struct NearTriangle {
+struct GroundInFrontTriangle {
     /// Its number in GroundMesher::triangles().
     std::uint32_t triangle = 0;
     /// Whether it may lie before, inside and behind the box.
-    bool meets = false;
+    bool intersects = false;
 };
 
 /// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.
@@ -45,28 +45,28 @@ class GroundInFront {
 public:
     /// Looks at those of the mesher's last triangles() that face the eye. `eye_m`: world.
     void find(
-        const HullBox& box,
+        const OrientedBox& box,
         const landscape::GroundMesher& ground,
         const scene::TriangleDraw& triangles,
         const glm::dvec3& eye_m);
 
     /// In the ground's painting order.
-    std::span<const NearTriangle> found() const { return found_; }
+    std::span<const GroundInFrontTriangle> found() const { return found_; }
 
     /// Those of them that meet the box.
-    std::span<const std::uint32_t> meeting() const { return meeting_; }
+    std::span<const std::uint32_t> intersecting() const { return meeting_; }
 
 private:
-    enum class Place { Elsewhere, Before, Meets };
+    enum class BoxRelation { Elsewhere, Before, Meets };
 
-    Place place_of(const HullBox& box, std::span<const glm::dvec3> cone);
+    BoxRelation relation_to(const OrientedBox& box, std::span<const glm::dvec3> cone);
 
     std::vector<std::uint32_t> candidates_;
-    std::vector<NearTriangle> found_;
+    std::vector<GroundInFrontTriangle> found_;
     std::vector<std::uint32_t> meeting_;
-    SightPolygon triangle_;
-    SightPolygon part_;
-    SightPolygon scratch_;
+    ViewPolygon triangle_;
+    ViewPolygon part_;
+    ViewPolygon scratch_;
 };
 
 } // namespace octant::visuals::planning

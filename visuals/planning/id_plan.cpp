@@ -76,7 +76,7 @@ scene::ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
     return buffers;
 }
 
-void refuse_refined(const AircraftModel& model) {
+void throw_if_refined(const AircraftModel& model) {
     if (model.progressive) {
         throw Error(fmt::format(
             "pictures of polygon numbers: expected polygons or levels of detail, got {}, which is "
@@ -90,7 +90,7 @@ void refuse_refined(const AircraftModel& model) {
 IdPlan::IdPlan(const Scene& scene) {
     std::uint32_t first = 0;
     const auto add = [&](const AircraftModel& model) {
-        refuse_refined(model);
+        throw_if_refined(model);
         const std::size_t parts = model.polygons.pivots.size() + 1;
         model_of_part_.insert(
             model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
@@ -106,7 +106,7 @@ IdPlan::IdPlan(const Scene& scene) {
         if (far != scene.far_models.end()) {
             // Both have the same parts in a plan, of which it draws one.
             const std::size_t parts = model_of_part_.size() - first_part;
-            far_of_part_.push_back(
+            far_ids_of_part_.push_back(
                 {static_cast<std::uint32_t>(first_part),
                  far->far_model,
                  static_cast<std::uint32_t>(models_.size())});
@@ -147,21 +147,21 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
     plan_.background = glm::vec3(0.0F);
     plan_.haze = {};
     plan_.ground_texture.reset();
-    plan_.grain.reset();
-    plan_.ground_has_numbers = true;
+    plan_.detail_texture.reset();
+    plan_.ground_has_polygon_numbers = true;
     plan_.ambient = glm::vec3(1.0F);
     plan_.sunlight = glm::vec3(0.0F);
     std::erase_if(plan_.steps, [](const scene::PaintStep& step) {
-        return step.what == scene::PaintStep::What::Sky ||
-               step.what == scene::PaintStep::What::Veil ||
-               step.what == scene::PaintStep::What::Overlay;
+        return step.content == scene::PaintStep::Content::Sky ||
+               step.content == scene::PaintStep::Content::Transparent ||
+               step.content == scene::PaintStep::Content::Overlay;
     });
     std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
     for (scene::AircraftDraw& draw : plan_.aircraft) {
-        const auto far = std::ranges::find_if(far_of_part_, [&](const FarNumbers& one) {
+        const auto far = std::ranges::find_if(far_ids_of_part_, [&](const FarModelIds& one) {
             return one.first_part == draw.first_part && one.far_model == draw.model;
         });
-        draw.model = far != far_of_part_.end() ? far->numbered : model_of_part_[draw.first_part];
+        draw.model = far != far_ids_of_part_.end() ? far->numbered : model_of_part_[draw.first_part];
         draw.tints = {};
     }
     add_ground(plan, plan.ground.indices);

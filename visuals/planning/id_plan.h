@@ -36,7 +36,7 @@ private:
     std::vector<std::uint32_t> model_of_part_;
 
     /// An aircraft that a plan may draw as another model of the scene, which has numbers too.
-    struct FarNumbers {
+    struct FarModelIds {
         std::uint32_t first_part = 0;
         /// Index into Scene::models.
         std::uint32_t far_model = 0;
@@ -44,7 +44,7 @@ private:
         std::uint32_t numbered = 0;
     };
 
-    std::vector<FarNumbers> far_of_part_;
+    std::vector<FarModelIds> far_ids_of_part_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
     scene::FramePlan plan_;

@@ -18,7 +18,7 @@ namespace {
 /// A coarser level must be better than asked for by this factor before it replaces a finer one.
 constexpr double coarsening_margin = 0.7;
 
-std::vector<glm::vec3> own_or_made_normals(const models::TriangleMesh& mesh) {
+std::vector<glm::vec3> given_or_computed_normals(const models::TriangleMesh& mesh) {
     if (mesh.normals.empty()) {
         return shading::corner_normals(mesh);
     }
@@ -33,9 +33,9 @@ std::vector<glm::vec3> own_or_made_normals(const models::TriangleMesh& mesh) {
 }
 
 /// Gives the corners of a mesh their places in a vertex buffer.
-class LevelMaker {
+class MipLevelBuilder {
 public:
-    LevelMaker(scene::ModelBuffers& buffers, const models::TriangleMesh& mesh)
+    MipLevelBuilder(scene::ModelBuffers& buffers, const models::TriangleMesh& mesh)
         : buffers_(buffers)
         , mesh_(mesh)
         , newest_(mesh.vertices_m.size(), models::none) {}
@@ -45,8 +45,8 @@ public:
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = vertex_of(triangle, k, normals[std::size_t{3} * triangle + k]);
         }
-        const std::size_t first = free_corner(corners);
-        claim(corners[first], triangle);
+        const std::size_t first = unclaimed_corner(corners);
+        set_provoking_vertex(corners[first], triangle);
         for (std::size_t k = 0; k < 3; ++k) {
             buffers_.indices.push_back(corners[(first + k) % 3]);
         }
@@ -87,7 +87,7 @@ private:
     }
 
     /// A corner with which no triangle begins yet; its vertex is doubled where all three are taken.
-    std::size_t free_corner(std::array<std::uint32_t, 3>& corners) {
+    std::size_t unclaimed_corner(std::array<std::uint32_t, 3>& corners) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (is_first_[corners[k] - first_] == 0) {
                 return k;
@@ -97,7 +97,7 @@ private:
         return 0;
     }
 
-    void claim(std::uint32_t vertex, std::uint32_t triangle) {
+    void set_provoking_vertex(std::uint32_t vertex, std::uint32_t triangle) {
         is_first_[vertex - first_] = 1;
         buffers_.vertices[vertex].polygon = triangle;
         buffers_.vertices[vertex].face_normal =
@@ -120,35 +120,35 @@ private:
 
 MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source) {
     const models::TriangleMesh& mesh = *source.mesh;
-    const std::vector<glm::vec3> normals = own_or_made_normals(mesh);
+    const std::vector<glm::vec3> normals = given_or_computed_normals(mesh);
     MeshLevel level;
     level.error_m = source.error_m;
     level.shaded = shading::shaded_polygons(mesh, normals);
     level.range.first_index = static_cast<std::uint32_t>(buffers.indices.size());
     level.range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     level.range.polygons = static_cast<int>(mesh.triangles.size());
-    LevelMaker maker(buffers, mesh);
+    MipLevelBuilder maker(buffers, mesh);
     for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
         maker.add(triangle, normals);
     }
-    buffers.has_meshes = true;
+    buffers.has_depth_drawn_meshes = true;
     return level;
 }
 
-int chosen_level(std::span<const double> errors_m, double max_m, int before) {
+int select_level(std::span<const double> errors_m, double max_m, int before) {
     assert(!errors_m.empty());
-    const auto coarsest_within = [&](double limit_m) {
+    const auto coarsest_level_within = [&](double limit_m) {
         int level = static_cast<int>(errors_m.size()) - 1;
         while (level > 0 && errors_m[static_cast<std::size_t>(level)] > limit_m) {
             --level;
         }
         return level;
     };
-    const int good_enough = coarsest_within(max_m);
-    if (before < 0 || good_enough < before) {
-        return good_enough;
+    const int coarsest_sufficient = coarsest_level_within(max_m);
+    if (before < 0 || coarsest_sufficient < before) {
+        return coarsest_sufficient;
     }
-    return std::max(before, coarsest_within(coarsening_margin * max_m));
+    return std::max(before, coarsest_level_within(coarsening_margin * max_m));
 }
 
 } // namespace octant::visuals::planning

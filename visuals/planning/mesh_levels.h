@@ -35,6 +35,6 @@ MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
 /// `max_m`, the finest where none is. `before`, the one drawn last (negative: none), is kept while
 /// it is good enough and no coarser one is by a margin, so that none changes to and fro. Errors
 /// rise, or stay.
-int chosen_level(std::span<const double> errors_m, double max_m, int before);
+int select_level(std::span<const double> errors_m, double max_m, int before);
 
 } // namespace octant::visuals::planning

@@ -22,8 +22,8 @@ constexpr std::uint32_t flown_alpha = 0xd0U;
 constexpr std::uint32_t coming_alpha = 0x68U;
 
 /// The smallest box along a dash's chord that holds its corners.
-HullBox box_around(std::span<const models::ColourVertex> corners, const glm::dvec3& chord) {
-    HullBox box;
+OrientedBox box_around(std::span<const models::ColourVertex> corners, const glm::dvec3& chord) {
+    OrientedBox box;
     const double length_m = glm::length(chord);
     const glm::dvec3 along = length_m > 1e-6 ? chord / length_m : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 level(-along.y, along.x, 0.0);
@@ -47,31 +47,31 @@ HullBox box_around(std::span<const models::ColourVertex> corners, const glm::dve
 PathRibbon::PathRibbon(const DrawnPath& path)
     : path_(path) {
     const auto usual = static_cast<std::size_t>(std::lround(dash_s / path.step_s));
-    points_a_dash_ = std::max({usual, path.points.size() / max_dashes, std::size_t{2}});
+    points_per_dash_ = std::max({usual, path.points.size() / max_dashes, std::size_t{2}});
 }
 
-std::span<const PathRibbon::Dash> PathRibbon::dashes(const RibbonView& view, Veils& veils) {
+std::span<const PathRibbon::Dash> PathRibbon::dashes(const RibbonView& view, TransparentGeometry& transparents) {
     dashes_.clear();
     if (path_.points.size() < 2) {
         return dashes_;
     }
     const std::size_t last = path_.points.size() - 1;
-    for (std::size_t first = 0; first < last; first += points_a_dash_) {
+    for (std::size_t first = 0; first < last; first += points_per_dash_) {
         // The last tenth is the gap to the next dash.
-        const std::size_t gap = std::max<std::size_t>(points_a_dash_ / 10, 1);
-        add_dash(first, std::min(first + points_a_dash_ - gap, last), view, veils);
+        const std::size_t gap = std::max<std::size_t>(points_per_dash_ / 10, 1);
+        add_dash(first, std::min(first + points_per_dash_ - gap, last), view, transparents);
     }
     return dashes_;
 }
 
-PathRibbon::Own PathRibbon::own_place(double time_s) const {
-    const double now = (time_s - path_.first_s) / path_.step_s;
+PathRibbon::AircraftPoint PathRibbon::aircraft_point(double time_s) const {
+    const double fractional_point = (time_s - path_.first_s) / path_.step_s;
     const auto last = static_cast<double>(path_.points.size() - 1);
-    const double at = std::clamp(now, 0.0, last);
+    const double at = std::clamp(fractional_point, 0.0, last);
     const auto point = static_cast<std::size_t>(at);
     const std::size_t next = std::min(point + 1, path_.points.size() - 1);
     return {
-        now,
+        fractional_point,
         point,
         glm::mix(
             path_.points[point].position_m,
@@ -82,14 +82,14 @@ PathRibbon::Own PathRibbon::own_place(double time_s) const {
 /// The dash of points first .. last, but for what is beside the aircraft: two pieces where that is
 /// in its middle.
 void PathRibbon::add_dash(
-    std::size_t first, std::size_t last, const RibbonView& view, Veils& veils) {
-    const Own own = own_place(view.time_s);
+    std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents) {
+    const AircraftPoint aircraft = aircraft_point(view.time_s);
     const auto close = [&](std::size_t point) {
-        return glm::distance(path_.points[point].position_m, own.place_m) < view.gap_m;
+        return glm::distance(path_.points[point].position_m, aircraft.place_m) < view.gap_m;
     };
-    const bool holds_aircraft = own.point >= first && own.point < last;
-    std::size_t until = holds_aircraft ? own.point : last;
-    std::size_t from = holds_aircraft ? own.point + 1 : first;
+    const bool holds_aircraft = aircraft.point >= first && aircraft.point < last;
+    std::size_t until = holds_aircraft ? aircraft.point : last;
+    std::size_t from = holds_aircraft ? aircraft.point + 1 : first;
     while (until > first && close(until)) {
         --until;
     }
@@ -97,22 +97,22 @@ void PathRibbon::add_dash(
         ++from;
     }
     if (holds_aircraft) {
-        add_piece(first, until, view, veils);
-        add_piece(from, last, view, veils);
+        add_ribbon_section(first, until, view, transparents);
+        add_ribbon_section(from, last, view, transparents);
     } else {
-        add_piece(from, until, view, veils);
+        add_ribbon_section(from, until, view, transparents);
     }
 }
 
-void PathRibbon::add_piece(
-    std::size_t first, std::size_t last, const RibbonView& view, Veils& veils) {
+void PathRibbon::add_ribbon_section(
+    std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents) {
     const auto away_m = [&](std::size_t point) {
         return glm::distance(path_.points[point].position_m, view.eye_m);
     };
     if (first >= last || std::min(away_m(first), away_m(last)) > farthest_m) {
         return;
     }
-    const double now = own_place(view.time_s).now;
+    const double fractional_point = aircraft_point(view.time_s).fractional_point;
     const auto next_leg =
         std::ranges::upper_bound(path_.legs, first, {}, &DrawnPath::Leg::first_point);
     const auto leg = static_cast<std::size_t>(next_leg - path_.legs.begin());
@@ -120,7 +120,7 @@ void PathRibbon::add_piece(
     indices_.clear();
     for (std::size_t i = first; i <= last; ++i) {
         const DrawnPath::Point& point = path_.points[i];
-        const bool flown = static_cast<double>(i) <= now;
+        const bool flown = static_cast<double>(i) <= fractional_point;
         const std::uint32_t colour =
             leg_colours[leg % leg_colours.size()] | (flown ? flown_alpha : coming_alpha) << 24U;
         for (const double side : {-1.0, 1.0}) {
@@ -137,7 +137,7 @@ void PathRibbon::add_piece(
         }
     }
     const glm::dvec3 chord = path_.points[last].position_m - path_.points[first].position_m;
-    const VeilRange range = veils.add(vertices_, indices_);
+    const TransparentRange range = transparents.add(vertices_, indices_);
     if (range.count > 0) {
         dashes_.push_back({box_around(vertices_, chord), range});
     }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/drawn_path.h"
-#include "visuals/planning/veils.h"
+#include "visuals/planning/transparent_geometry.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,29 +34,29 @@ public:
 
     struct Dash {
         /// Holds the dash; the eye is at the origin.
-        HullBox box;
-        VeilRange range;
+        OrientedBox box;
+        TransparentRange range;
     };
 
     /// The dashes of a frame, added to its veils. Valid until the next call.
-    std::span<const Dash> dashes(const RibbonView& view, Veils& veils);
+    std::span<const Dash> dashes(const RibbonView& view, TransparentGeometry& transparents);
 
 private:
     /// Where the aircraft is: past `point`, before the next one.
-    struct Own {
+    struct AircraftPoint {
         /// The time as a number of points.
-        double now;
+        double fractional_point;
         /// The last point that it has passed.
         std::size_t point;
         glm::dvec3 place_m;
     };
 
-    Own own_place(double time_s) const;
-    void add_dash(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
-    void add_piece(std::size_t first, std::size_t last, const RibbonView& view, Veils& veils);
+    AircraftPoint aircraft_point(double time_s) const;
+    void add_dash(std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents);
+    void add_ribbon_section(std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& transparents);
 
     const DrawnPath& path_;
-    std::size_t points_a_dash_ = 1;
+    std::size_t points_per_dash_ = 1;
     std::vector<Dash> dashes_;
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;

@@ -16,7 +16,7 @@ constexpr double nearest = 1e-6;
 } // namespace
 
 scene::PixelBox
-pixel_box(const HullBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
+pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
     const glm::dmat4 world_to_clip = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
     const glm::dvec2 size(size_px);
     glm::dvec2 least(std::numeric_limits<double>::max());

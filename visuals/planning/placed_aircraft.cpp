@@ -39,7 +39,7 @@ std::size_t pivot_in(
 
 } // namespace
 
-void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed) {
+void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed) {
     const models::polygons::PolygonModel& model = aircraft.model->polygons;
     const std::uint32_t first_vertex = aircraft.model->first_vertices[polygon];
     const glm::dmat4& part = aircraft.parts[aircraft.model->buffers.vertices[first_vertex].part];
@@ -86,10 +86,10 @@ void place_parts(
     }
 }
 
-void place_turned_part(
+void place_articulated_part(
     const models::polygons::PolygonModel& model,
     const models::polygons::PolygonModel& numbered,
-    const TurnedPart& turned,
+    const ArticulatedPart& turned,
     std::span<glm::dmat4> parts) {
     const std::size_t pivot = pivot_in(model, numbered, turned.pivot);
     if (pivot >= model.pivots.size()) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/aircraft_model.h"
-#include "visuals/planning/sight.h"
-#include "visuals/planning/turned_part.h"
+#include "visuals/planning/view_polygon.h"
+#include "visuals/planning/articulated_part.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -43,7 +43,7 @@ struct PlacedAircraft {
     std::size_t representation = 0;
     /// As AircraftDraw::first_smooth.
     std::uint32_t first_smooth = 0;
-    scene::Tints tints{};
+    scene::PolygonTints tints{};
     /// Index into FramePlan::parts.
     std::uint32_t first_part = 0;
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
@@ -67,7 +67,7 @@ inline bool is_refined(const PlacedAircraft& aircraft) {
 }
 
 /// The corners of a polygon of an aircraft where it is; world axes with the eye at the origin.
-void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, SightPolygon& placed);
+void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed);
 
 /// What a whole aircraft is drawn by; valid as long as the aircraft and its ranges.
 scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);
@@ -84,12 +84,12 @@ void place_parts(
     std::span<glm::dmat4> parts);
 
 /// Turns and moves a part that somebody else turns; nothing where the model has no such pivot.
-/// `numbered` is the model whose pivots `turned` counts: the part of the same name turns in
+/// `numbered` is the model whose pivots `articulated_parts` counts: the part of the same name turns in
 /// `model`, which is the same or stands in for it from afar. `parts` as place_parts() has them.
-void place_turned_part(
+void place_articulated_part(
     const models::polygons::PolygonModel& model,
     const models::polygons::PolygonModel& numbered,
-    const TurnedPart& turned,
+    const ArticulatedPart& articulated_parts,
     std::span<glm::dmat4> parts);
 
 } // namespace octant::visuals::planning

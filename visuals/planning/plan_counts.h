@@ -13,7 +13,7 @@ struct PlanCounts {
     /// Ground triangles and aircraft polygons painted again, cut by planes.
     int cuts = 0;
     /// Groups of aircraft that meet or stand in a ring, painted by polygons.
-    int knots = 0;
+    int overlap_groups = 0;
     /// Aircraft painted by depth, as they meet each other or the ground in too many places.
     int unordered = 0;
     int shadow_triangles = 0;

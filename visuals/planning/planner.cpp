@@ -1,7 +1,7 @@
 #include "visuals/planning/planner.h"
 
 #include "visuals/landscape/ground_texture_maker.h"
-#include "visuals/planning/ground_grain.h"
+#include "visuals/planning/ground_detail_texture.h"
 
 #include <algorithm>
 
@@ -10,8 +10,8 @@ namespace octant::visuals::planning {
 namespace {
 
 /// Whether the ground of a scene has the fine pattern.
-bool has_grain(const Scene& scene, const scene::GroundSettings& settings) {
-    return settings.near_detail && !scene.ground_texture && scene.ground->cover_contrast();
+bool has_detail_texture(const Scene& scene, const scene::GroundSettings& settings) {
+    return settings.near_detail && !scene.ground_texture && scene.ground->land_cover_contrast();
 }
 
 } // namespace
@@ -26,18 +26,18 @@ Planner::Planner(
           mesher ? std::move(mesher)
                  : scene.ground->mesher(
                        landscape::mesh_settings(settings, scene.ground_texture != nullptr)))
-    , air_(scene, settings.air)
+    , atmosphere_(scene, settings.air)
     , fleet_(scene, settings)
     , smooth_(settings.shading, settings.adapt.shading, fleet_.placed())
     , runway_(scene.ground->runway())
-    , shadows_(air_.to_sun())
-    , veils_(scene, settings, air_.daylight())
+    , shadows_(atmosphere_.to_sun())
+    , transparents_(scene, settings, atmosphere_.daylight())
     , overlay_(scene, settings)
     , painter_(plan_) {
-    runway_.set_daylight(air_.daylight());
-    follow_roads();
+    runway_.set_daylight(atmosphere_.daylight());
+    update_roads();
     plan_.background = settings.air.background;
-    plan_.mesh_look = settings.ground.show_mesh;
+    plan_.mesh_display = settings.ground.show_mesh;
     plan_.sample_spacing_m = std::max(static_cast<float>(scene.ground->spacing_m()), 1e-3F);
     plan_.lights_pixels = settings.shading.kind == scene::AircraftShading::Phong;
 }
@@ -47,15 +47,15 @@ FrameView Planner::view_of(const scene::Camera& camera) const {
 }
 
 /// There are none where a texture has colours of its own.
-void Planner::follow_roads() {
+void Planner::update_roads() {
     if (settings_.ground.roads && !scene_.ground_texture) {
-        roads_.follow(*scene_.ground, air_.daylight());
+        roads_.follow(*scene_.ground, atmosphere_.daylight());
     }
 }
 
 landscape::MeshRequest
 Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
-    const int asked = asked_triangles(triangle_target);
+    const int asked = requested_triangles(triangle_target);
     const FrameView view = view_of(camera);
     const int kept =
         runway_.max_triangles(camera.eye_m, asked) + roads_.max_triangles(view, asked);
@@ -65,7 +65,7 @@ Planner::ground_request(const scene::Camera& camera, std::optional<int> triangle
         asked >= scene::unlimited_triangles ? asked : std::max(asked - kept, 1)};
 }
 
-int Planner::asked_triangles(std::optional<int> triangle_target) const {
+int Planner::requested_triangles(std::optional<int> triangle_target) const {
     return triangle_target.value_or(scene::triangle_target(settings_));
 }
 
@@ -86,11 +86,11 @@ bool Planner::set_sun() {
         std::move(mesher_),
         *scene_.ground,
         landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
-    air_.set_sun();
-    shadows_ = ShadowCaster(air_.to_sun());
-    runway_.set_daylight(air_.daylight());
-    follow_roads();
-    veils_.set_daylight(air_.daylight());
+    atmosphere_.set_sun();
+    shadows_ = ShadowCaster(atmosphere_.to_sun());
+    runway_.set_daylight(atmosphere_.daylight());
+    update_roads();
+    transparents_.set_daylight(atmosphere_.daylight());
     return mesher_.get() == before;
 }
 
@@ -106,15 +106,15 @@ PlannedFrame Planner::plan(const PlanRequest& request) {
     shadows_.begin(ground.all, plan_.ground_texture.has_value(), plan_.shadow_vertices);
     paint_ground(request, view, ground, counts);
     cast_shadows(view, ground);
-    air_.write(view, plan_);
-    veils_.make(view, {request.states, request.turned}, fleet_, plan_);
+    atmosphere_.write(view, plan_);
+    transparents_.make(view, {request.states, request.articulated_parts}, fleet_, plan_);
     plan_.overlay = overlay_.draw(
-        veils_.draw(), request.camera, request.states, veils_.has_ribbon(), request.words);
+        transparents_.draw(), request.camera, request.states, transparents_.has_ribbon(), request.overlay_lines);
     count(choose_smooth(request.smooth), counts);
     counts.shadow_triangles =
         static_cast<int>(ground.shadow_indices.size() / 3) - counts.painted_triangles;
     painter_.paint(
-        {view, fleet_, smooth_, veils_, ground, *mesher_},
+        {view, fleet_, smooth_, transparents_, ground, *mesher_},
         settings_.surface.hidden_surface,
         counts);
     return {plan_, counts};
@@ -126,20 +126,20 @@ void Planner::advance_without_drawing(const PlanRequest& request) {
 }
 
 void Planner::place_aircraft(const PlanRequest& request, const FrameView& view) {
-    fleet_.place(view, {request.states, request.turned}, veils_.effects());
+    fleet_.place(view, {request.states, request.articulated_parts}, transparents_.effects());
     fleet_.refine(view);
-    if (request.when_refined) {
-        request.when_refined();
+    if (request.on_refined) {
+        request.on_refined();
     }
 }
 
-SmoothChoice::Count Planner::choose_smooth(const SmoothWish& wish) {
-    const nature::Daylight& day = air_.daylight();
+SmoothChoice::Count Planner::choose_smooth(const SmoothTarget& smooth_target) {
+    const nature::Daylight& day = atmosphere_.daylight();
     return smooth_.choose(
         fleet_.placed(),
         fleet_.refined(),
-        wish,
-        air_.to_sun(),
+        smooth_target,
+        atmosphere_.to_sun(),
         glm::vec2(day.ambient().x, day.sunlight().x),
         plan_.smooth);
 }
@@ -159,11 +159,11 @@ void Planner::begin_plan(const FrameView& view) {
         return glm::mat4(part);
     });
     if (scene_.ground_texture) {
-        plan_.ground_texture = landscape::texture_places(*scene_.ground_texture, view.camera.eye_m);
+        plan_.ground_texture = landscape::ground_texture_transforms(*scene_.ground_texture, view.camera.eye_m);
     }
-    plan_.grain.reset();
-    if (has_grain(scene_, settings_.ground)) {
-        plan_.grain = ground_grain(scene_.ground->cover_contrast(), view.camera.eye_m);
+    plan_.detail_texture.reset();
+    if (has_detail_texture(scene_, settings_.ground)) {
+        plan_.detail_texture = ground_detail_texture(scene_.ground->land_cover_contrast(), view.camera.eye_m);
     }
 }
 
@@ -174,14 +174,14 @@ void Planner::paint_ground(
     const FrameView& view,
     const GroundFrame& ground,
     PlanCounts& counts) {
-    const int asked = asked_triangles(request.triangle_target);
+    const int asked = requested_triangles(request.triangle_target);
     const bool is_front_to_back =
         settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
     const glm::dvec3& eye_m = view.camera.eye_m;
     cutter_.begin(ground.all, view);
     runway_.paint(*mesher_, view, is_front_to_back, runway_.max_triangles(eye_m, asked), cutter_);
     roads_.paint(*mesher_, view, is_front_to_back, roads_.max_triangles(view, asked), cutter_);
-    shadows_.lay(cutter_.paints());
+    shadows_.set_decals(cutter_.decals());
     counts.painted_triangles = cutter_.triangles();
     counts.ground.triangles += counts.painted_triangles;
     counts.ground.scenery_triangles += counts.painted_triangles;
@@ -189,9 +189,9 @@ void Planner::paint_ground(
 
 void Planner::cast_shadows(const FrameView& view, GroundFrame& ground) {
     if (settings_.surface.shadows) {
-        const auto hulls = fleet_.hulls();
-        for (std::size_t i = 0; i < hulls.size(); ++i) {
-            shadows_.cast(fleet_.placed()[i], hulls[i], *mesher_, view);
+        const auto bounding_boxes = fleet_.bounding_boxes();
+        for (std::size_t i = 0; i < bounding_boxes.size(); ++i) {
+            shadows_.cast(fleet_.placed()[i], bounding_boxes[i], *mesher_, view);
         }
     }
     shadows_.sort_pieces();
@@ -213,7 +213,7 @@ void Planner::count(const SmoothChoice::Count& shaded, PlanCounts& counts) const
     counts.refine_collapses = fleet_.collapses();
     counts.smoothable_polygons = shaded.polygons;
     counts.smooth_polygons = shaded.smooth;
-    counts.transparent_triangles = static_cast<int>(veils_.draw().indices.size() / 3);
+    counts.transparent_triangles = static_cast<int>(transparents_.draw().indices.size() / 3);
 }
 
 } // namespace octant::visuals::planning

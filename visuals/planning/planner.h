@@ -2,13 +2,13 @@
 
 #include "sim/aircraft_state.h"
 #include "visuals/landscape/ground_mesher.h"
-#include "visuals/planning/air.h"
+#include "visuals/planning/atmosphere.h"
 #include "visuals/planning/fleet.h"
 #include "visuals/planning/frame_overlay.h"
-#include "visuals/planning/frame_veils.h"
+#include "visuals/planning/frame_transparents.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/paint_cutter.h"
+#include "visuals/planning/decal_clipper.h"
 #include "visuals/planning/plan_counts.h"
 #include "visuals/planning/road_painter.h"
 #include "visuals/planning/runway_painter.h"
@@ -36,14 +36,14 @@ struct PlanRequest {
     std::span<const sim::AircraftState> states;
     /// Triangles of ground that are aimed at, at least 1; nothing = as the settings say.
     std::optional<int> triangle_target = std::nullopt;
-    SmoothWish smooth = {};
+    SmoothTarget smooth = {};
     /// Called in the midst of the work, when the aircraft are placed and their meshes refined: for
     /// whoever measures. May be empty.
-    std::function<void()> when_refined = nullptr;
+    std::function<void()> on_refined = nullptr;
     /// Lines written into the upper left corner of the picture.
-    std::span<const std::string> words = {};
+    std::span<const std::string> overlay_lines = {};
     /// Parts that do not turn by themselves.
-    std::span<const TurnedPart> turned = {};
+    std::span<const ArticulatedPart> articulated_parts = {};
 };
 
 /// A frame that is planned.
@@ -109,15 +109,15 @@ private:
     landscape::MeshRequest
     ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const;
     void place_aircraft(const PlanRequest& request, const FrameView& view);
-    SmoothChoice::Count choose_smooth(const SmoothWish& wish);
+    SmoothChoice::Count choose_smooth(const SmoothTarget& smooth_target);
     void begin_plan(const FrameView& view);
-    void follow_roads();
+    void update_roads();
     void paint_ground(
         const PlanRequest& request,
         const FrameView& view,
         const GroundFrame& ground,
         PlanCounts& counts);
-    int asked_triangles(std::optional<int> triangle_target) const;
+    int requested_triangles(std::optional<int> triangle_target) const;
     void cast_shadows(const FrameView& view, GroundFrame& ground);
     void count(const SmoothChoice::Count& shaded, PlanCounts& counts) const;
 
@@ -125,14 +125,14 @@ private:
     const scene::Settings& settings_;
     std::unique_ptr<landscape::GroundMesher> mesher_;
     scene::FramePlan plan_;
-    Air air_;
+    Atmosphere atmosphere_;
     Fleet fleet_;
     SmoothChoice smooth_;
     RunwayPainter runway_;
     RoadPainter roads_;
-    PaintCutter cutter_;
+    DecalClipper cutter_;
     ShadowCaster shadows_;
-    FrameVeils veils_;
+    FrameTransparents transparents_;
     FrameOverlay overlay_;
     ScenePainter painter_;
 };

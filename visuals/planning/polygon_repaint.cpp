@@ -15,28 +15,28 @@ constexpr double touching = 1e-9;
 
 std::optional<int> PolygonRepaint::paint(
     std::span<const PlacedAircraft* const> aircraft,
-    const HullBox& box,
+    const OrientedBox& box,
     const GroundFrame& ground,
-    std::span<const std::uint32_t> meeting,
+    std::span<const std::uint32_t> intersecting,
     double rounding_rad,
     StepWriter& steps) {
     painted_.clear();
     corners_.clear();
-    again_ = 0;
-    compared_ = 0;
+    repaint_count_ = 0;
+    comparison_count_ = 0;
     ground_ = &ground;
-    for (const std::uint32_t triangle : meeting) {
+    for (const std::uint32_t triangle : intersecting) {
         place_triangle(ground.all, triangle, part_);
-        cut_to_inside(part_, box, scratch_);
-        note({is_ground, triangle, 0, 0, 0}, part_);
+        clip_to_box(part_, box, scratch_);
+        record({is_ground, triangle, 0, 0, 0}, part_);
     }
-    for (std::uint32_t owner = 0; owner < aircraft.size() && !is_too_much(); ++owner) {
+    for (std::uint32_t owner = 0; owner < aircraft.size() && !exceeds_limits(); ++owner) {
         paint_aircraft(aircraft, owner, rounding_rad, steps);
     }
-    return is_too_much() ? std::nullopt : std::optional(again_);
+    return exceeds_limits() ? std::nullopt : std::optional(repaint_count_);
 }
 
-void PolygonRepaint::note(Painted painted, const SightPolygon& part) {
+void PolygonRepaint::record(PaintedItem painted, const ViewPolygon& part) {
     painted.first_corner = corners_.size();
     painted.corner_count = part.size();
     corners_.insert(corners_.end(), part.begin(), part.end());
@@ -65,7 +65,7 @@ void PolygonRepaint::paint_range(
     const auto polygons =
         own.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons));
     for (const std::uint32_t polygon : polygons) {
-        if (is_too_much()) {
+        if (exceeds_limits()) {
             return;
         }
         const std::uint32_t first = next;
@@ -76,9 +76,9 @@ void PolygonRepaint::paint_range(
             continue; // seen from behind: not drawn
         }
         const std::size_t before = painted_.size();
-        note({owner, first, next - first, 0, 0}, polygon_);
+        record({owner, first, next - first, 0, 0}, polygon_);
         const std::size_t hiding = painted_.size();
-        find_hiding(plane, owner, before, rounding_rad);
+        find_occluding(plane, owner, before, rounding_rad);
         if (painted_.size() == hiding) {
             continue;
         }
@@ -86,7 +86,7 @@ void PolygonRepaint::paint_range(
         run_first = next;
         for (std::size_t i = hiding; i < painted_.size(); ++i) {
             write(aircraft, painted_[i], steps);
-            ++again_;
+            ++repaint_count_;
         }
     }
     if (next > run_first) {
@@ -95,30 +95,30 @@ void PolygonRepaint::paint_range(
 }
 
 /// Notes the parts of what was painted before that hide part of polygon_.
-void PolygonRepaint::find_hiding(
+void PolygonRepaint::find_occluding(
     const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
     cone_of(polygon_, rounding_rad, cone_);
     const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
-    compared_ += before;
+    comparison_count_ += before;
     for (std::size_t i = 0; i < before; ++i) {
-        const Painted painted = painted_[i];
+        const PaintedItem painted = painted_[i];
         if (painted.owner == owner) {
             continue;
         }
         const auto corners =
             std::span(corners_).subspan(painted.first_corner, painted.corner_count);
         part_.assign(corners.begin(), corners.end());
-        cut_to_front(part_, plane, tolerance_m, scratch_);
-        cut_to_cone(part_, cone_, scratch_);
+        clip_to_front(part_, plane, tolerance_m, scratch_);
+        clip_to_cone(part_, cone_, scratch_);
         if (solid_angle_sr(part_) < min_solid_angle_sr) {
             continue;
         }
-        note(painted, part_);
+        record(painted, part_);
     }
 }
 
 void PolygonRepaint::write(
-    std::span<const PlacedAircraft* const> aircraft, const Painted& painted, StepWriter& steps) {
+    std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps) {
     const auto corners = std::span(corners_).subspan(painted.first_corner, painted.corner_count);
     part_.assign(corners.begin(), corners.end());
     if (painted.owner == is_ground) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/planning/placed_aircraft.h"
-#include "visuals/planning/sight.h"
+#include "visuals/planning/view_polygon.h"
 #include "visuals/planning/step_writer.h"
 
 #include <cstddef>
@@ -23,28 +23,28 @@ namespace octant::visuals::planning {
 /// a convex part of itself by planes through the eye.
 class PolygonRepaint {
 public:
-    /// Paints the aircraft in `box` over ground that has been painted; `meeting` are the triangles
+    /// Paints the aircraft in `box` over ground that has been painted; `intersecting` are the triangles
     /// that meet the box, in painting order, and only what lies inside it is painted again.
     /// `rounding_rad`: how far a renderer may move an edge. Returns how many triangles and polygons
     /// were painted again; nothing, with some of it written, where that would be more than
-    /// `max_again` or more than `max_compared` pairs would have to be compared.
+    /// `max_repaints` or more than `max_comparisons` pairs would have to be compared.
     std::optional<int> paint(
         std::span<const PlacedAircraft* const> aircraft,
-        const HullBox& box,
+        const OrientedBox& box,
         const GroundFrame& ground,
-        std::span<const std::uint32_t> meeting,
+        std::span<const std::uint32_t> intersecting,
         double rounding_rad,
         StepWriter& steps);
 
 private:
     /// More take longer than a frame has: some hundred are usual where two aircraft meet.
-    static constexpr int max_again = 1500;
-    static constexpr std::size_t max_compared = 250'000;
+    static constexpr int max_repaints = 1500;
+    static constexpr std::size_t max_comparisons = 250'000;
 
     static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
 
     /// Something painted: a part of a polygon or of a triangle.
-    struct Painted {
+    struct PaintedItem {
         /// Index of the aircraft, or is_ground.
         std::uint32_t owner = is_ground;
         /// The number of the triangle; else the first index of the polygon.
@@ -56,9 +56,9 @@ private:
         std::size_t corner_count = 0;
     };
 
-    bool is_too_much() const { return again_ > max_again || compared_ > max_compared; }
+    bool exceeds_limits() const { return repaint_count_ > max_repaints || comparison_count_ > max_comparisons; }
 
-    void note(Painted painted, const SightPolygon& part);
+    void record(PaintedItem painted, const ViewPolygon& part);
     void paint_aircraft(
         std::span<const PlacedAircraft* const> aircraft,
         std::uint32_t owner,
@@ -71,19 +71,19 @@ private:
         double rounding_rad,
         StepWriter& steps);
     void
-    find_hiding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
+    find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad);
     void write(
-        std::span<const PlacedAircraft* const> aircraft, const Painted& painted, StepWriter& steps);
+        std::span<const PlacedAircraft* const> aircraft, const PaintedItem& painted, StepWriter& steps);
 
-    std::vector<Painted> painted_;
-    std::vector<SightCorner> corners_;
+    std::vector<PaintedItem> painted_;
+    std::vector<ViewVertex> corners_;
     const GroundFrame* ground_ = nullptr;
-    SightPolygon polygon_;
-    SightPolygon part_;
-    SightPolygon scratch_;
+    ViewPolygon polygon_;
+    ViewPolygon part_;
+    ViewPolygon scratch_;
     std::vector<glm::dvec3> cone_;
-    int again_ = 0;
-    std::size_t compared_ = 0;
+    int repaint_count_ = 0;
+    std::size_t comparison_count_ = 0;
 };
 
 } // namespace octant::visuals::planning

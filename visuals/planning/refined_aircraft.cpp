@@ -1,7 +1,7 @@
 #include "visuals/planning/refined_aircraft.h"
 
 #include "visuals/planning/shading_rule_of.h"
-#include "visuals/scene/model_look.h"
+#include "visuals/scene/model_display.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -43,14 +43,14 @@ RefinedAircraft::RefinedAircraft(
     const scene::ShadingSettings& shading)
     : refiner_(std::move(mesh), options)
     , selector_(shading_rule_of(shading))
-    , shows_levels_(shading.show_model == scene::ModelLook::Levels) {}
+    , shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
 refine::RefinedFrame
 RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
     const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
     refine::RefineView in_body;
     in_body.eye_m = -glm::dvec3(body_to_eye_world[3]) * turn;
-    in_body.forward = ahead_of(view.camera) * turn;
+    in_body.forward = view_direction(view.camera) * turn;
     for (std::size_t i = 0; i < view.frustum.size(); ++i) {
         in_body.side_normals[i] = view.frustum[i] * turn;
     }

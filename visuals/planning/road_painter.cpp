@@ -46,7 +46,7 @@ light_at(const landscape::Ground& ground, const nature::Daylight& day, const glm
 }
 
 /// The stretch of a road from one point to the next, on the plan around the eye.
-PaintCutter::Patch
+DecalClipper::Patch
 patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dvec2& eye_m) {
     const glm::dvec2 from_m = from.at_m - eye_m;
     const glm::dvec2 to_m = to.at_m - eye_m;
@@ -54,7 +54,7 @@ patch_of(const roads::RoadPoint& from, const roads::RoadPoint& to, const glm::dv
 }
 
 /// From farther off a road looks too narrow.
-double reach_of(const FrameView& view) {
+double max_distance_of(const FrameView& view) {
     return std::min(2.0 * roads::half_width_m / (min_road_px * view.pixel_rad), farthest_road_m);
 }
 
@@ -79,7 +79,7 @@ void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight
     std::size_t stretches = 0;
     lowest_m_ = std::numeric_limits<double>::infinity();
     for (const roads::RoadSection& piece : network_ ? network_->sections() : no_pieces) {
-        Piece& own = pieces_.emplace_back();
+        SectionLight& own = pieces_.emplace_back();
         const glm::dvec2 middle_m = 0.5 * (piece.min_m + piece.max_m);
         own.middle_m = glm::dvec3(middle_m, ground.height_at(middle_m.x, middle_m.y).value_or(0.0));
         own.radius_m = 0.5 * glm::distance(piece.min_m, piece.max_m);
@@ -95,7 +95,7 @@ void RoadPainter::follow(const landscape::Ground& ground, const nature::Daylight
 }
 
 int RoadPainter::max_triangles(const FrameView& view, int triangle_target) const {
-    const double reach_m = reach_of(view);
+    const double reach_m = max_distance_of(view);
     const glm::dvec2 at_m(view.camera.eye_m);
     const double over_m = view.camera.eye_m.z - lowest_m_;
     if (!network_ || over_m >= reach_m || !network_->may_intersect(at_m - reach_m, at_m + reach_m)) {
@@ -113,14 +113,14 @@ void RoadPainter::paint(
     const FrameView& view,
     bool is_front_to_back,
     int most,
-    PaintCutter& cutter) {
+    DecalClipper& cutter) {
     if (most <= 0) {
         return;
     }
     ++frame_;
     seen_.clear();
     const glm::dvec2 eye_m(view.camera.eye_m);
-    const double reach_m = reach_of(view);
+    const double reach_m = max_distance_of(view);
     const glm::dvec2 from_m = eye_m - reach_m;
     const glm::dvec2 to_m = eye_m + reach_m;
     candidates_.clear();
@@ -135,23 +135,23 @@ void RoadPainter::paint(
     if (!is_front_to_back) {
         std::ranges::reverse(candidates_);
     }
-    const int limit = cutter.triangles() + most - PaintCutter::max_triangles;
+    const int limit = cutter.triangles() + most - DecalClipper::max_triangles;
     for (const std::uint32_t candidate : candidates_) {
         if (cutter.triangles() > limit) {
             break;
         }
-        cutter.take(candidate);
+        cutter.set_triangle(candidate);
         paint_triangle(view, limit, cutter);
     }
 }
 
-void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& cutter) {
+void RoadPainter::paint_triangle(const FrameView& view, int limit, DecalClipper& cutter) {
     const auto& [a, b, c] = cutter.corners_m();
     const glm::dvec2 min_m = glm::min(glm::min(a, b), c);
     const glm::dvec2 max_m = glm::max(glm::max(a, b), c);
     const glm::dvec2 eye_m(view.camera.eye_m);
     if (!network_->may_intersect(min_m + eye_m, max_m + eye_m) || !cutter.is_seen() ||
-        cutter.is_thing()) {
+        cutter.is_scenery()) {
         return;
     }
     numbers_.clear();
@@ -164,12 +164,12 @@ void RoadPainter::paint_triangle(const FrameView& view, int limit, PaintCutter& 
             choose(number, view);
         }
         for (std::size_t i = chosen_[number].first; i < chosen_[number].end; ++i) {
-            const Seen& stretch = seen_[i];
+            const VisiblePatch& stretch = seen_[i];
             if (stretch.min_m.x < max_m.x && stretch.max_m.x > min_m.x &&
                 stretch.min_m.y < max_m.y && stretch.max_m.y > min_m.y &&
                 cutter.triangles() <= limit) {
                 const glm::vec3 colour = glm::mix(ground, stretch.colour, stretch.own);
-                cutter.lay(
+                cutter.add_decal(
                     stretch.patch,
                     models::packed_colour(colour) & 0x00ffffffU,
                     GroundLayer::Surface,
@@ -190,7 +190,7 @@ void RoadPainter::light(std::uint32_t number, std::size_t level) {
 
 /// The stretches of a piece as this frame shows them, none where they look too narrow.
 void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
-    const Piece& piece = pieces_[number];
+    const SectionLight& piece = pieces_[number];
     const double nearest_m =
         std::max(glm::distance(piece.middle_m, view.camera.eye_m) - piece.radius_m, 1.0);
     const std::size_t level = level_from(nearest_m, view.pixel_rad);
@@ -198,7 +198,7 @@ void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
     if (!piece.is_lit[level]) {
         light(number, level);
     }
-    Chosen& chosen = chosen_[number];
+    SectionPatches& chosen = chosen_[number];
     chosen = {frame_, seen_.size(), seen_.size()};
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec2 at_m = 0.5 * (points[i - 1].at_m + points[i].at_m);
@@ -210,7 +210,7 @@ void RoadPainter::choose(std::uint32_t number, const FrameView& view) {
         }
         const auto own = static_cast<float>(
             std::clamp((seen_px - min_road_px) / (road_px - min_road_px), 0.0, 1.0));
-        const PaintCutter::Patch patch =
+        const DecalClipper::Patch patch =
             patch_of(points[i - 1], points[i], glm::dvec2(view.camera.eye_m));
         seen_.push_back(
             {patch,

@@ -4,7 +4,7 @@
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/nature/daylight.h"
 #include "visuals/planning/frame_view.h"
-#include "visuals/planning/paint_cutter.h"
+#include "visuals/planning/decal_clipper.h"
 #include "visuals/roads/road_network.h"
 
 #include <glm/vec2.hpp>
@@ -38,10 +38,10 @@ public:
         const FrameView& view,
         bool is_front_to_back,
         int most,
-        PaintCutter& cutter);
+        DecalClipper& cutter);
 
 private:
-    struct Piece {
+    struct SectionLight {
         glm::dvec3 middle_m{0.0};
         double radius_m = 0.0;
         /// For each level where the light of its stretches lies in lights_.
@@ -50,8 +50,8 @@ private:
     };
 
     /// A stretch as it is seen in this frame, on the plan of the cutter.
-    struct Seen {
-        PaintCutter::Patch patch;
+    struct VisiblePatch {
+        DecalClipper::Patch patch;
         glm::dvec2 min_m;
         glm::dvec2 max_m;
         glm::vec3 colour;
@@ -60,7 +60,7 @@ private:
     };
 
     /// Where the stretches of a piece lie in seen_, if they have been chosen in this frame.
-    struct Chosen {
+    struct SectionPatches {
         std::uint64_t frame = 0;
         std::size_t first = 0;
         std::size_t end = 0;
@@ -68,16 +68,16 @@ private:
 
     void light(std::uint32_t number, std::size_t level);
     void choose(std::uint32_t number, const FrameView& view);
-    void paint_triangle(const FrameView& view, int limit, PaintCutter& cutter);
+    void paint_triangle(const FrameView& view, int limit, DecalClipper& cutter);
 
     std::shared_ptr<const landscape::Ground> ground_;
     std::optional<nature::Daylight> day_;
     std::shared_ptr<const roads::RoadNetwork> network_;
     double lowest_m_ = 0.0;         ///< of the roads
-    std::vector<Piece> pieces_;     ///< of the network's
+    std::vector<SectionLight> pieces_;     ///< of the network's
     std::vector<glm::vec3> lights_; ///< of stretches, worked out when they are first seen
-    std::vector<Chosen> chosen_;    ///< one a piece
-    std::vector<Seen> seen_;
+    std::vector<SectionPatches> chosen_;    ///< one a piece
+    std::vector<VisiblePatch> seen_;
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> numbers_;
     std::uint64_t frame_ = 0;

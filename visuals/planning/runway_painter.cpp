@@ -17,7 +17,7 @@ namespace {
 
 constexpr double whole_px = 0.6; ///< what looks as wide has its own colour ...
 constexpr double min_px = 0.3; ///< ... and what looks narrower is not painted
-constexpr int usual_triangles = 1600;
+constexpr int default_triangles = 1600;
 constexpr double max_share = 0.2; ///< of the triangles that are aimed at
 constexpr double near_m = 700.0;   ///< up to here all that is usual is kept for it
 
@@ -40,10 +40,10 @@ int RunwayPainter::max_triangles(const glm::dvec3& eye_m, int triangle_target) c
     if (!strip_ || triangle_target >= scene::unlimited_triangles) {
         return strip_ ? scene::unlimited_triangles : 0;
     }
-    const glm::dvec2 place_m(eye_m);
+    const glm::dvec2 position_m(eye_m);
     const double distance_m =
-        std::hypot(strip_->distance_m(place_m), eye_m.z - strip_->plane_m(place_m));
-    const double most = std::min<double>(usual_triangles, max_share * triangle_target);
+        std::hypot(strip_->distance_m(position_m), eye_m.z - strip_->plane_m(position_m));
+    const double most = std::min<double>(default_triangles, max_share * triangle_target);
     return static_cast<int>(most * std::clamp(near_m / std::max(distance_m, 1.0), 0.1, 1.0));
 }
 
@@ -52,7 +52,7 @@ void RunwayPainter::paint(
     const FrameView& view,
     bool is_front_to_back,
     int most,
-    PaintCutter& cutter) {
+    DecalClipper& cutter) {
     if (!strip_) {
         return;
     }
@@ -75,7 +75,7 @@ void RunwayPainter::paint(
         std::ranges::reverse(candidates_);
     }
     for (const std::uint32_t candidate : candidates_) {
-        cutter.take(candidate);
+        cutter.set_triangle(candidate);
         if (cutter.is_seen()) {
             paint_triangle(most, cutter);
         }
@@ -109,7 +109,7 @@ void RunwayPainter::choose_patches(const FrameView& view) {
 }
 
 /// A marking overlaps twice as far as the surface below it, which must not show along its ends.
-void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
+void RunwayPainter::paint_triangle(int most, DecalClipper& cutter) const {
     std::array<glm::dvec2, 3> corners = cutter.corners_m();
     for (glm::dvec2& corner : corners) {
         corner = strip_->strip_from_world(corner + eye_m_);
@@ -117,15 +117,15 @@ void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
     const glm::dvec2 min_m = glm::min(glm::min(corners[0], corners[1]), corners[2]);
     const glm::dvec2 max_m = glm::max(glm::max(corners[0], corners[1]), corners[2]);
     const double first_m = min_m.x - static_cast<double>(nature::max_rectangle_length_m);
-    const auto along_m = [](const Seen& patch) { return patch.min_m.x; };
+    const auto along_m = [](const VisiblePatch& patch) { return patch.min_m.x; };
     for (auto patch = std::ranges::lower_bound(seen_, first_m, {}, along_m);
          patch != seen_.end() && patch->min_m.x < max_m.x;
          ++patch) {
-        const bool meets = patch->max_m.x > min_m.x && patch->min_m.y < max_m.y &&
+        const bool intersects = patch->max_m.x > min_m.x && patch->min_m.y < max_m.y &&
                            patch->max_m.y > min_m.y;
-        if (meets && (!patch->is_marking || cutter.triangles() < most)) {
-            cutter.lay(
-                on_plan(*patch),
+        if (intersects && (!patch->is_marking || cutter.triangles() < most)) {
+            cutter.add_decal(
+                plan_outline(*patch),
                 patch->colour,
                 patch->is_marking ? GroundLayer::Marking : GroundLayer::Surface,
                 patch->is_marking ? 2.0 : 1.0);
@@ -133,8 +133,8 @@ void RunwayPainter::paint_triangle(int most, PaintCutter& cutter) const {
     }
 }
 
-PaintCutter::Patch RunwayPainter::on_plan(const Seen& patch) const {
-    PaintCutter::Patch corners = {
+DecalClipper::Patch RunwayPainter::plan_outline(const VisiblePatch& patch) const {
+    DecalClipper::Patch corners = {
         patch.min_m,
         {patch.max_m.x, patch.min_m.y},
         patch.max_m,

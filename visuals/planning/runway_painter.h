@@ -5,7 +5,7 @@
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/runway.h"
 #include "visuals/planning/frame_view.h"
-#include "visuals/planning/paint_cutter.h"
+#include "visuals/planning/decal_clipper.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -36,11 +36,11 @@ public:
         const FrameView& view,
         bool is_front_to_back,
         int most,
-        PaintCutter& cutter);
+        DecalClipper& cutter);
 
 private:
     /// A patch as it is seen in this frame.
-    struct Seen {
+    struct VisiblePatch {
         glm::dvec2 min_m;
         glm::dvec2 max_m;
         std::uint32_t colour = 0;
@@ -48,13 +48,13 @@ private:
     };
 
     void choose_patches(const FrameView& view);
-    void paint_triangle(int most, PaintCutter& cutter) const;
-    PaintCutter::Patch on_plan(const Seen& patch) const;
+    void paint_triangle(int most, DecalClipper& cutter) const;
+    DecalClipper::Patch plan_outline(const VisiblePatch& patch) const;
 
     std::shared_ptr<const models::heights::RunwayStrip> strip_;
     std::vector<nature::RunwayRectangle> patches_;
     glm::vec3 light_{1.0F};
-    std::vector<Seen> seen_;
+    std::vector<VisiblePatch> seen_;
     std::vector<std::uint32_t> candidates_;
     glm::dvec2 eye_m_{0.0};
 };

@@ -13,15 +13,15 @@
 
 namespace octant::visuals::planning {
 
-void SceneOrder::arrange(std::span<const HullBox> boxes) {
+void SceneOrder::arrange(std::span<const OrientedBox> boxes) {
     place_bodies(boxes);
     find_windows();
-    knots_.clear();
+    overlap_groups_.clear();
     members_.clear();
     std::uint32_t body = 0;
-    const auto add_singles_before = [&](std::size_t end) {
+    const auto add_single_bodies_until = [&](std::size_t end) {
         for (; body < end; ++body) {
-            add_knot(std::span(&body, 1), 0);
+            add_overlap_group(std::span(&body, 1), 0);
         }
     };
     std::size_t next = 0;
@@ -30,14 +30,14 @@ void SceneOrder::arrange(std::span<const HullBox> boxes) {
         while (next < windows_.size() && windows_[next].first <= last) {
             last = std::max(last, windows_[next++].second);
         }
-        add_singles_before(first);
+        add_single_bodies_until(first);
         arrange_window(first, last);
         body = last + 1;
     }
-    add_singles_before(bodies_.size());
+    add_single_bodies_until(bodies_.size());
 }
 
-void SceneOrder::place_bodies(std::span<const HullBox> boxes) {
+void SceneOrder::place_bodies(std::span<const OrientedBox> boxes) {
     bodies_.clear();
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         Body& body = bodies_.emplace_back();
@@ -76,12 +76,12 @@ void SceneOrder::find_windows() {
         for (std::size_t k = i + 1; k < by_x_.size() && min_x(by_x_[k]) <= max_x; ++k) {
             const Body& other = bodies_[by_x_[k]];
             const glm::dvec3 apart_m = other.box.centre_m - body.box.centre_m;
-            const double touch_m = body.radius_m + other.radius_m;
-            if (glm::dot(apart_m, apart_m) > touch_m * touch_m) {
+            const double contact_tolerance_m = body.radius_m + other.radius_m;
+            if (glm::dot(apart_m, apart_m) > contact_tolerance_m * contact_tolerance_m) {
                 continue;
             }
             const auto [earlier, later] = std::minmax(by_x_[i], by_x_[k]);
-            if (hiding_pair(bodies_[earlier].box, bodies_[later].box).a_hides_b) {
+            if (occlusion_pair(bodies_[earlier].box, bodies_[later].box).a_occludes_b) {
                 windows_.emplace_back(earlier, later);
             }
         }
@@ -92,11 +92,11 @@ void SceneOrder::find_windows() {
 /// Adds the knots of bodies first .. last, those of great power first where that leaves a choice.
 void SceneOrder::arrange_window(std::uint32_t first, std::uint32_t last) {
     const std::uint32_t count = last - first + 1;
-    fill_waits(first, count);
+    find_occluders(first, count);
     visited_ = 0;
     for (std::uint32_t body = 0; body < count; ++body) {
         if (visits_[body].number == 0) {
-            add_with_all_it_waits_for(first, body);
+            visit_component(first, body);
         }
     }
 }
@@ -107,8 +107,8 @@ bool SceneOrder::may_overlap_on_screen(const Body& a, const Body& b) {
            glm::dot(a.towards, b.towards) >= a.cosine * b.cosine - a.sine * b.sine - 1e-9;
 }
 
-void SceneOrder::fill_waits(std::uint32_t first, std::uint32_t count) {
-    waits_.clear();
+void SceneOrder::find_occluders(std::uint32_t first, std::uint32_t count) {
+    occluders_.clear();
     for (std::uint32_t a = 0; a < count; ++a) {
         const Body& earlier = bodies_[first + a];
         for (std::uint32_t b = a + 1; b < count; ++b) {
@@ -116,19 +116,19 @@ void SceneOrder::fill_waits(std::uint32_t first, std::uint32_t count) {
             if (!may_overlap_on_screen(earlier, later)) {
                 continue;
             }
-            const HidingPair pair = hiding_pair(earlier.box, later.box);
-            if (pair.a_hides_b) {
-                waits_.emplace_back(a, b);
+            const OcclusionPair pair = occlusion_pair(earlier.box, later.box);
+            if (pair.a_occludes_b) {
+                occluders_.emplace_back(a, b);
             }
-            if (pair.b_hides_a) {
-                waits_.emplace_back(b, a);
+            if (pair.b_occludes_a) {
+                occluders_.emplace_back(b, a);
             }
         }
     }
-    std::ranges::sort(waits_);
+    std::ranges::sort(occluders_);
     visits_.assign(count, {});
-    for (std::uint32_t i = 0; i < waits_.size(); ++i) {
-        Visit& visit = visits_[waits_[i].first];
+    for (std::uint32_t i = 0; i < occluders_.size(); ++i) {
+        ComponentVisit& visit = visits_[occluders_[i].first];
         visit.next = visit.end == 0 ? i : visit.next;
         visit.end = i + 1;
     }
@@ -143,54 +143,54 @@ void SceneOrder::begin_visit(std::uint32_t body) {
 
 /// Walks along what each body waits for. A body from which no lesser number is reached than its own
 /// closes a knot with all that are open since.
-void SceneOrder::add_with_all_it_waits_for(std::uint32_t first, std::uint32_t body) {
+void SceneOrder::visit_component(std::uint32_t first, std::uint32_t body) {
     path_.clear();
     open_.clear();
     begin_visit(body);
     while (!path_.empty()) {
         const std::uint32_t at = path_.back();
-        Visit& visit = visits_[at];
+        ComponentVisit& visit = visits_[at];
         if (visit.next < visit.end) {
-            const std::uint32_t other = waits_[visit.next++].second;
+            const std::uint32_t other = occluders_[visit.next++].second;
             if (visits_[other].number == 0) {
                 begin_visit(other);
-            } else if (!visits_[other].in_knot) {
+            } else if (!visits_[other].is_in_group) {
                 visit.least = std::min(visit.least, visits_[other].number);
             }
             continue;
         }
         path_.pop_back();
         if (!path_.empty()) {
-            Visit& back = visits_[path_.back()];
+            ComponentVisit& back = visits_[path_.back()];
             back.least = std::min(back.least, visit.least);
         }
         if (visit.least == visit.number) {
-            std::size_t knot = open_.size();
+            std::size_t overlap_group = open_.size();
             do {
-                visits_[open_[--knot]].in_knot = true;
-            } while (open_[knot] != at);
-            add_knot(std::span(open_).subspan(knot), first);
-            open_.resize(knot);
+                visits_[open_[--overlap_group]].is_in_group = true;
+            } while (open_[overlap_group] != at);
+            add_overlap_group(std::span(open_).subspan(overlap_group), first);
+            open_.resize(overlap_group);
         }
     }
 }
 
 /// `bodies` count from body `first`.
-void SceneOrder::add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first) {
-    Knot& knot = knots_.emplace_back();
-    knot.first = static_cast<std::uint32_t>(members_.size());
-    knot.count = static_cast<std::uint32_t>(bodies.size());
-    knot.box = bodies_[first + bodies.front()].box;
-    HullExtent extent = world_extent(knot.box);
+void SceneOrder::add_overlap_group(std::span<const std::uint32_t> bodies, std::uint32_t first) {
+    OverlapGroup& overlap_group = overlap_groups_.emplace_back();
+    overlap_group.first = static_cast<std::uint32_t>(members_.size());
+    overlap_group.count = static_cast<std::uint32_t>(bodies.size());
+    overlap_group.box = bodies_[first + bodies.front()].box;
+    AxisAlignedBox extent = world_bounds(overlap_group.box);
     for (const std::uint32_t body : bodies) {
-        const HullExtent own = world_extent(bodies_[first + body].box);
+        const AxisAlignedBox own = world_bounds(bodies_[first + body].box);
         extent.min_m = glm::min(extent.min_m, own.min_m);
         extent.max_m = glm::max(extent.max_m, own.max_m);
         members_.push_back(bodies_[first + body].index);
     }
-    if (knot.count > 1) {
-        knot.box = box_between(extent);
-        std::ranges::sort(std::span(members_).subspan(knot.first));
+    if (overlap_group.count > 1) {
+        overlap_group.box = oriented_box(extent);
+        std::ranges::sort(std::span(members_).subspan(overlap_group.first));
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +11,9 @@
 namespace octant::visuals::planning {
 
 /// Aircraft that are painted as one: nearly always a single one.
-struct Knot {
+struct OverlapGroup {
     /// The box of a single member; else it holds the boxes of all, and may meet other knots.
-    HullBox box;
+    OrientedBox box;
     std::uint32_t first = 0;
     /// Its members are first to first + count - 1.
     std::uint32_t count = 0;
@@ -34,19 +34,19 @@ struct Knot {
 class SceneOrder {
 public:
     /// Boxes with the eye at the origin.
-    void arrange(std::span<const HullBox> boxes);
+    void arrange(std::span<const OrientedBox> boxes);
 
     /// Farthest first: no member of a knot hides any part of a member of a later one from the eye.
-    std::span<const Knot> knots() const { return knots_; }
+    std::span<const OverlapGroup> overlap_groups() const { return overlap_groups_; }
 
     /// Boxes of a knot, by index, ascending.
-    std::span<const std::uint32_t> members(const Knot& knot) const {
-        return std::span(members_).subspan(knot.first, knot.count);
+    std::span<const std::uint32_t> members(const OverlapGroup& overlap_group) const {
+        return std::span(members_).subspan(overlap_group.first, overlap_group.count);
     }
 
 private:
     struct Body {
-        HullBox box;
+        OrientedBox box;
         double radius_m = 0.0;
         double power_m2 = 0.0;
         /// A unit vector.
@@ -61,26 +61,26 @@ private:
     };
 
     /// Where the search for rings has come with a body of a window.
-    struct Visit {
+    struct ComponentVisit {
         /// In order of first visits, from 1; 0 = not yet seen.
         std::uint32_t number = 0;
         /// The least number known to be reached from here.
         std::uint32_t least = 0;
-        /// A place in waits_.
+        /// A place in occluders_.
         std::uint32_t next = 0;
         std::uint32_t end = 0;
-        bool in_knot = false;
+        bool is_in_group = false;
     };
 
     static bool may_overlap_on_screen(const Body& a, const Body& b);
 
-    void place_bodies(std::span<const HullBox> boxes);
+    void place_bodies(std::span<const OrientedBox> boxes);
     void find_windows();
     void arrange_window(std::uint32_t first, std::uint32_t last);
-    void fill_waits(std::uint32_t first, std::uint32_t count);
-    void add_with_all_it_waits_for(std::uint32_t first, std::uint32_t body);
+    void find_occluders(std::uint32_t first, std::uint32_t count);
+    void visit_component(std::uint32_t first, std::uint32_t body);
     void begin_visit(std::uint32_t body);
-    void add_knot(std::span<const std::uint32_t> bodies, std::uint32_t first);
+    void add_overlap_group(std::span<const std::uint32_t> bodies, std::uint32_t first);
 
     /// By descending power.
     std::vector<Body> bodies_;
@@ -88,14 +88,14 @@ private:
     /// The first and the last body of each.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> windows_;
     /// A body, and one that it waits for.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> waits_;
-    std::vector<Visit> visits_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> occluders_;
+    std::vector<ComponentVisit> visits_;
     /// Bodies of which each waits for the next.
     std::vector<std::uint32_t> path_;
     /// Bodies that were seen and are not yet in a knot, by number.
     std::vector<std::uint32_t> open_;
     std::uint32_t visited_ = 0;
-    std::vector<Knot> knots_;
+    std::vector<OverlapGroup> overlap_groups_;
     std::vector<std::uint32_t> members_;
 };
 

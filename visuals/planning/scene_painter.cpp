@@ -1,6 +1,6 @@
 #include "visuals/planning/scene_painter.h"
 
-#include "visuals/planning/facing.h"
+#include "visuals/planning/front_facing.h"
 #include "visuals/planning/pixel_box.h"
 
 #include <glm/geometric.hpp>
@@ -18,27 +18,27 @@ namespace {
 /// where only that rounding could tell, so that no line of the covered thing shows along the cut.
 constexpr double paint_rounding_px = 0.01;
 
-double away_m2(const HullBox& box) {
+double away_m2(const OrientedBox& box) {
     return glm::dot(box.centre_m, box.centre_m);
 }
 
 /// Whether the middle of one box is nearer to the eye than that of another; of two that are equally
 /// far the one with the lower number counts as nearer.
-bool is_nearer(std::span<const HullBox> boxes, std::uint32_t a, std::uint32_t b) {
+bool is_nearer(std::span<const OrientedBox> boxes, std::uint32_t a, std::uint32_t b) {
     const double a_m2 = away_m2(boxes[a]);
     const double b_m2 = away_m2(boxes[b]);
     return a_m2 != b_m2 ? a_m2 < b_m2 : a < b;
 }
 
 bool is_above_clouds(const FrameScene& frame, double height_m) {
-    const auto clouds_m = frame.veils.cloud_height_m();
+    const auto clouds_m = frame.transparents.cloud_height_m();
     return clouds_m && height_m > *clouds_m;
 }
 
 /// Whether the middle of a knot's box and the eye are on different sides of the clouds.
-bool is_beyond_clouds(const FrameScene& frame, const Knot& knot) {
+bool is_beyond_clouds(const FrameScene& frame, const OverlapGroup& overlap_group) {
     const double eye_m = frame.view.camera.eye_m.z;
-    return is_above_clouds(frame, eye_m + knot.box.centre_m.z) != is_above_clouds(frame, eye_m);
+    return is_above_clouds(frame, eye_m + overlap_group.box.centre_m.z) != is_above_clouds(frame, eye_m);
 }
 
 } // namespace
@@ -50,16 +50,16 @@ void ScenePainter::paint(
     } else {
         paint_in_order(frame, counts);
     }
-    steps_.add_overlay(frame.veils.draw().indices.size());
+    steps_.add_overlay(frame.transparents.draw().indices.size());
 }
 
 void ScenePainter::paint_by_depth(const FrameScene& frame) {
     const auto placed = frame.fleet.placed();
-    const auto hulls = frame.fleet.hulls();
-    near_to_far_.resize(hulls.size());
+    const auto bounding_boxes = frame.fleet.bounding_boxes();
+    near_to_far_.resize(bounding_boxes.size());
     std::iota(near_to_far_.begin(), near_to_far_.end(), 0U);
     std::ranges::sort(
-        near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(hulls, a, b); });
+        near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(bounding_boxes, a, b); });
     steps_.clear_depth({glm::ivec2(0), frame.view.size_px});
     if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) {
         paint(frame, *cockpit, scene::DepthUse::Nearest);
@@ -74,7 +74,7 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
     }
     std::size_t edge_on_indices = 0;
     plan_.ground =
-        facing_first(frame.ground.all, frame.view.pixel_rad, facing_indices_, edge_on_indices);
+        front_facing_first(frame.ground.all, frame.view.pixel_rad, facing_indices_, edge_on_indices);
     steps_.add_ground_by_depth(edge_on_indices);
     steps_.add_shadows_by_depth(frame.ground);
     steps_.add_sky(scene::DepthUse::InfinitelyFar);
@@ -86,9 +86,9 @@ void ScenePainter::paint_by_depth(const FrameScene& frame) {
 }
 
 void ScenePainter::paint_in_order(const FrameScene& frame, PlanCounts& counts) {
-    plan_.ground = facing_the_eye(frame.ground, frame.view.pixel_rad, facing_indices_);
-    boxes_.assign(frame.fleet.hulls().begin(), frame.fleet.hulls().end());
-    for (const PathRibbon::Dash& dash : frame.veils.dashes()) {
+    plan_.ground = front_facing(frame.ground, frame.view.pixel_rad, facing_indices_);
+    boxes_.assign(frame.fleet.bounding_boxes().begin(), frame.fleet.bounding_boxes().end());
+    for (const PathRibbon::Dash& dash : frame.transparents.dashes()) {
         boxes_.push_back(dash.box);
     }
     order_.arrange(boxes_);
@@ -98,34 +98,34 @@ void ScenePainter::paint_in_order(const FrameScene& frame, PlanCounts& counts) {
     if (from_above) {
         steps_.add_ground();
     }
-    if (frame.veils.cloud_height_m()) {
-        paint_knots(frame, true, counts);
-        steps_.add_veil(frame.veils.clouds().first, frame.veils.clouds().count);
+    if (frame.transparents.cloud_height_m()) {
+        paint_groups(frame, true, counts);
+        steps_.add_transparent_range(frame.transparents.clouds().first, frame.transparents.clouds().count);
     }
     if (!from_above) {
         steps_.add_ground();
     }
-    paint_knots(frame, false, counts);
+    paint_groups(frame, false, counts);
     if (const PlacedAircraft* cockpit = frame.fleet.cockpit()) {
         paint(frame, *cockpit, scene::DepthUse::None);
     }
 }
 
 /// Paints the knots that lie beyond the clouds, or those that do not.
-void ScenePainter::paint_knots(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts) {
-    for (const Knot& knot : order_.knots()) {
-        if (is_beyond_clouds(frame, knot) == beyond_clouds) {
-            paint_knot(frame, knot, counts);
+void ScenePainter::paint_groups(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts) {
+    for (const OverlapGroup& overlap_group : order_.overlap_groups()) {
+        if (is_beyond_clouds(frame, overlap_group) == beyond_clouds) {
+            paint_group(frame, overlap_group, counts);
         }
     }
 }
 
-void ScenePainter::take_members(const FrameScene& frame, const Knot& knot) {
+void ScenePainter::collect_members(const FrameScene& frame, const OverlapGroup& overlap_group) {
     members_.clear();
-    knot_dashes_.clear();
-    for (const std::uint32_t member : order_.members(knot)) {
-        if (member >= frame.fleet.hulls().size()) {
-            knot_dashes_.push_back(member);
+    group_dashes_.clear();
+    for (const std::uint32_t member : order_.members(overlap_group)) {
+        if (member >= frame.fleet.bounding_boxes().size()) {
+            group_dashes_.push_back(member);
         } else if (!frame.fleet.placed()[member].is_hidden) {
             members_.push_back(&frame.fleet.placed()[member]);
         }
@@ -133,110 +133,110 @@ void ScenePainter::take_members(const FrameScene& frame, const Knot& knot) {
 }
 
 /// Paints a knot and again what lies before it; nothing again where it is out of view.
-void ScenePainter::paint_knot(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
-    take_members(frame, knot);
-    if (members_.empty() && knot_dashes_.empty()) {
+void ScenePainter::paint_group(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
+    collect_members(frame, overlap_group);
+    if (members_.empty() && group_dashes_.empty()) {
         return;
     }
-    if (!in_view(knot.box, frame.view)) {
+    if (!in_view(overlap_group.box, frame.view)) {
         for (const PlacedAircraft* member : members_) {
             steps_.add(draw_of(*member));
         }
         return;
     }
-    in_front_.find(knot.box, frame.mesher, frame.ground.all, frame.view.camera.eye_m);
-    paint_with_effects(frame, knot, counts);
-    if (in_front_.found().empty() || holds_eye(knot.box)) {
+    in_front_.find(overlap_group.box, frame.mesher, frame.ground.all, frame.view.camera.eye_m);
+    paint_with_effects(frame, overlap_group, counts);
+    if (in_front_.found().empty() || contains_eye(overlap_group.box)) {
         return;
     }
     // Not in the cone of a knot's box: between the members a farther knot may be seen before the
     // ground. What was painted earlier and is seen in a member's cone lies behind the member.
-    for (const std::uint32_t member : order_.members(knot)) {
-        steps_.add_before(frame.ground, in_front_.found(), knot.box, cone_of(boxes_[member]));
+    for (const std::uint32_t member : order_.members(overlap_group)) {
+        steps_.add_in_front(frame.ground, in_front_.found(), overlap_group.box, cone_of(boxes_[member]));
         counts.cuts += static_cast<int>(in_front_.found().size());
     }
 }
 
 /// The aircraft of a knot with their effects, and the dashes of a ribbon behind and before them.
 void ScenePainter::paint_with_effects(
-    const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
-    constexpr double endless_m2 = std::numeric_limits<double>::infinity();
-    const double knot_m2 = members_.empty() ? 0.0 : away_m2(knot.box);
-    paint_dashes(frame, endless_m2, knot_m2);
+    const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
+    constexpr double infinite_distance_m2 = std::numeric_limits<double>::infinity();
+    const double group_distance_m2 = members_.empty() ? 0.0 : away_m2(overlap_group.box);
+    paint_dashes(frame, infinite_distance_m2, group_distance_m2);
     if (!members_.empty()) {
         paint_effects(frame, false);
-        paint_members(frame, knot, counts);
+        paint_members(frame, overlap_group, counts);
         paint_effects(frame, true);
     }
-    paint_dashes(frame, knot_m2, -1.0);
+    paint_dashes(frame, group_distance_m2, -1.0);
 }
 
 /// Of the knot's aircraft, what lies behind them or before them.
 void ScenePainter::paint_effects(const FrameScene& frame, bool after) {
     for (const PlacedAircraft* member : members_) {
-        const AircraftEffects::Ranges ranges = frame.veils.effects_of(member->number);
-        const VeilRange& range = after ? ranges.after : ranges.before;
-        steps_.add_veil(range.first, range.count);
+        const AircraftEffects::TransparentRanges ranges = frame.transparents.effects_of(member->number);
+        const TransparentRange& range = after ? ranges.after : ranges.before;
+        steps_.add_transparent_range(range.first, range.count);
     }
 }
 
 /// Of the knot's dashes those whose middles lie so far off, the farthest first.
 void ScenePainter::paint_dashes(const FrameScene& frame, double farther_m2, double nearer_m2) {
-    std::ranges::sort(knot_dashes_, [&](std::uint32_t a, std::uint32_t b) {
+    std::ranges::sort(group_dashes_, [&](std::uint32_t a, std::uint32_t b) {
         const double a_m2 = away_m2(boxes_[a]);
         const double b_m2 = away_m2(boxes_[b]);
         return a_m2 != b_m2 ? a_m2 > b_m2 : a < b;
     });
-    for (const std::uint32_t box : knot_dashes_) {
+    for (const std::uint32_t box : group_dashes_) {
         if (away_m2(boxes_[box]) <= farther_m2 && away_m2(boxes_[box]) > nearer_m2) {
-            const VeilRange& range = frame.veils.dashes()[box - frame.fleet.hulls().size()].range;
-            steps_.add_veil(range.first, range.count);
+            const TransparentRange& range = frame.transparents.dashes()[box - frame.fleet.bounding_boxes().size()].range;
+            steps_.add_transparent_range(range.first, range.count);
         }
     }
 }
 
 /// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
-void ScenePainter::paint_members(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
+void ScenePainter::paint_members(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
     const bool has_mesh =
         std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
-    const bool alone = in_front_.meeting().empty() && members_.size() == 1;
-    counts.knots += alone ? 0 : 1;
+    const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
+    counts.overlap_groups += alone ? 0 : 1;
     if (has_mesh) {
-        paint_members_by_depth(frame, knot);
+        paint_members_by_depth(frame, overlap_group);
     } else if (alone) {
         steps_.add(draw_of(*members_.front()));
     } else {
-        paint_tangle(frame, knot, counts);
+        paint_intersecting(frame, overlap_group, counts);
     }
 }
 
 /// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would
 /// take too long.
-void ScenePainter::paint_tangle(const FrameScene& frame, const Knot& knot, PlanCounts& counts) {
-    const StepWriter::Mark before = steps_.mark();
+void ScenePainter::paint_intersecting(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts) {
+    const StepWriter::Checkpoint before = steps_.checkpoint();
     const double rounding_rad = paint_rounding_px * frame.view.pixel_rad;
     const auto cuts =
-        repaint_.paint(members_, knot.box, frame.ground, in_front_.meeting(), rounding_rad, steps_);
+        repaint_.paint(members_, overlap_group.box, frame.ground, in_front_.intersecting(), rounding_rad, steps_);
     if (cuts) {
         counts.cuts += *cuts;
         return;
     }
-    steps_.take_back(before);
+    steps_.roll_back(before);
     counts.unordered += static_cast<int>(members_.size());
-    paint_members_by_depth(frame, knot);
+    paint_members_by_depth(frame, overlap_group);
 }
 
 /// By a depth buffer that holds nothing else but the ground that meets them.
-void ScenePainter::paint_members_by_depth(const FrameScene& frame, const Knot& knot) {
-    steps_.clear_depth(pixel_box(knot.box, plan_, frame.view.size_px));
-    if (!in_front_.meeting().empty()) {
-        steps_.hide_by_ground(frame.ground, in_front_.meeting());
+void ScenePainter::paint_members_by_depth(const FrameScene& frame, const OverlapGroup& overlap_group) {
+    steps_.clear_depth(pixel_box(overlap_group.box, plan_, frame.view.size_px));
+    if (!in_front_.intersecting().empty()) {
+        steps_.occlude_by_ground(frame.ground, in_front_.intersecting());
     }
     for (const PlacedAircraft* member : members_) {
         paint(frame, *member, scene::DepthUse::Nearest);
     }
     std::ranges::sort(members_, [&](const PlacedAircraft* a, const PlacedAircraft* b) {
-        return is_nearer(frame.fleet.hulls(), b->number, a->number);
+        return is_nearer(frame.fleet.bounding_boxes(), b->number, a->number);
     });
     for (const PlacedAircraft* member : members_) {
         paint_transparent(frame, *member);
@@ -252,12 +252,12 @@ void ScenePainter::paint(
     }
     scene::RefinedDraw draw = frame.fleet.refined()[aircraft.number]->draw();
     draw.first_part = aircraft.first_part;
-    draw.first_smooth = frame.smooth.refined_word();
+    draw.first_smooth = frame.smooth.refined_word_index();
     draw.tints = aircraft.tints;
     steps_.add(draw);
     if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
         scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);
-        turning_draw.first_smooth = frame.smooth.turning_word();
+        turning_draw.first_smooth = frame.smooth.turning_word_index();
         steps_.add(turning_draw, scene::DepthUse::Nearest);
     }
 }
@@ -269,7 +269,7 @@ void ScenePainter::paint_transparent(const FrameScene& frame, const PlacedAircra
     if (is_refined(aircraft) && transparent.index_count > 0) {
         scene::AircraftDraw draw =
             draw_of(aircraft, transparent.first_index, transparent.index_count);
-        draw.first_smooth = frame.smooth.turning_word();
+        draw.first_smooth = frame.smooth.turning_word_index();
         steps_.add_transparent(draw, aircraft.model->opacity);
     }
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "visuals/landscape/ground_mesher.h"
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/fleet.h"
-#include "visuals/planning/frame_veils.h"
+#include "visuals/planning/frame_transparents.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/ground_in_front.h"
@@ -25,7 +25,7 @@ struct FrameScene {
     const FrameView& view;
     const Fleet& fleet;
     const SmoothChoice& smooth;
-    const FrameVeils& veils;
+    const FrameTransparents& transparents;
     const GroundFrame& ground;
     /// The mesher of `ground`, which finds its triangles again.
     const landscape::GroundMesher& mesher;
@@ -56,13 +56,13 @@ public:
 private:
     void paint_by_depth(const FrameScene& frame);
     void paint_in_order(const FrameScene& frame, PlanCounts& counts);
-    void paint_knots(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts);
-    void paint_knot(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
-    void take_members(const FrameScene& frame, const Knot& knot);
-    void paint_with_effects(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
-    void paint_members(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
-    void paint_tangle(const FrameScene& frame, const Knot& knot, PlanCounts& counts);
-    void paint_members_by_depth(const FrameScene& frame, const Knot& knot);
+    void paint_groups(const FrameScene& frame, bool beyond_clouds, PlanCounts& counts);
+    void paint_group(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts);
+    void collect_members(const FrameScene& frame, const OverlapGroup& overlap_group);
+    void paint_with_effects(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts);
+    void paint_members(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts);
+    void paint_intersecting(const FrameScene& frame, const OverlapGroup& overlap_group, PlanCounts& counts);
+    void paint_members_by_depth(const FrameScene& frame, const OverlapGroup& overlap_group);
     void paint_effects(const FrameScene& frame, bool after);
     void paint_dashes(const FrameScene& frame, double farther_m2, double nearer_m2);
     void paint(const FrameScene& frame, const PlacedAircraft& aircraft, scene::DepthUse depth);
@@ -75,10 +75,10 @@ private:
     PolygonRepaint repaint_;
     /// The boxes that have a place in the painting order: those of the aircraft, then those of the
     /// ribbon's dashes.
-    std::vector<HullBox> boxes_;
+    std::vector<OrientedBox> boxes_;
     /// The aircraft of the knot that is painted, and its dashes, by their boxes.
     std::vector<const PlacedAircraft*> members_;
-    std::vector<std::uint32_t> knot_dashes_;
+    std::vector<std::uint32_t> group_dashes_;
     std::vector<std::uint32_t> near_to_far_;
     std::vector<std::uint32_t> facing_indices_;
 };

@@ -38,18 +38,18 @@ std::uint32_t shaded(const glm::vec4& colour, bool is_light) {
 }
 
 /// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
-ConvexRoom lit_room(const HullBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
-    const HullExtent extent = world_extent(hull);
+ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
+    const AxisAlignedBox extent = world_bounds(hull);
     const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
-    ConvexRoom room;
-    room.extent = {
+    ConvexVolume volume;
+    volume.extent = {
         glm::min(extent.min_m, extent.min_m + down_m),
         glm::max(extent.max_m, extent.max_m + down_m)};
     const LightPrism prism = prism_of(hull, to_sun);
     for (int i = 0; i < prism.count; ++i) {
-        room.add(prism.planes[static_cast<std::size_t>(i)]);
+        volume.add(prism.planes[static_cast<std::size_t>(i)]);
     }
-    return room;
+    return volume;
 }
 
 double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -72,39 +72,39 @@ ShadowCaster::ShadowCaster(const glm::dvec3& to_sun)
 
 void ShadowCaster::begin(
     const scene::TriangleDraw& triangles,
-    bool alpha_is_light,
+    bool alpha_is_visibility,
     std::vector<models::ColourVertex>& vertices) {
     ground_ = triangles;
-    alpha_is_light_ = alpha_is_light;
+    alpha_is_light_ = alpha_is_visibility;
     vertices_ = &vertices;
     vertices.clear();
-    paints_ = {};
-    paints_by_triangle_.clear();
+    decals_ = {};
+    decals_by_triangle_.clear();
     pieces_.clear();
     indices_.clear();
 }
 
-void ShadowCaster::lay(const GroundPaints& paints) {
-    paints_ = paints;
-    paints_by_triangle_.resize(paints.paints.size());
-    std::iota(paints_by_triangle_.begin(), paints_by_triangle_.end(), 0U);
-    std::ranges::stable_sort(paints_by_triangle_, {}, [&](std::uint32_t paint) {
-        return paints_.paints[paint].triangle;
+void ShadowCaster::set_decals(const GroundDecals& decals) {
+    decals_ = decals;
+    decals_by_triangle_.resize(decals.decals.size());
+    std::iota(decals_by_triangle_.begin(), decals_by_triangle_.end(), 0U);
+    std::ranges::stable_sort(decals_by_triangle_, {}, [&](std::uint32_t decal) {
+        return decals_.decals[decal].triangle;
     });
-    for (const GroundPaint& paint : paints.paints) {
+    for (const GroundDecal& decal : decals.decals) {
         const std::size_t first = indices_.size();
-        for (std::uint32_t i = 0; i < paint.count; ++i) {
-            const glm::vec3 at_m(paints.corners[paint.first + i]);
-            vertices_->push_back({at_m * towards_eye(paint.layer), paint.colour});
+        for (std::uint32_t i = 0; i < decal.count; ++i) {
+            const glm::vec3 at_m(decals.corners[decal.first + i]);
+            vertices_->push_back({at_m * depth_offset_factor(decal.layer), decal.colour});
         }
-        add_fan(paint.count);
-        add_pieces(paint.triangle, paint.layer, first);
+        add_fan(decal.count);
+        add_pieces(decal.triangle, decal.layer, first);
     }
 }
 
 void ShadowCaster::cast(
     const PlacedAircraft& aircraft,
-    const HullBox& hull,
+    const OrientedBox& hull,
     const landscape::GroundMesher& ground,
     const FrameView& view) {
     if (!high_enough_ || ground_.indices.empty()) {
@@ -114,26 +114,26 @@ void ShadowCaster::cast(
     if (path_m < 0.0) {
         return;
     }
-    const glm::dvec3 place_m = hull.centre_m - to_sun_ * path_m;
-    const HullExtent& extent = aircraft.model->hull;
+    const glm::dvec3 position_m = hull.centre_m - to_sun_ * path_m;
+    const AxisAlignedBox& extent = aircraft.model->hull;
     const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
     // On a slope that falls away from the sun a shadow is longer than on the level.
     const double reach_m = 2.0 * size_m / to_sun_.z;
-    if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(place_m) ||
-        !scene::in_view(place_m, reach_m, view.frustum)) {
+    if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(position_m) ||
+        !scene::in_view(position_m, reach_m, view.frustum)) {
         return;
     }
-    const ConvexRoom room = lit_room(hull, to_sun_, path_m, reach_m);
+    const ConvexVolume volume = shadow_volume_of(hull, to_sun_, path_m, reach_m);
 
     struct Look {
-        const ConvexRoom& room;
+        const ConvexVolume& volume;
         const glm::dvec3& eye_m;
-    } const look{room, view.camera.eye_m};
+    } const look{volume, view.camera.eye_m};
 
     candidates_.clear();
     ground.triangles_in(
         [&look](const glm::dvec3& min_m, const glm::dvec3& max_m) {
-            return may_meet(look.room, min_m - look.eye_m, max_m - look.eye_m);
+            return may_intersect(look.volume, min_m - look.eye_m, max_m - look.eye_m);
         },
         candidates_);
     collect_faces(aircraft);
@@ -142,7 +142,7 @@ void ShadowCaster::cast(
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
-        if (may_meet(room, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
+        if (may_intersect(volume, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) {
             cast_on(candidate);
         }
     }
@@ -151,7 +151,7 @@ void ShadowCaster::cast(
 /// Length of the light's way from the middle of the hull to the ground; negative when it meets
 /// none or the middle lies under it.
 double ShadowCaster::light_path_m(
-    const HullBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
+    const OrientedBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
     const glm::dvec3 from_m = hull.centre_m + eye_m;
     const auto height_over_ground_m = [&](double path_m) -> std::optional<double> {
         const glm::dvec3 at_m = from_m - to_sun_ * path_m;
@@ -210,14 +210,14 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
     for (const Face& face : faces_) {
         const auto corners = std::span(face_corners_).subspan(face.first, face.count);
         part_.assign(corners.begin(), corners.end());
-        cut_to_front(part_, plane, 0.0, scratch_);
-        for (SightCorner& corner : part_) {
+        clip_to_front(part_, plane, 0.0, scratch_);
+        for (ViewVertex& corner : part_) {
             corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope);
         }
         const std::size_t before = shadow_parts_.size();
         shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
         for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) {
-            cut_to_front(part_, sides[i], 0.0, scratch_);
+            clip_to_front(part_, sides[i], 0.0, scratch_);
         }
         if (part_.size() >= 3) {
             add_piece(triangle);
@@ -227,8 +227,8 @@ void ShadowCaster::cast_on(std::uint32_t triangle) {
         }
     }
     add_pieces(triangle, GroundLayer::Shadow, first);
-    if (!paints_.paints.empty() && !shadow_ends_.empty()) {
-        add_on_paint(triangle);
+    if (!decals_.decals.empty() && !shadow_ends_.empty()) {
+        add_on_decals(triangle);
     }
 }
 
@@ -259,7 +259,7 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
     const glm::dvec3& b = triangle_[1].at_m;
     const glm::dvec3& c = triangle_[2].at_m;
     const double whole = plan_area(a, b, c);
-    for (const SightCorner& at : part_) {
+    for (const ViewVertex& at : part_) {
         const double share_a = plan_area(at.at_m, b, c) / whole;
         const double share_b = plan_area(a, at.at_m, c) / whole;
         const glm::vec4 colour =
@@ -273,13 +273,13 @@ void ShadowCaster::add_piece(std::uint32_t triangle) {
 }
 
 /// The shadows on a triangle once more, cut to what is painted on it and darker than that.
-void ShadowCaster::add_on_paint(std::uint32_t triangle) {
-    const auto triangle_of = [&](std::uint32_t paint) { return paints_.paints[paint].triangle; };
-    auto own = std::ranges::lower_bound(paints_by_triangle_, triangle, {}, triangle_of);
+void ShadowCaster::add_on_decals(std::uint32_t triangle) {
+    const auto triangle_of = [&](std::uint32_t decal) { return decals_.decals[decal].triangle; };
+    auto own = std::ranges::lower_bound(decals_by_triangle_, triangle, {}, triangle_of);
     const std::size_t first = indices_.size();
-    for (; own != paints_by_triangle_.end() && triangle_of(*own) == triangle; ++own) {
-        const GroundPaint& paint = paints_.paints[*own];
-        const auto corners = paints_.corners.subspan(paint.first, paint.count);
+    for (; own != decals_by_triangle_.end() && triangle_of(*own) == triangle; ++own) {
+        const GroundDecal& decal = decals_.decals[*own];
+        const auto corners = decals_.corners.subspan(decal.first, decal.count);
         std::size_t begin = 0;
         for (const std::size_t end : shadow_ends_) {
             part_.assign(
@@ -288,17 +288,17 @@ void ShadowCaster::add_on_paint(std::uint32_t triangle) {
             begin = end;
             for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
                 const glm::dvec3& next_m = corners[i + 1 < corners.size() ? i + 1 : 0];
-                cut_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
+                clip_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
             }
-            for (const SightCorner& at : part_) {
+            for (const ViewVertex& at : part_) {
                 vertices_->push_back(
-                    {glm::vec3(at.at_m) * towards_eye(GroundLayer::ShadowOnPaint),
-                     shaded(unpacked(paint.colour), false)});
+                    {glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
+                     shaded(unpacked(decal.colour), false)});
             }
             add_fan(part_.size());
         }
     }
-    add_pieces(triangle, GroundLayer::ShadowOnPaint, first);
+    add_pieces(triangle, GroundLayer::ShadowOnDecal, first);
 }
 
 void ShadowCaster::sort_pieces() {

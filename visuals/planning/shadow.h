@@ -2,12 +2,12 @@
 
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_mesher.h"
-#include "visuals/planning/aircraft_hull.h"
+#include "visuals/planning/bounding_box.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/ground_paint.h"
+#include "visuals/planning/ground_decals.h"
 #include "visuals/planning/placed_aircraft.h"
-#include "visuals/planning/sight.h"
+#include "visuals/planning/view_polygon.h"
 
 #include <glm/vec3.hpp>
 
@@ -38,21 +38,21 @@ public:
     /// that is left, it is darkened, too.
     void begin(
         const scene::TriangleDraw& triangles,
-        bool alpha_is_light,
+        bool alpha_is_visibility,
         std::vector<models::ColourVertex>& vertices);
 
     /// Adds what is painted on the ground, on which later shadows fall. It stays where it is until
     /// the next begin().
-    void lay(const GroundPaints& paints);
+    void set_decals(const GroundDecals& decals);
 
     /// Adds the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view.
     void cast(
         const PlacedAircraft& aircraft,
-        const HullBox& hull,
+        const OrientedBox& hull,
         const landscape::GroundMesher& ground,
         const FrameView& view);
 
-    /// To be called after the last lay() and cast().
+    /// To be called after the last set_decals() and cast().
     void sort_pieces();
 
     /// The pieces laid and cast since begin(): by ascending ground triangle after sort_pieces().
@@ -68,11 +68,11 @@ private:
     };
 
     double light_path_m(
-        const HullBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const;
+        const OrientedBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const;
     void collect_faces(const PlacedAircraft& aircraft);
     void cast_on(std::uint32_t triangle);
     void add_piece(std::uint32_t triangle);
-    void add_on_paint(std::uint32_t triangle);
+    void add_on_decals(std::uint32_t triangle);
     void add_pieces(std::uint32_t triangle, GroundLayer layer, std::size_t first);
     void add_fan(std::size_t corners);
 
@@ -81,20 +81,20 @@ private:
     scene::TriangleDraw ground_;
     bool alpha_is_light_ = false;
     std::vector<models::ColourVertex>* vertices_ = nullptr;
-    GroundPaints paints_;
-    std::vector<std::uint32_t> paints_by_triangle_; ///< places in paints_
+    GroundDecals decals_;
+    std::vector<std::uint32_t> decals_by_triangle_; ///< places in decals_
     std::vector<ShadowPieces> pieces_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint32_t> candidates_;
     std::vector<Face> faces_;
-    std::vector<SightCorner> face_corners_;
-    SightPolygon triangle_;
-    SightPolygon part_;
+    std::vector<ViewVertex> face_corners_;
+    ViewPolygon triangle_;
+    ViewPolygon part_;
     /// The shadows on one triangle's plane that meet it, not yet cut to it, one after the other,
     /// and where each ends.
-    std::vector<SightCorner> shadow_parts_;
+    std::vector<ViewVertex> shadow_parts_;
     std::vector<std::size_t> shadow_ends_;
-    SightPolygon scratch_;
+    ViewPolygon scratch_;
 };
 
 } // namespace octant::visuals::planning

@@ -18,7 +18,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-constexpr int sky_spokes = 36;
+constexpr int sky_segments = 36;
 /// Only the direction shows: the sky has no depth.
 constexpr double dome_radius_m = 1000.0;
 
@@ -29,7 +29,7 @@ constexpr int rings_above = static_cast<int>(rings_above_deg.size());
 constexpr int rings_below = 7;
 
 /// Rings around the sun: the disc's edge, then its glare.
-constexpr int sun_spokes = 32;
+constexpr int sun_segments = 32;
 constexpr std::array glare_rings_deg = {0.2665, 0.5, 0.9, 1.5, 2.5, 4.0, 7.0, 12.0, 18.0, 24.0};
 
 models::ColourVertex dome_vertex(const glm::dvec3& direction, const glm::vec3& colour) {
@@ -38,12 +38,12 @@ models::ColourVertex dome_vertex(const glm::dvec3& direction, const glm::vec3& c
 
 /// Mean density of the haze between the eye and a place `rise_m` above it, by that at the eye.
 double mean_density(double rise_m, double falloff_per_m) {
-    const double fallen = rise_m * falloff_per_m;
-    return std::abs(fallen) < 1e-4 ? 1.0 : -std::expm1(-fallen) / fallen;
+    const double haze_density_exponent = rise_m * falloff_per_m;
+    return std::abs(haze_density_exponent) < 1e-4 ? 1.0 : -std::expm1(-haze_density_exponent) / haze_density_exponent;
 }
 
 /// Distance at which a look down meets the plain; nothing above its horizon.
-std::optional<double> distance_as_if_endless_m(double depression_rad, const Plain& plain) {
+std::optional<double> infinite_plain_distance_m(double depression_rad, const SurroundingPlain& plain) {
     if (plain.height_below_eye_m <= 0.0 || depression_rad <= 0.0) {
         return std::nullopt;
     }
@@ -61,26 +61,26 @@ std::optional<double> distance_as_if_endless_m(double depression_rad, const Plai
 
 /// The same for a plain that begins at the map's edge: over low ground of the map a look goes on to
 /// there.
-std::optional<double> distance_to_plain_m(double depression_rad, const Plain& plain) {
-    const auto endless_m = distance_as_if_endless_m(depression_rad, plain);
-    return endless_m ? std::optional(std::max(*endless_m, plain.map_edge_m)) : std::nullopt;
+std::optional<double> distance_to_plain_m(double depression_rad, const SurroundingPlain& plain) {
+    const auto infinite_distance_m = infinite_plain_distance_m(depression_rad, plain);
+    return infinite_distance_m ? std::optional(std::max(*infinite_distance_m, plain.map_edge_m)) : std::nullopt;
 }
 
 /// What a look down at the plain shows; `ray` is of unit length.
-glm::vec3 colour_below(const glm::dvec3& ray, const Plain& plain, const scene::Haze& haze) {
+glm::vec3 colour_below(const glm::dvec3& ray, const SurroundingPlain& plain, const scene::Haze& haze) {
     const auto distance_m = distance_to_plain_m(std::asin(-ray.z), plain);
     constexpr double beyond_m = 1e9;
     const glm::dvec3 level(ray.x, ray.y, 0.0);
-    return distance_m ? seen_through(haze, *distance_m * ray, plain.colour)
-                      : seen_through(
-                            {haze.colour, 1.0F, 0.0F, haze.horizontal_to_sun, haze.sunward},
+    return distance_m ? through_haze(haze, *distance_m * ray, plain.colour)
+                      : through_haze(
+                            {haze.colour, 1.0F, 0.0F, haze.horizontal_to_sun, haze.sunward_colour},
                             beyond_m * level,
                             haze.colour);
 }
 
 /// Steepest look down at which the plain can show past the edge of the map, with a margin for
 /// ground that lies lower than the plain.
-double deepest_rad(const Plain& plain) {
+double deepest_rad(const SurroundingPlain& plain) {
     const double height_m = std::max(plain.height_below_eye_m, 0.0) + 200.0;
     const double deepest = std::atan2(2.0 * height_m, std::max(plain.map_edge_m, 1.0));
     return std::clamp(deepest, rad_from_deg(3.0), pi / 2.0);
@@ -88,17 +88,17 @@ double deepest_rad(const Plain& plain) {
 
 } // namespace
 
-glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const glm::vec3& own) {
+glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own) {
     if (haze.visibility_m <= 0.0F) {
         return own;
     }
-    const double distance_m = std::max(glm::length(place_m), 1e-6);
+    const double distance_m = std::max(glm::length(position_m), 1e-6);
     const double depth = distance_m / static_cast<double>(haze.visibility_m) *
-                         mean_density(place_m.z, static_cast<double>(haze.falloff_per_m));
+                         mean_density(position_m.z, static_cast<double>(haze.falloff_per_m));
     const double towards =
-        std::max(glm::dot(glm::dvec2(place_m), glm::dvec2(haze.horizontal_to_sun)) / distance_m, 0.0);
+        std::max(glm::dot(glm::dvec2(position_m), glm::dvec2(haze.horizontal_to_sun)) / distance_m, 0.0);
     const glm::vec3 air =
-        glm::mix(haze.colour, haze.sunward, static_cast<float>(towards * towards));
+        glm::mix(haze.colour, haze.sunward_colour, static_cast<float>(towards * towards));
     return glm::mix(air, own, static_cast<float>(std::exp(-depth)));
 }
 
@@ -133,18 +133,18 @@ void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int verti
 void Sky::add_dome(const nature::Daylight& day) {
     for (const double elevation_deg : rings_above_deg) {
         const double elevation_rad = rad_from_deg(elevation_deg);
-        for (int spoke = 0; spoke < sky_spokes; ++spoke) {
+        for (int segment_index = 0; segment_index < sky_segments; ++segment_index) {
             const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / sky_spokes);
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments);
             const double share = elevation_deg < 90.0 ? std::cos(elevation_rad) : 0.0;
             const glm::dvec3 direction(share * level.x, share * level.y, std::sin(elevation_rad));
             vertices_.push_back(dome_vertex(direction, day.sky(direction)));
         }
     }
-    vertices_.resize(vertices_.size() + std::size_t{rings_below} * sky_spokes);
+    vertices_.resize(vertices_.size() + std::size_t{rings_below} * sky_segments);
     for (int ring = 0; ring + 1 < rings_above + rings_below; ++ring) {
-        const auto upper = static_cast<std::uint32_t>(ring * sky_spokes);
-        add_ring_triangles(upper, upper + sky_spokes, sky_spokes);
+        const auto upper = static_cast<std::uint32_t>(ring * sky_segments);
+        add_ring_triangles(upper, upper + sky_segments, sky_segments);
     }
 }
 
@@ -157,8 +157,8 @@ void Sky::add_sun(const nature::Daylight& day) {
         glm::length(right) > 1e-9 ? glm::normalize(right) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 up = glm::cross(to_sun, across);
     const auto first = static_cast<std::uint32_t>(vertices_.size());
-    const auto add = [&](double from_sun_rad, int spoke, bool of_disc) {
-        const double turn = -2.0 * pi * spoke / sun_spokes;
+    const auto add = [&](double from_sun_rad, int segment_index, bool of_disc) {
+        const double turn = -2.0 * pi * segment_index / sun_segments;
         glm::dvec3 direction =
             std::cos(from_sun_rad) * to_sun +
             std::sin(from_sun_rad) * (std::cos(turn) * across + std::sin(turn) * up);
@@ -174,23 +174,23 @@ void Sky::add_sun(const nature::Daylight& day) {
                 : day.sky(direction) + day.glare(angle_rad)));
     };
     for (auto ring = glare_rings_deg.rbegin(); ring != glare_rings_deg.rend(); ++ring) {
-        for (int spoke = 0; spoke < sun_spokes; ++spoke) {
-            add(rad_from_deg(*ring), spoke, false);
+        for (int segment_index = 0; segment_index < sun_segments; ++segment_index) {
+            add(rad_from_deg(*ring), segment_index, false);
         }
     }
     const auto disc = static_cast<std::uint32_t>(vertices_.size());
-    for (int spoke = 0; spoke < sun_spokes; ++spoke) {
-        add(nature::Daylight::disc_rad, spoke, true);
+    for (int segment_index = 0; segment_index < sun_segments; ++segment_index) {
+        add(nature::Daylight::disc_rad, segment_index, true);
     }
-    for (std::uint32_t ring = first; ring + sun_spokes < disc; ring += sun_spokes) {
-        add_ring_triangles(ring, ring + sun_spokes, sun_spokes);
+    for (std::uint32_t ring = first; ring + sun_segments < disc; ring += sun_segments) {
+        add_ring_triangles(ring, ring + sun_segments, sun_segments);
     }
-    for (std::uint32_t spoke = 2; spoke < sun_spokes; ++spoke) {
-        indices_.insert(indices_.end(), {disc, disc + spoke - 1, disc + spoke});
+    for (std::uint32_t segment_index = 2; segment_index < sun_segments; ++segment_index) {
+        indices_.insert(indices_.end(), {disc, disc + segment_index - 1, disc + segment_index});
     }
 }
 
-void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
+void Sky::place_backdrop(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     auto* vertex = &vertices_[sky_vertices_];
     for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         glm::dvec3 at_m = corner.at_m - eye_m;
@@ -199,28 +199,28 @@ void Sky::place_land(const Plain& plain, const scene::Haze& haze, const glm::dve
         }
         const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
         const std::uint32_t colour =
-            models::packed_colour(seen_through(haze, at_m, corner.colour)) & 0x00ffffffU;
+            models::packed_colour(through_haze(haze, at_m, corner.colour)) & 0x00ffffffU;
         *vertex++ = {glm::vec3(at_m), colour | cover_code << 24U};
     }
 }
 
 scene::TriangleDraw
-Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
+Sky::around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
     const double deepest = deepest_rad(plain);
     const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
-    Plain beyond = plain;
+    SurroundingPlain beyond = plain;
     if (has_land) {
-        const glm::dvec2 to_rim_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
-        beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_rim_m.x, to_rim_m.y));
+        const glm::dvec2 to_edge_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
+        beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_edge_m.x, to_edge_m.y));
     }
-    auto* vertex = &vertices_[std::size_t{rings_above} * sky_spokes];
+    auto* vertex = &vertices_[std::size_t{rings_above} * sky_segments];
     for (int ring = 1; ring <= rings_below; ++ring) {
         // The rings crowd towards the horizon, where the plain's colour changes fastest.
         const double share = ring / static_cast<double>(rings_below);
         const double elevation_rad = -deepest * share * share;
-        for (int spoke = 0; spoke < sky_spokes; ++spoke, ++vertex) {
+        for (int segment_index = 0; segment_index < sky_segments; ++segment_index, ++vertex) {
             const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * spoke / sky_spokes);
+                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments);
             const glm::dvec3 ray(
                 std::cos(elevation_rad) * level.x,
                 std::cos(elevation_rad) * level.y,
@@ -232,7 +232,7 @@ Sky::around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m
     if (!has_land) {
         return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)};
     }
-    place_land(plain, haze, eye_m);
+    place_backdrop(plain, haze, eye_m);
     return {vertices_, indices};
 }
 

@@ -12,10 +12,10 @@
 namespace octant::visuals::planning {
 
 /// A colour at a place (world axes with the eye subtracted) as it is seen through the haze.
-glm::vec3 seen_through(const scene::Haze& haze, const glm::dvec3& place_m, const glm::vec3& own);
+glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own);
 
 /// What the sky shows below the horizon, where the map has ended: an endless plain.
-struct Plain {
+struct SurroundingPlain {
     /// Zero, less or not finite = there is no plain, only haze.
     double height_below_eye_m = 0.0;
     /// The level distance from the eye to the nearest edge of the map.
@@ -37,13 +37,13 @@ public:
     /// The triangles, in painting order, stay valid until the next call. The land around the map is
     /// left out from below its mean height.
     scene::TriangleDraw
-    around(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
+    around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
 
 private:
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
     void add_dome(const nature::Daylight& day);
     void add_sun(const nature::Daylight& day);
-    void place_land(const Plain& plain, const scene::Haze& haze, const glm::dvec3& eye_m);
+    void place_backdrop(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m);
 
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;

@@ -19,7 +19,7 @@ constexpr std::size_t word_bits = 32;
 /// An aircraft nearer than this many radii weighs no more.
 constexpr double nearest_radii = 1.0;
 
-std::size_t words_for(const AircraftModel& model) {
+std::size_t mask_words_for(const AircraftModel& model) {
     std::size_t most = 0;
     for (std::size_t as = 0; as <= model.levels.size(); ++as) {
         most = std::max(most, model.shaded_as(as).size());
@@ -65,30 +65,30 @@ double weight_of(const PlacedAircraft& aircraft) {
 
 } // namespace
 
-void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given) {
-    assert(given.size() == aircraft.size());
-    std::ranges::fill(given, 0);
+void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, std::span<int> assigned) {
+    assert(assigned.size() == aircraft.size());
+    std::ranges::fill(assigned, 0);
     int left = smooth;
     bool filled = true; // some aircraft got all that it can take: the others share what is left
     while (left > 0 && filled) {
         double weight = 0.0;
         for (std::size_t i = 0; i < aircraft.size(); ++i) {
-            weight += given[i] < aircraft[i].polygons ? aircraft[i].weight : 0.0;
+            weight += assigned[i] < aircraft[i].polygons ? aircraft[i].weight : 0.0;
         }
         filled = false;
         const int to_share = left;
         for (std::size_t i = 0; i < aircraft.size() && weight > 0.0; ++i) {
-            const int room = aircraft[i].polygons - given[i];
+            const int room = aircraft[i].polygons - assigned[i];
             const double part = to_share * (aircraft[i].weight / weight);
             filled = filled || (room > 0 && part >= room);
             const int more = static_cast<int>(std::min<double>(room, part));
-            given[i] += more;
+            assigned[i] += more;
             left -= more;
         }
     }
     for (std::size_t i = 0; i < aircraft.size() && left > 0; ++i) { // what rounding left over
-        const int more = std::min(left, aircraft[i].polygons - given[i]);
-        given[i] += more;
+        const int more = std::min(left, aircraft[i].polygons - assigned[i]);
+        assigned[i] += more;
         left -= more;
     }
 }
@@ -96,22 +96,22 @@ void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::sp
 SmoothChoice::SmoothChoice(
     const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed)
     : settings_(settings)
-    , chooses_(chooses_by(settings, follows_clock))
-    , choosers_(placed.size())
+    , selects_(chooses_by(settings, follows_clock))
+    , selectors_(placed.size())
     , shares_(placed.size())
-    , given_(placed.size()) {
+    , assigned_(placed.size()) {
     std::size_t words = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const AircraftModel& model = *placed[i].model;
         placed[i].first_smooth = static_cast<std::uint32_t>(words);
-        std::size_t needed = words_for(model);
-        for (std::size_t as = 0; chooses_ && as <= model.levels.size(); ++as) {
-            choosers_[i].emplace_back(model.shaded_as(as), shading_rule_of(settings));
+        std::size_t needed = mask_words_for(model);
+        for (std::size_t as = 0; selects_ && as <= model.levels.size(); ++as) {
+            selectors_[i].emplace_back(model.shaded_as(as), shading_rule_of(settings));
         }
         if (placed[i].far_model != nullptr) {
-            needed = std::max(needed, words_for(*placed[i].far_model));
-            if (chooses_) {
-                choosers_[i].emplace_back(placed[i].far_model->shaded, shading_rule_of(settings));
+            needed = std::max(needed, mask_words_for(*placed[i].far_model));
+            if (selects_) {
+                selectors_[i].emplace_back(placed[i].far_model->shaded, shading_rule_of(settings));
             }
         }
         words += needed;
@@ -120,25 +120,25 @@ SmoothChoice::SmoothChoice(
     bits_.push_back(1);
 }
 
-/// Fills in given_; returns the sum of the polygons.
-int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish) {
+/// Fills in assigned_; returns the sum of the polygons.
+int SmoothChoice::smooth_count_for(std::span<const PlacedAircraft> placed, const SmoothTarget& smooth_target) {
     int all = 0;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         shares_[i] = {polygons_of(placed[i]), weight_of(placed[i])};
         all += shares_[i].polygons;
     }
-    const double share = wish.share.value_or(settings_.smooth_share);
+    const double share = smooth_target.share.value_or(settings_.smooth_share);
     int wanted = static_cast<int>(std::lround(share * all));
-    if (settings_.device_ratio && !wish.share) {
+    if (settings_.device_ratio && !smooth_target.share) {
         wanted = shading::device_smooth_count(*settings_.device_ratio, all);
     }
-    wanted = std::min(wish.polygons.value_or(wanted), all);
-    share_out_smooth(shares_, wanted, given_);
+    wanted = std::min(smooth_target.polygons.value_or(wanted), all);
+    distribute_smooth(shares_, wanted, assigned_);
     if (settings_.rule == scene::HybridRule::Paper) {
         const shading::ShadingRange range{settings_.near_m, settings_.far_m};
         for (std::size_t i = 0; i < placed.size(); ++i) {
-            given_[i] = std::min(
-                given_[i],
+            assigned_[i] = std::min(
+                assigned_[i],
                 shading::smooth_count(distance_m(placed[i]), range, shares_[i].polygons));
         }
     }
@@ -148,35 +148,35 @@ int SmoothChoice::wanted_of(std::span<const PlacedAircraft> placed, const Smooth
 SmoothChoice::Count SmoothChoice::choose(
     std::span<const PlacedAircraft> placed,
     std::span<const std::unique_ptr<RefinedAircraft>> refined,
-    const SmoothWish& wish,
+    const SmoothTarget& smooth_target,
     const glm::dvec3& to_sun,
     const glm::vec2& light,
     std::vector<std::uint32_t>& smooth) {
-    Count count{wanted_of(placed, wish), 0};
+    Count count{smooth_count_for(placed, smooth_target), 0};
     for (std::size_t i = 0; i < placed.size(); ++i) {
-        int given = settings_.kind == scene::AircraftShading::Flat ? 0 : shares_[i].polygons;
+        int assigned = settings_.kind == scene::AircraftShading::Flat ? 0 : shares_[i].polygons;
         const shading::ShadingLight sun = illumination(placed[i], to_sun, light);
         const glm::dvec3 eye_m =
             -glm::dvec3(placed[i].parts[0][3]) * glm::dmat3(placed[i].parts[0]);
-        if (chooses_) {
-            given = given_[i];
+        if (selects_) {
+            assigned = assigned_[i];
         }
         if (is_refined(placed[i])) {
-            refined[i]->shade(eye_m, sun, given);
-        } else if (chooses_) {
-            write_bits(placed[i], chooser_of(i, placed[i]).choose(eye_m, sun, given));
+            refined[i]->shade(eye_m, sun, assigned);
+        } else if (selects_) {
+            write_bits(placed[i], selector_of(i, placed[i]).choose(eye_m, sun, assigned));
         }
-        count.smooth += given;
+        count.smooth += assigned;
     }
     smooth.assign(bits_.begin(), bits_.end());
     return count;
 }
 
 shading::ShadingSelector&
-SmoothChoice::chooser_of(std::size_t aircraft, const PlacedAircraft& placed) {
+SmoothChoice::selector_of(std::size_t aircraft, const PlacedAircraft& placed) {
     const std::size_t polygons = placed.near_model->levels.size();
     const std::size_t as_it_is = is_mesh(placed) ? placed.representation : polygons;
-    return choosers_[aircraft][is_far(placed) ? polygons + 1 : as_it_is];
+    return selectors_[aircraft][is_far(placed) ? polygons + 1 : as_it_is];
 }
 
 void SmoothChoice::write_bits(

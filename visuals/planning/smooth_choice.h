@@ -18,19 +18,19 @@
 namespace octant::visuals::planning {
 
 /// Polygons of one aircraft, and how much of the picture it takes.
-struct SmoothShare {
+struct SmoothCandidate {
     int polygons = 0;
     /// At least 0.
     double weight = 0.0;
 };
 
 /// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has;
-/// in all as many as asked for, or all. `given`: one an aircraft.
-void share_out_smooth(std::span<const SmoothShare> aircraft, int smooth, std::span<int> given);
+/// in all as many as asked for, or all. `assigned`: one an aircraft.
+void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, std::span<int> assigned);
 
 /// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the
 /// settings say.
-struct SmoothWish {
+struct SmoothTarget {
     std::optional<int> polygons;
     std::optional<double> share;
 };
@@ -47,10 +47,10 @@ public:
         std::span<PlacedAircraft> placed);
 
     /// RefinedDraw::first_smooth of all that is refined.
-    std::uint32_t refined_word() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
+    std::uint32_t refined_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
 
     /// AircraftDraw::first_smooth of parts that turn beside what is refined.
-    std::uint32_t turning_word() const { return static_cast<std::uint32_t>(bits_.size() - 2); }
+    std::uint32_t turning_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 2); }
 
     /// Of how many polygons, and how many of them.
     struct Count {
@@ -65,7 +65,7 @@ public:
     Count choose(
         std::span<const PlacedAircraft> placed,
         std::span<const std::unique_ptr<RefinedAircraft>> refined,
-        const SmoothWish& wish,
+        const SmoothTarget& smooth_target,
         const glm::dvec3& to_sun,
         const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
@@ -73,19 +73,19 @@ public:
 private:
     /// Of one aircraft: its levels, then its polygons, then those of what stands in for it; empty
     /// where all polygons are alike.
-    using Choosers = std::vector<shading::ShadingSelector>;
+    using Selectors = std::vector<shading::ShadingSelector>;
 
-    int wanted_of(std::span<const PlacedAircraft> placed, const SmoothWish& wish);
-    shading::ShadingSelector& chooser_of(std::size_t aircraft, const PlacedAircraft& placed);
+    int smooth_count_for(std::span<const PlacedAircraft> placed, const SmoothTarget& smooth_target);
+    shading::ShadingSelector& selector_of(std::size_t aircraft, const PlacedAircraft& placed);
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
     scene::ShadingSettings settings_;
     /// Whether some polygons may be smooth while others are not.
-    bool chooses_;
-    std::vector<Choosers> choosers_;
+    bool selects_;
+    std::vector<Selectors> selectors_;
     std::vector<std::uint32_t> bits_;
-    std::vector<SmoothShare> shares_;
-    std::vector<int> given_;
+    std::vector<SmoothCandidate> shares_;
+    std::vector<int> assigned_;
 };
 
 } // namespace octant::visuals::planning

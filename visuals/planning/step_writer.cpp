@@ -24,7 +24,7 @@ edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& 
 
 } // namespace
 
-StepWriter::Mark StepWriter::mark() const {
+StepWriter::Checkpoint StepWriter::checkpoint() const {
     return {
         plan_.steps.size(),
         plan_.steps.empty() ? 0 : plan_.steps.back().count,
@@ -33,63 +33,63 @@ StepWriter::Mark StepWriter::mark() const {
         plan_.repaint_indices.size()};
 }
 
-void StepWriter::take_back(const Mark& mark) {
-    plan_.steps.resize(mark.steps);
-    if (mark.steps > 0) {
-        plan_.steps.back().count = static_cast<std::uint32_t>(mark.last_count);
+void StepWriter::roll_back(const Checkpoint& checkpoint) {
+    plan_.steps.resize(checkpoint.steps);
+    if (checkpoint.steps > 0) {
+        plan_.steps.back().count = static_cast<std::uint32_t>(checkpoint.last_count);
     }
-    plan_.aircraft.resize(mark.aircraft);
-    plan_.clips.resize(mark.clips);
-    plan_.repaint_indices.resize(mark.repaint_indices);
+    plan_.aircraft.resize(checkpoint.aircraft);
+    plan_.clips.resize(checkpoint.clips);
+    plan_.repaint_indices.resize(checkpoint.repaint_indices);
 }
 
 void StepWriter::clear_depth(const scene::PixelBox& box) {
     const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
     plan_.depth_boxes.push_back(box);
-    plan_.steps.push_back({scene::PaintStep::What::ClearDepth, place, 1});
+    plan_.steps.push_back({scene::PaintStep::Content::ClearDepth, place, 1});
 }
 
 void StepWriter::add_range(
-    scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth) {
+    scene::PaintStep::Content content, std::size_t first, std::size_t count, scene::DepthUse depth) {
     if (count > 0) {
         plan_.steps.push_back(
-            {what,
+            {content,
              static_cast<std::uint32_t>(first),
              static_cast<std::uint32_t>(count),
-             scene::PaintStep::whole,
+             scene::PaintStep::no_clip,
              depth});
     }
 }
 
 void StepWriter::add_sky(scene::DepthUse depth) {
-    add_range(scene::PaintStep::What::Sky, 0, plan_.sky.indices.size(), depth);
+    add_range(scene::PaintStep::Content::Sky, 0, plan_.sky.indices.size(), depth);
 }
 
 void StepWriter::add_ground() {
     add_range(
-        scene::PaintStep::What::Ground, 0, plan_.ground.indices.size(), scene::DepthUse::None);
+        scene::PaintStep::Content::Ground, 0, plan_.ground.indices.size(), scene::DepthUse::None);
 }
 
 void StepWriter::add_ground_by_depth(std::size_t edge_on_indices) {
     const std::size_t facing = plan_.ground.indices.size() - edge_on_indices;
-    add_range(scene::PaintStep::What::Ground, 0, facing, scene::DepthUse::Nearest);
-    add_range(scene::PaintStep::What::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
+    add_range(scene::PaintStep::Content::Ground, 0, facing, scene::DepthUse::Nearest);
+    add_range(scene::PaintStep::Content::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
 }
 
 void StepWriter::add_shadows_by_depth(const GroundFrame& ground) {
     const std::size_t first = plan_.repaint_indices.size();
     const auto pieces = ground.shadow_indices;
     plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
-    add_range(scene::PaintStep::What::GroundAgain, first, pieces.size(), scene::DepthUse::OnGround);
+    add_range(scene::PaintStep::Content::GroundRepaint, first, pieces.size(), scene::DepthUse::OnGround);
 }
 
-void StepWriter::add_veil(std::size_t first, std::size_t count) {
-    add_range(scene::PaintStep::What::Veil, first, count, scene::DepthUse::None);
+void StepWriter::add_transparent_range(std::size_t first, std::size_t count) {
+    add_range(scene::PaintStep::Content::Transparent, first, count, scene::DepthUse::None);
 }
 
 void StepWriter::add_overlay(std::size_t first) {
     add_range(
-        scene::PaintStep::What::Overlay,
+        scene::PaintStep::Content::Overlay,
         first,
         plan_.overlay.indices.size() - first,
         scene::DepthUse::None);
@@ -100,21 +100,21 @@ void StepWriter::add(const scene::AircraftDraw& draw, scene::DepthUse depth) {
     plan_.aircraft.push_back(draw);
     if (!plan_.steps.empty()) {
         scene::PaintStep& last = plan_.steps.back();
-        if (last.what == scene::PaintStep::What::Aircraft && last.clip == scene::PaintStep::whole &&
+        if (last.content == scene::PaintStep::Content::Aircraft && last.clip == scene::PaintStep::no_clip &&
             last.depth == depth && last.opacity == 1.0F && last.first + last.count == place) {
             ++last.count;
             return;
         }
     }
     plan_.steps.push_back(
-        {scene::PaintStep::What::Aircraft, place, 1, scene::PaintStep::whole, depth});
+        {scene::PaintStep::Content::Aircraft, place, 1, scene::PaintStep::no_clip, depth});
 }
 
 void StepWriter::add_transparent(const scene::AircraftDraw& draw, float opacity) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     scene::PaintStep& step = plan_.steps.emplace_back();
-    step.what = scene::PaintStep::What::Aircraft;
+    step.content = scene::PaintStep::Content::Aircraft;
     step.first = place;
     step.count = 1;
     step.depth = scene::DepthUse::Nearest;
@@ -125,10 +125,10 @@ void StepWriter::add(const scene::RefinedDraw& draw) {
     const auto place = static_cast<std::uint32_t>(plan_.refined.size());
     plan_.refined.push_back(draw);
     plan_.steps.push_back(
-        {scene::PaintStep::What::Refined,
+        {scene::PaintStep::Content::Refined,
          place,
          1,
-         scene::PaintStep::whole,
+         scene::PaintStep::no_clip,
          scene::DepthUse::Nearest});
 }
 
@@ -142,11 +142,11 @@ std::uint32_t StepWriter::add_clip(std::span<const glm::dvec3> normals) {
 }
 
 template <class Paint>
-void StepWriter::for_each_clip(const SightPolygon& region, const Paint& paint) {
+void StepWriter::for_each_clip(const ViewPolygon& region, const Paint& paint) {
     constexpr std::size_t most = scene::Clip::max_planes;
     const auto cuts = static_cast<std::size_t>(
-        std::ranges::count_if(region, [](const SightCorner& corner) { return corner.cut; }));
-    const auto add_edges = [&](const SightPolygon& piece, bool all) {
+        std::ranges::count_if(region, [](const ViewVertex& corner) { return corner.cut; }));
+    const auto add_edges = [&](const ViewPolygon& piece, bool all) {
         normals_.clear();
         const glm::dvec3 middle_m = middle_of(piece);
         for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -173,11 +173,11 @@ void StepWriter::for_each_clip(const SightPolygon& region, const Paint& paint) {
     }
 }
 
-void StepWriter::add_within(const scene::AircraftDraw& draw, const SightPolygon& region) {
+void StepWriter::add_within(const scene::AircraftDraw& draw, const ViewPolygon& region) {
     const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
     plan_.aircraft.push_back(draw);
     for_each_clip(region, [&](std::uint32_t clip) {
-        plan_.steps.push_back({scene::PaintStep::What::Aircraft, place, 1, clip});
+        plan_.steps.push_back({scene::PaintStep::Content::Aircraft, place, 1, clip});
     });
 }
 
@@ -190,15 +190,15 @@ void StepWriter::add_indices(const GroundFrame& ground, std::uint32_t triangle) 
     }
 }
 
-void StepWriter::add_before(
+void StepWriter::add_in_front(
     const GroundFrame& ground,
-    std::span<const NearTriangle> triangles,
-    const HullBox& box,
-    const SightCone& cone) {
-    std::uint32_t cone_clip = scene::PaintStep::whole;
+    std::span<const GroundInFrontTriangle> triangles,
+    const OrientedBox& box,
+    const ViewCone& cone) {
+    std::uint32_t cone_clip = scene::PaintStep::no_clip;
     bool continues = false; // the last step, with the cone alone
-    for (const NearTriangle& near : triangles) {
-        if (near.meets) {
+    for (const GroundInFrontTriangle& near : triangles) {
+        if (near.intersects) {
             add_outside(ground, near.triangle, box, cone);
             continues = false;
             continue;
@@ -210,8 +210,8 @@ void StepWriter::add_before(
             plan_.steps.back().count += count;
             continue;
         }
-        cone_clip = cone_clip == scene::PaintStep::whole ? add_clip(cone.planes()) : cone_clip;
-        plan_.steps.push_back({scene::PaintStep::What::GroundAgain, first, count, cone_clip});
+        cone_clip = cone_clip == scene::PaintStep::no_clip ? add_clip(cone.planes()) : cone_clip;
+        plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, cone_clip});
         continues = true;
     }
 }
@@ -219,7 +219,7 @@ void StepWriter::add_before(
 /// A sight line enters a box through the last of the sides that face the eye, so that a point in
 /// the cone lies before the box if it lies outside any of them.
 void StepWriter::add_outside(
-    const GroundFrame& ground, std::uint32_t triangle, const HullBox& box, const SightCone& cone) {
+    const GroundFrame& ground, std::uint32_t triangle, const OrientedBox& box, const ViewCone& cone) {
     const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
     std::uint32_t count = 0;
     for (int side = 0; side < 6; ++side) {
@@ -228,8 +228,8 @@ void StepWriter::add_outside(
             continue;
         }
         place_triangle(ground.all, triangle, piece_);
-        cut_to_front(piece_, plane, 0.0, scratch_);
-        cut_to_cone(piece_, cone.planes(), scratch_);
+        clip_to_front(piece_, plane, 0.0, scratch_);
+        clip_to_cone(piece_, cone.planes(), scratch_);
         if (solid_angle_sr(piece_) < min_solid_angle_sr) {
             continue;
         }
@@ -241,21 +241,21 @@ void StepWriter::add_outside(
         scene::Clip& clip = plan_.clips[index];
         clip.planes[static_cast<std::size_t>(clip.count++)] =
             glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset_m));
-        plan_.steps.push_back({scene::PaintStep::What::GroundAgain, first, count, index});
+        plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, index});
     }
 }
 
 void StepWriter::add_within(
-    const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region) {
+    const GroundFrame& ground, std::uint32_t triangle, const ViewPolygon& region) {
     const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
     add_indices(ground, triangle);
     const auto count = static_cast<std::uint32_t>(plan_.repaint_indices.size()) - first;
     for_each_clip(region, [&](std::uint32_t clip) {
-        plan_.steps.push_back({scene::PaintStep::What::GroundAgain, first, count, clip});
+        plan_.steps.push_back({scene::PaintStep::Content::GroundRepaint, first, count, clip});
     });
 }
 
-void StepWriter::hide_by_ground(
+void StepWriter::occlude_by_ground(
     const GroundFrame& ground, std::span<const std::uint32_t> triangles) {
     const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
     for (const std::uint32_t triangle : triangles) {
@@ -264,10 +264,10 @@ void StepWriter::hide_by_ground(
     }
     const auto count = static_cast<std::uint32_t>(3 * triangles.size());
     plan_.steps.push_back(
-        {scene::PaintStep::What::GroundAgain,
+        {scene::PaintStep::Content::GroundRepaint,
          first,
          count,
-         scene::PaintStep::whole,
+         scene::PaintStep::no_clip,
          scene::DepthUse::DepthOnly});
 }
 

@@ -2,7 +2,7 @@
 
 #include "visuals/planning/ground_frame.h"
 #include "visuals/planning/ground_in_front.h"
-#include "visuals/planning/sight.h"
+#include "visuals/planning/view_polygon.h"
 #include "visuals/scene/frame_plan.h"
 
 #include <cstddef>
@@ -19,7 +19,7 @@ public:
         : plan_(plan) {}
 
     /// How far a plan has been written.
-    struct Mark {
+    struct Checkpoint {
         std::size_t steps = 0;
         std::size_t last_count = 0; ///< of the last step, to which more may be added
         std::size_t aircraft = 0;
@@ -27,10 +27,10 @@ public:
         std::size_t repaint_indices = 0;
     };
 
-    Mark mark() const;
+    Checkpoint checkpoint() const;
 
     /// Takes back the aircraft, the ground and the clips that were added since.
-    void take_back(const Mark& mark);
+    void roll_back(const Checkpoint& checkpoint);
 
     /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
     void clear_depth(const scene::PixelBox& box);
@@ -50,7 +50,7 @@ public:
     void add_shadows_by_depth(const GroundFrame& ground);
 
     /// A range of the plan's overlay, over what has been painted; nothing where it is empty.
-    void add_veil(std::size_t first, std::size_t count);
+    void add_transparent_range(std::size_t first, std::size_t count);
 
     /// The plan's overlay from an index on; nothing where it is empty.
     void add_overlay(std::size_t first);
@@ -65,44 +65,44 @@ public:
     void add(const scene::RefinedDraw& draw);
 
     /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
-    void add_within(const scene::AircraftDraw& draw, const SightPolygon& region);
+    void add_within(const scene::AircraftDraw& draw, const ViewPolygon& region);
 
     /// Paints triangles once more where they lie before a box, with their shadows, as far as they
     /// are seen in `cone`: of the box or of one inside it. They are in painting order; those that
     /// meet the box are cut to the outside of its sides. The eye is outside the box.
-    void add_before(
+    void add_in_front(
         const GroundFrame& ground,
-        std::span<const NearTriangle> triangles,
-        const HullBox& box,
-        const SightCone& cone);
+        std::span<const GroundInFrontTriangle> triangles,
+        const OrientedBox& box,
+        const ViewCone& cone);
 
     /// Paints one triangle once more where `region`, a part of it, is seen.
-    void add_within(const GroundFrame& ground, std::uint32_t triangle, const SightPolygon& region);
+    void add_within(const GroundFrame& ground, std::uint32_t triangle, const ViewPolygon& region);
 
     /// Gives depth to ground that what comes next by depth may stick in: triangles that have been
     /// painted.
-    void hide_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
+    void occlude_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles);
 
 private:
     void add_range(
-        scene::PaintStep::What what, std::size_t first, std::size_t count, scene::DepthUse depth);
+        scene::PaintStep::Content content, std::size_t first, std::size_t count, scene::DepthUse depth);
 
     /// Index of a new clip by planes through the eye, at most Clip::max_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals);
     void add_outside(
         const GroundFrame& ground,
         std::uint32_t triangle,
-        const HullBox& box,
-        const SightCone& cone);
+        const OrientedBox& box,
+        const ViewCone& cone);
     void add_indices(const GroundFrame& ground, std::uint32_t triangle);
 
     /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.
     template <class Paint>
-    void for_each_clip(const SightPolygon& region, const Paint& paint);
+    void for_each_clip(const ViewPolygon& region, const Paint& paint);
 
     scene::FramePlan& plan_;
-    SightPolygon piece_;
-    SightPolygon scratch_;
+    ViewPolygon piece_;
+    ViewPolygon scratch_;
     std::vector<glm::dvec3> normals_;
 };
 

@@ -11,7 +11,7 @@ std::vector<std::uint16_t> depth_groups(std::span<const scene::PaintStep> steps)
     std::uint16_t group = 1;
     std::size_t last = steps.size(); // that used this group's depth; none yet
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        if (steps[i].what == PaintStep::What::ClearDepth) {
+        if (steps[i].content == PaintStep::Content::ClearDepth) {
             ++group;
             last = steps.size();
         } else if (steps[i].depth != scene::DepthUse::None) {

@@ -1,6 +1,6 @@
 #include "visuals/raster/mask_picture.h"
 
-#include "visuals/raster/frame_work.h"
+#include "visuals/raster/triangle_binner.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/tile.h"
 
@@ -101,7 +101,7 @@ scene::Picture mask_picture(
     assert(!plan.ground_texture);
     const SamplePattern pattern = sample_pattern(samples);
     const SampleLanes lanes(pattern);
-    FrameWork work(pattern, workers);
+    TriangleBinner work(pattern, workers);
     work.prepare({plan, models, nullptr, size_px});
     const int tile = work.tiles().y / 2 * work.tiles().x + work.tiles().x / 2;
     TileJob job;

@@ -1,7 +1,7 @@
 #include "visuals/raster/pixel_colour.h"
 
-#include "visuals/raster/even_texture.h"
-#include "visuals/raster/texture_levels.h"
+#include "visuals/raster/affine_textured_triangle.h"
+#include "visuals/raster/mip_selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::uint16_t packed(double level) {
 }
 
 /// A level, 2^-16 from the level 128.
-std::int32_t level_at(const Levels& levels, std::size_t i, int column, int row) {
+std::int32_t level_at(const ColourGradients& levels, std::size_t i, int column, int row) {
     return static_cast<std::int32_t>(
         static_cast<std::uint32_t>(levels.base[i]) +
         static_cast<std::uint32_t>(levels.per_x[i]) * static_cast<std::uint32_t>(column) +
@@ -28,31 +28,31 @@ std::int32_t level_at(const Levels& levels, std::size_t i, int column, int row) 
 }
 
 /// A level, 1/128 from the level 128, within the triangle's own.
-std::int32_t limited(const Levels& levels, std::size_t i, int column, int row) {
+std::int32_t limited(const ColourGradients& levels, std::size_t i, int column, int row) {
     const auto at = static_cast<std::uint32_t>(level_at(levels, i, column, row));
     const std::int32_t value = static_cast<std::int32_t>(at + 256U) >> 9;
     return std::clamp<std::int32_t>(value, levels.least[i], levels.most[i]);
 }
 
-PixelColour by_levels(const Triangle& triangle, int column, int row) {
+PixelColour gouraud_colour(const Triangle& triangle, int column, int row) {
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t level = limited(triangle.levels, i, column, row);
+        const std::int32_t level = limited(triangle.gradients, i, column, row);
         colour[i] = static_cast<std::uint16_t>((level + 128 * 128 + 4) >> 3);
     }
     return colour;
 }
 
 double depth_of(const TriangleExtra& extra, int column, int row) {
-    return 1.0 / std::max(extra.by_w[4].at(column, row), min_by_w);
+    return 1.0 / std::max(extra.over_w[4].at(column, row), min_by_w);
 }
 
-PixelColour by_perspective(const TileTriangle& one, int column, int row) {
+PixelColour perspective_colour(const TileTriangle& one, int column, int row) {
     const double w = depth_of(*one.extra, column, row);
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Levels& levels = one.triangle->levels;
-        const double level = one.extra->by_w[i].at(column, row) * w;
+        const ColourGradients& levels = one.triangle->gradients;
+        const double level = one.extra->over_w[i].at(column, row) * w;
         colour[i] = packed(
             std::clamp(level, levels.least[i] / 128.0 + 128.0, levels.most[i] / 128.0 + 128.0));
     }
@@ -60,7 +60,7 @@ PixelColour by_perspective(const TileTriangle& one, int column, int row) {
 }
 
 /// The texture's colour between the four texels around a place of one level.
-std::array<double, 3> texel_at(const GroundImage::Level& level, double x, double y) {
+std::array<double, 3> texel_at(const LitGroundTexture::MipLevel& level, double x, double y) {
     const double within_x = std::clamp(x, 0.0, level.width - 1.0);
     const double within_y = std::clamp(y, 0.0, level.height - 1.0);
     const int x0 = std::min(static_cast<int>(within_x), std::max(level.width - 2, 0));
@@ -90,7 +90,7 @@ struct TextureValues {
     double haze_share;
 };
 
-PixelColour textured(const TextureValues& at, const TextureLevels& chosen, const TileJob& job) {
+PixelColour textured(const TextureValues& at, const MipSelection& chosen, const TileJob& job) {
     const auto& levels = job.ground->levels();
     const auto at_level = [&](std::size_t k, double x, double y) {
         const double scale = 1.0 / static_cast<double>(std::uint64_t{1} << k);
@@ -120,34 +120,34 @@ PixelColour textured(const TextureValues& at, const TextureLevels& chosen, const
     return colour;
 }
 
-PixelColour by_texture(const TileTriangle& one, const TileJob& job, int column, int row) {
+PixelColour affine_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
     const Triangle& triangle = *one.triangle;
     const double texel = static_cast<double>(std::uint64_t{1} << triangle.texture.fine);
     const auto place = [&](std::size_t i) {
-        return (level_at(triangle.levels, i, column, row) / 65536.0 + 128.5) * texel - 0.5;
+        return (level_at(triangle.gradients, i, column, row) / 65536.0 + 128.5) * texel - 0.5;
     };
     const auto share = [&](std::size_t i) {
-        return (limited(triangle.levels, i, column, row) / 128.0 + 128.0) /
-               static_cast<double>(EvenTexture::whole_share);
+        return (limited(triangle.gradients, i, column, row) / 128.0 + 128.0) /
+               static_cast<double>(AffineTexturedTriangle::whole_share);
     };
     return textured({place(0), place(1), share(2), share(3)}, triangle.texture, job);
 }
 
 PixelColour
-by_texture_in_perspective(const TileTriangle& one, const TileJob& job, int column, int row) {
+perspective_texture_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
     const TriangleExtra& extra = *one.extra;
     const double w = depth_of(extra, column, row);
-    const auto value = [&](std::size_t i) { return extra.by_w[i].at(column, row) * w; };
+    const auto value = [&](std::size_t i) { return extra.over_w[i].at(column, row) * w; };
     const double x = value(0);
     const double y = value(1);
     // How far the place moves in the texture from this pixel to the next ones.
-    const auto move = [&](double RealPlane::*per_px) {
-        const double w_part = extra.by_w[4].*per_px;
+    const auto move = [&](double AttributePlane::*per_px) {
+        const double w_part = extra.over_w[4].*per_px;
         return std::array{
-            (extra.by_w[0].*per_px - x * w_part) * w, (extra.by_w[1].*per_px - y * w_part) * w};
+            (extra.over_w[0].*per_px - x * w_part) * w, (extra.over_w[1].*per_px - y * w_part) * w};
     };
-    const TexelSteps steps{move(&RealPlane::per_x), move(&RealPlane::per_y)};
-    return textured({x, y, value(2), value(3)}, levels_of(steps, job.ground->levels().size()), job);
+    const TexelDerivatives steps{move(&AttributePlane::per_x), move(&AttributePlane::per_y)};
+    return textured({x, y, value(2), value(3)}, select_mip_levels(steps, job.ground->levels().size()), job);
 }
 
 /// Six hues around the wheel, one a level, so that neighbours are far apart; 0..1.
@@ -168,19 +168,19 @@ double smoothstep(double end, double x) {
 }
 
 /// Levels, darkened towards the triangle's edges over about a pixel.
-PixelColour by_mesh(const TileTriangle& one, const TileJob& job, int column, int row) {
+PixelColour wireframe_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
     const TriangleExtra& extra = *one.extra;
     const double w = depth_of(extra, column, row);
     double inside = 1.0;
-    for (const RealPlane& edge : extra.from_edges) {
+    for (const AttributePlane& edge : extra.from_edges) {
         const double from = edge.at(column, row) * w;
-        const double across = std::abs(edge.per_x - from * extra.by_w[4].per_x) * w;
-        const double down = std::abs(edge.per_y - from * extra.by_w[4].per_y) * w;
+        const double across = std::abs(edge.per_x - from * extra.over_w[4].per_x) * w;
+        const double down = std::abs(edge.per_y - from * extra.over_w[4].per_y) * w;
         inside = std::min(inside, smoothstep(std::max(1.2 * (across + down), 1e-12), from));
     }
     const std::array<double, 3> hue = hue_of(extra.mesh_level);
     const double hue_share = job.tints_mesh_levels ? 0.45 : 0.0;
-    PixelColour colour = by_perspective(one, column, row);
+    PixelColour colour = perspective_colour(one, column, row);
     for (std::size_t i = 0; i < 3; ++i) {
         const double own = colour[i] / per_level;
         const double filled = own + hue_share * (hue[i] * max_level - own);
@@ -229,7 +229,7 @@ float highlight(
 }
 
 /// Phong's shading: normals between the corners, light in the pixel.
-PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, int row) {
+PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
     const TriangleExtra& extra = *one.extra;
     // Beyond an edge, where only a pixel's samples are covered, the edge's colour.
     std::array<float, 3> weights;
@@ -238,31 +238,31 @@ PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, in
         weights[k] = static_cast<float>(std::max(extra.from_edges[k].at(column, row), 0.0));
         sum += weights[k];
     }
-    float clear = 0.0F;
+    float transmittance = 0.0F;
     for (std::size_t k = 0; k < 3; ++k) {
         weights[k] = sum > 0.0F ? weights[k] / sum : 1.0F / 3.0F;
-        clear += weights[k] * extra.lit[k]->clear;
+        transmittance += weights[k] * extra.lit[k]->transmittance;
     }
     const Light& light = *job.light;
     const std::array to_sun{light.to_sun.x, light.to_sun.y, light.to_sun.z};
-    const auto normal = mixed(extra, weights, &LitCorner::normal);
+    const auto normal = mixed(extra, weights, &LitVertex::normal);
     const float length = std::sqrt(dot(normal, normal));
     const float towards_sun = dot(normal, to_sun);
     float diffuse = 0.0F;
-    float shine = 0.0F;
+    float specular = 0.0F;
     if (towards_sun > 0.0F && length > 0.0F) {
         diffuse = towards_sun / length;
-        shine = scene::Highlight::share * static_cast<float>(max_level) *
-                highlight(normal, mixed(extra, weights, &LitCorner::to_eye), to_sun, towards_sun);
+        specular = scene::Highlight::share * static_cast<float>(max_level) *
+                highlight(normal, mixed(extra, weights, &LitVertex::to_eye), to_sun, towards_sun);
     }
-    const auto own = mixed(extra, weights, &LitCorner::rgb);
-    const auto haze = mixed(extra, weights, &LitCorner::haze);
+    const auto own = mixed(extra, weights, &LitVertex::rgb);
+    const auto haze = mixed(extra, weights, &LitVertex::haze);
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto part = static_cast<glm::length_t>(i);
         const float lit = own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) +
-                          light.sunlight[part] * shine;
-        const float seen = std::min(lit, static_cast<float>(max_level)) * clear + haze[i];
+                          light.sunlight[part] * specular;
+        const float seen = std::min(lit, static_cast<float>(max_level)) * transmittance + haze[i];
         colour[i] = packed(static_cast<double>(seen));
     }
     return colour;
@@ -273,26 +273,26 @@ PixelColour by_light(const TileTriangle& one, const TileJob& job, int column, in
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row) {
     switch (one.triangle->fill) {
     case Fill::Perspective:
-        return by_perspective(one, column, row);
+        return perspective_colour(one, column, row);
     case Fill::Texture:
-        return by_texture(one, job, column, row);
+        return affine_texture_colour(one, job, column, row);
     case Fill::TextureInPerspective:
-        return by_texture_in_perspective(one, job, column, row);
+        return perspective_texture_colour(one, job, column, row);
     case Fill::Mesh:
-        return by_mesh(one, job, column, row);
+        return wireframe_colour(one, job, column, row);
     case Fill::Lit:
-        return by_light(one, job, column, row);
-    case Fill::Levels:
-    case Fill::Veil:
+        return lit_colour(one, job, column, row);
+    case Fill::Gouraud:
+    case Fill::Transparent:
         break;
     }
-    return by_levels(*one.triangle, column, row);
+    return gouraud_colour(*one.triangle, column, row);
 }
 
 std::uint32_t overlay_colour_of(const TileTriangle& one, int column, int row) {
     std::uint32_t colour = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::int32_t level = limited(one.triangle->levels, i, column, row);
+        const std::int32_t level = limited(one.triangle->gradients, i, column, row);
         colour |= static_cast<std::uint32_t>((level + 128 * 128 + 64) >> 7) << (8 * i);
     }
     return colour;

@@ -18,11 +18,11 @@ Projection projection_of(const scene::FramePlan& plan, const glm::ivec2& size_px
     projection.size_px = size_px;
     projection.half_px = glm::vec2(size_px) * 0.5F;
     projection.near_m = plan.view_to_clip[3][2];
-    projection.max_by_w = glm::vec2(farthest_px) / projection.half_px;
+    projection.max_over_w = glm::vec2(farthest_px) / projection.half_px;
     return projection;
 }
 
-ClipPlace clip_place(const Projection& projection, const glm::vec3& position_m) {
+ClipPosition clip_position(const Projection& projection, const glm::vec3& position_m) {
     const glm::mat4& m = projection.world_to_clip;
     const auto row = [&](glm::length_t i) {
         return m[0][i] * position_m.x + m[1][i] * position_m.y + m[2][i] * position_m.z + m[3][i];
@@ -30,15 +30,15 @@ ClipPlace clip_place(const Projection& projection, const glm::vec3& position_m) 
     return {row(0), row(1), row(3)};
 }
 
-void place(const Projection& projection, const ClipPlace& clip, ScreenVertex& vertex) {
-    vertex.outside = (clip.x < -clip.w ? left_of_view : 0U) |
+void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex) {
+    vertex.outcode = (clip.x < -clip.w ? left_of_view : 0U) |
                      (clip.x > clip.w ? right_of_view : 0U) | (clip.y > clip.w ? above_view : 0U) |
                      (clip.y < -clip.w ? below_view : 0U);
-    const glm::vec2 most = projection.max_by_w * clip.w;
+    const glm::vec2 most = projection.max_over_w * clip.w;
     // Written so that what is no number counts as unplaced.
     if (!(clip.w >= projection.near_m && std::abs(clip.x) <= most.x &&
           std::abs(clip.y) <= most.y)) {
-        vertex.outside |= unplaced;
+        vertex.outcode |= beyond_range;
         return;
     }
     vertex.inverse_w = 1.0F / clip.w;

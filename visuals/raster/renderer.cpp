@@ -28,7 +28,7 @@ glm::vec3 haze_ahead(const scene::FramePlan& plan) {
     const glm::vec3 ahead(
         -plan.world_to_view[0].z, -plan.world_to_view[1].z, -plan.world_to_view[2].z);
     const float towards = std::max(glm::dot(glm::vec2(ahead), plan.haze.horizontal_to_sun), 0.0F);
-    return glm::mix(plan.haze.colour, plan.haze.sunward, towards * towards);
+    return glm::mix(plan.haze.colour, plan.haze.sunward_colour, towards * towards);
 }
 
 } // namespace
@@ -42,14 +42,14 @@ Renderer::Renderer(
     , window_(std::move(window))
     , samples_(samples)
     , lanes_(sample_pattern(samples))
-    , work_(sample_pattern(samples), *workers_) {
+    , binner_(sample_pattern(samples), *workers_) {
     info_.description = fmt::format("raster, {} threads", workers_->threads());
     info_.device = "processor";
-    info_.on_processor = true;
+    info_.is_software = true;
     for (int i = 0; i < workers_->threads(); ++i) {
-        desks_.push_back(std::make_unique<Desk>());
+        thread_scratch_.push_back(std::make_unique<ThreadScratch>());
     }
-    grain_image();
+    detail_image();
     resize(size_px, samples);
 }
 
@@ -62,7 +62,7 @@ void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
     if (samples != samples_) {
         samples_ = samples;
         lanes_ = SampleLanes(sample_pattern(samples));
-        work_.use(sample_pattern(samples));
+        binner_.use(sample_pattern(samples));
     }
     size_px_ = size_px;
     begin_picture();
@@ -70,8 +70,8 @@ void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
 
 /// Makes room for a picture, unless there is.
 void Renderer::begin_picture() {
-    is_in_window_ = is_aimed_;
-    if (is_in_window_) {
+    is_drawn_to_window_ = targets_window_;
+    if (is_drawn_to_window_) {
         pixels_ = window_->begin(size_px_);
         return;
     }
@@ -109,43 +109,43 @@ void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& 
     for (int y = std::max(rect.y - frame, 0); y < last_y; ++y) {
         for (int x = std::max(rect.x - frame, 0); x < last_x; ++x) {
             std::ranges::copy(
-                is_in_window_ ? inset_frame_blue_first : inset_frame, pixels_ + byte_at(x, y));
+                is_drawn_to_window_ ? inset_frame_blue_first : inset_frame, pixels_ + byte_at(x, y));
         }
     }
     draw_into(plan, rect);
 }
 
 void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect) {
-    work_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}});
+    binner_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}});
     draw_calls_ += static_cast<int>(plan.steps.size());
-    const glm::ivec2 tiles = work_.tiles();
+    const glm::ivec2 tiles = binner_.tiles();
     workers_->run(tiles.x * tiles.y, [&](int tile, int thread) {
-        Desk& desk = *desks_[static_cast<std::size_t>(thread)];
+        ThreadScratch& scratch = *thread_scratch_[static_cast<std::size_t>(thread)];
         TileJob job;
         job.first_px =
             glm::ivec2(tile % tiles.x, tile / tiles.x) * glm::ivec2(tile_width, tile_height);
         job.size_px = glm::min(
             glm::ivec2(tile_width, tile_height),
             glm::ivec2(rect.width, rect.height) - job.first_px);
-        job.triangles = work_.triangles_of(tile, desk.triangles);
-        job.overlay = work_.overlay_of(tile, desk.overlay);
+        job.triangles = binner_.triangles_of(tile, scratch.triangles);
+        job.overlay = binner_.overlay_of(tile, scratch.overlay);
         job.background = {
             byte_of(plan.background.x), byte_of(plan.background.y), byte_of(plan.background.z)};
         job.ground = ground_ ? &*ground_ : nullptr;
         job.haze = haze_ahead(plan) * 255.0F;
-        job.grain = plan.grain ? &work_.grain_rays() : nullptr;
-        job.light = &work_.light();
-        job.far_to_near = walk_ == Walk::FarToNear;
-        job.tints_mesh_levels = plan.mesh_look == scene::MeshLook::Levels;
-        job.blue_first = is_in_window_;
+        job.detail_texture = plan.detail_texture ? &binner_.detail_rays() : nullptr;
+        job.light = &binner_.light();
+        job.far_to_near = paint_direction_ == PaintDirection::FarToNear;
+        job.tints_mesh_levels = plan.mesh_display == scene::MeshDisplay::Levels;
+        job.blue_first = is_drawn_to_window_;
         job.rgba = pixels_ + byte_at(rect.x + job.first_px.x, rect.y + job.first_px.y);
         job.row_bytes = std::size_t{4} * static_cast<std::size_t>(size_px_.x);
-        paint_tile(job, lanes_, desk.buffer);
+        paint_tile(job, lanes_, scratch.buffer);
     });
 }
 
 void Renderer::finish_and_read(scene::Picture& picture) {
-    assert(!is_in_window_);
+    assert(!is_drawn_to_window_);
     std::swap(picture, picture_);
 }
 
@@ -154,7 +154,7 @@ void Renderer::finish_and_copy(scene::Picture& picture) {
     picture.height = size_px_.y;
     picture.rgba.resize(byte_at(0, size_px_.y));
     std::copy_n(pixels_, picture.rgba.size(), picture.rgba.data());
-    if (is_in_window_) { // where blue comes first
+    if (is_drawn_to_window_) { // where blue comes first
         for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
             std::swap(picture.rgba[i], picture.rgba[i + 2]);
         }
@@ -162,7 +162,7 @@ void Renderer::finish_and_copy(scene::Picture& picture) {
 }
 
 void Renderer::copy_to_window(const glm::ivec2& size_px) {
-    assert(is_in_window_);
+    assert(is_drawn_to_window_);
     window_->show(size_px);
 }
 

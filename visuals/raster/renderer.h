@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/raster/frame_work.h"
-#include "visuals/raster/ground_image.h"
+#include "visuals/raster/triangle_binner.h"
+#include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/workers.h"
 #include "visuals/scene/renderer.h"
@@ -31,12 +31,12 @@ public:
         std::shared_ptr<scene::WindowPicture> window = nullptr);
 
     /// Which way painting order is walked.
-    enum class Walk {
+    enum class PaintDirection {
         NearToFar, ///< each sample is coloured once
         FarToNear  ///< the painter's way, for comparison; with one sample a pixel only
     };
 
-    void walk(Walk walk) { walk_ = walk; }
+    void set_paint_direction(PaintDirection direction) { paint_direction_ = direction; }
 
     const scene::RendererInfo& info() const override { return info_; }
 
@@ -47,8 +47,8 @@ public:
 
     void warm_up() override {}
 
-    bool begin_beside(std::function<void()> work) override {
-        return workers_->begin_beside(std::move(work));
+    bool begin_on_idle_thread(std::function<void()> work) override {
+        return workers_->begin_on_idle_thread(std::move(work));
     }
 
     void draw(const scene::FramePlan& plan) override;
@@ -61,11 +61,11 @@ public:
 
     int draw_calls() const override { return draw_calls_; }
 
-    void aim_at_window(const glm::ivec2& window_px) override {
-        is_aimed_ = window_ && window_px != glm::ivec2(0);
+    void set_window_target(const glm::ivec2& window_px) override {
+        targets_window_ = window_ && window_px != glm::ivec2(0);
     }
 
-    bool is_in_window() const override { return is_in_window_; }
+    bool is_drawn_to_window() const override { return is_drawn_to_window_; }
 
     void copy_to_window(const glm::ivec2& size_px) override;
 
@@ -78,25 +78,25 @@ private:
     scene::RendererInfo info_;
     std::shared_ptr<scene::WindowPicture> window_;
     int samples_ = 0;
-    Walk walk_ = Walk::NearToFar;
+    PaintDirection paint_direction_ = PaintDirection::NearToFar;
     SampleLanes lanes_;
-    FrameWork work_;
+    TriangleBinner binner_;
     std::vector<scene::ModelBuffers> models_;
-    std::optional<GroundImage> ground_;
+    std::optional<LitGroundTexture> ground_;
 
     /// One for each thread.
-    struct Desk {
+    struct ThreadScratch {
         TileBuffer buffer;
         std::vector<TileTriangle> triangles;
         std::vector<TileTriangle> overlay;
     };
 
-    std::vector<std::unique_ptr<Desk>> desks_;
+    std::vector<std::unique_ptr<ThreadScratch>> thread_scratch_;
     glm::ivec2 size_px_{0};
     scene::Picture picture_; ///< any other one between finish_and_read() and the next draw()
     std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_
-    bool is_aimed_ = false;          ///< at the window
-    bool is_in_window_ = false;
+    bool targets_window_ = false;          ///< at the window
+    bool is_drawn_to_window_ = false;
     int draw_calls_ = 0;
 };
 

@@ -7,7 +7,7 @@
 #define OCTANT_RASTER_STRIP_WALK_INL
 #endif
 
-#include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/strip_gradient-inl.h"
 
 #include <array>
 #include <cstddef>

@@ -8,7 +8,7 @@
 #define OCTANT_RASTER_TEXTURE_WINDOWS_INL
 #endif
 
-#include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/strip_gradient-inl.h"
 
 #include <array>
 #include <bit>
@@ -128,7 +128,7 @@ public:
     using Blocks = hn::Repartition<std::int32_t, Strip>;
 
     HWY_INLINE
-    WindowPlanes(const Levels& levels, const TileJob& job, const TileBox& box, int left) {
+    WindowPlanes(const ColourGradients& gradients, const TileJob& job, const TileBox& box, int left) {
         alignas(16) static constexpr std::array<std::int32_t, 4> share_lanes{0, 0, -1, -1};
         // To the middle level, and what rounds levels to 1/128.
         alignas(16) static constexpr std::array<std::int32_t, 4> more{
@@ -138,14 +138,14 @@ public:
         is_share_ = hn::LoadDup128(blocks, share_lanes.data());
         // Columns of shares are counted from the box.
         right_ = hn::And(set(left - box.left), is_share_);
-        const auto per_x = hn::LoadDup128(blocks, levels.per_x.data());
-        per_row_ = hn::LoadDup128(blocks, levels.per_y.data());
+        const auto per_x = hn::LoadDup128(blocks, gradients.per_x.data());
+        per_row_ = hn::LoadDup128(blocks, gradients.per_y.data());
         const auto base = hn::Add(
-            hn::LoadDup128(blocks, levels.base.data()), hn::LoadDup128(blocks, more.data()));
+            hn::LoadDup128(blocks, gradients.base.data()), hn::LoadDup128(blocks, more.data()));
         const auto first_column = hn::Sub(set(job.first_px.x + left), right_);
         const auto first_row = set(job.first_px.y + box.first_row);
         at_ = hn::Add(hn::Add(base, hn::Mul(per_x, first_column)), hn::Mul(per_row_, first_row));
-        const auto steps = hn::LoadDup128(StripSigned(), levels.per_column.data());
+        const auto steps = hn::LoadDup128(StripSigned(), gradients.per_column.data());
         per_column_ = hn::IfVecThenElse(
             is_share_,
             hn::BitCast(blocks, hn::InterleaveLower(StripSigned(), steps, steps)),
@@ -189,18 +189,18 @@ HWY_INLINE hn::Vec<Strip> share_of(hn::Vec<StripSigned> level) {
     return hn::ShiftLeft<1>(hn::Add(hn::BitCast(Strip(), level), hn::Set(Strip(), 128 * 128)));
 }
 
-/// Light or haze along windows, as StripLevel.
+/// Light or haze along windows, as StripGradient.
 struct ShareSteps {
     hn::Vec<StripSigned> steps;
     hn::Vec<StripSigned> least;
     hn::Vec<StripSigned> most;
 
-    HWY_INLINE ShareSteps(const Levels& levels, std::size_t k)
-        : least(hn::Set(StripSigned(), levels.least[k]))
-        , most(hn::Set(StripSigned(), levels.most[k])) {
+    HWY_INLINE ShareSteps(const ColourGradients& gradients, std::size_t k)
+        : least(hn::Set(StripSigned(), gradients.least[k]))
+        , most(hn::Set(StripSigned(), gradients.most[k])) {
         const StripSigned sign;
         const auto px = hn::Set(sign, static_cast<std::int16_t>(texture_window_px - 1));
-        steps = hn::Mul(hn::And(counting_from(sign, 0), px), hn::Set(sign, levels.per_column[k]));
+        steps = hn::Mul(hn::And(lane_indices_from(sign, 0), px), hn::Set(sign, gradients.per_column[k]));
     }
 
     HWY_INLINE hn::Vec<Strip> share(hn::Vec<StripSigned> first) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "visuals/raster/grain_image.h"
-#include "visuals/raster/ground_image.h"
+#include "visuals/raster/detail_image.h"
+#include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"
 
@@ -31,9 +31,9 @@ struct TileJob {
     std::span<const TileTriangle> triangles; ///< in painting order
     std::span<const TileTriangle> overlay;   ///< in painting order, over all others
     std::array<std::uint8_t, 3> background{};
-    const GroundImage* ground = nullptr; ///< for textures
+    const LitGroundTexture* ground = nullptr; ///< for textures
     glm::vec3 haze{0.0F};                ///< levels, for textures
-    const GrainRays* grain = nullptr;    ///< none in a picture without
+    const DetailRays* detail_texture = nullptr;    ///< none in a picture without
     const Light* light = nullptr;        ///< for Fill::Lit
     bool tints_mesh_levels = false;      ///< for Fill::Mesh
     bool far_to_near = false;            ///< each triangle over what is there; one sample a pixel
@@ -78,7 +78,7 @@ struct Coverage {
 };
 
 /// What a clear triangle does to a pixel of a tile.
-struct ClearPixel {
+struct TransparentPixel {
     std::uint16_t pixel = 0;
     std::uint16_t mask = 0;                ///< samples where it is seen
     std::array<std::uint16_t, 3> colour{}; ///< as PixelColour
@@ -104,7 +104,7 @@ struct TileBuffer {
     /// anything but ground that has it.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
     /// Where the picture has grain: of the first pixel, third, and so on of the first row, third,
-    /// and so on, the GroundPlace that was painted there last; 0: none. Rows follow each other
+    /// and so on, the PackedGround that was painted there last; 0: none. Rows follow each other
     /// without gaps; there is room before the first one and behind the last.
     static constexpr std::size_t ground_room = 16;
     alignas(64) std::array<std::uint32_t, pixels / 4 + 2 * ground_room> ground{};
@@ -120,12 +120,12 @@ struct TileBuffer {
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
     /// What is seen of clear triangles: those of the nearest group first, in a group in painting
     /// order.
-    std::vector<ClearPixel> clear;
-    std::vector<std::size_t> first_clear; ///< of each group that has any
-    std::vector<std::uint32_t> last_veil; ///< of each pixel: place in `clear`, from 1; 0: none
+    std::vector<TransparentPixel> transparent_pixels;
+    std::vector<std::size_t> group_first_transparent; ///< of each group that has any
+    std::vector<std::uint32_t> last_transparent; ///< of each pixel: place in `clear`, from 1; 0: none
     // Of the overlay: what waits to be blended.
-    std::vector<std::uint16_t> waiting;
-    std::vector<std::uint32_t> waiting_colour;
+    std::vector<std::uint16_t> pending;
+    std::vector<std::uint32_t> pending_colours;
 
     /// Of a row of even number.
     std::uint32_t* ground_of_row(int row) {

@@ -7,7 +7,7 @@
 #define OCTANT_RASTER_COVERAGE_INL
 #endif
 
-#include "visuals/raster/tile_counting-inl.h"
+#include "visuals/raster/lane_indices-inl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,13 +91,13 @@ struct LaneOffsets<Words, 4> {
 };
 
 /// An edge in a tile, row by row.
-struct EdgeWalk {
+struct EdgeStepper {
     std::int64_t x; ///< at the middle of the tile's first row, from its first column, 2^-32 pixel
     std::int64_t slope; ///< x a row
     LaneOffsets<hn::CappedTag<std::int32_t, 8>> offsets;
 
     /// `top`: of the edge, 1/256 pixel.
-    HWY_INLINE EdgeWalk(
+    HWY_INLINE EdgeStepper(
         const Edge& edge, std::int32_t top, const glm::ivec2& tile_px, const SampleLanes& lanes)
         : slope(edge.slope)
         , offsets(static_cast<std::int32_t>(edge.slope >> 21), lanes) {
@@ -122,7 +122,7 @@ struct EdgeWalk {
 
 /// Bounds the columns of each lane by a line, too.
 HWY_INLINE void bound_by(
-    const CutLine& line,
+    const ClipLine& line,
     const SampleLanes& lanes,
     const glm::ivec2& tile_px,
     std::int32_t row,
@@ -161,7 +161,7 @@ struct RowSpan {
 
 /// Narrows a row to the columns that two edges cross or enclose, both of which go through the whole
 /// row.
-HWY_INLINE void narrow(const EdgeWalk& left, const EdgeWalk& right, int row, RowSpan& span) {
+HWY_INLINE void narrow(const EdgeStepper& left, const EdgeStepper& right, int row, RowSpan& span) {
     constexpr std::int64_t half_px = std::int64_t{1} << 31;
     const std::int64_t left_reach = std::abs(left.slope) / 2 + half_px;
     const std::int64_t right_reach = std::abs(right.slope) / 2 + half_px;
@@ -203,7 +203,7 @@ HWY_INLINE void write_masks(
     const auto from_all = repeated(wide, hn::Add(least, half));
     const auto count_all =
         hn::BitCast(sign, repeated(wide, hn::Sub(hn::SaturatedSub(end, least), half)));
-    const auto pixels = hn::ShiftRight<4>(counting_from(wide, 0));
+    const auto pixels = hn::ShiftRight<4>(lane_indices_from(wide, 0));
     for (int block = 0; block < blocks; ++block) {
         const int first = span.first + 16 * block;
         std::uint16_t* const to = masks + 16 * block;
@@ -236,9 +236,9 @@ HWY_INLINE int lanes_above(std::int32_t y, std::int32_t row, const SampleLanes& 
 HWY_NOINLINE void
 cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Triangle& triangle = *one.triangle;
-    const EdgeWalk whole(triangle.whole, triangle.top, job.first_px, lanes);
-    const EdgeWalk upper(triangle.upper, triangle.top, job.first_px, lanes);
-    const EdgeWalk lower(triangle.lower, triangle.middle, job.first_px, lanes);
+    const EdgeStepper whole(triangle.whole, triangle.top, job.first_px, lanes);
+    const EdgeStepper upper(triangle.upper, triangle.top, job.first_px, lanes);
+    const EdgeStepper lower(triangle.lower, triangle.middle, job.first_px, lanes);
     const bool bends_left = triangle.middle_is_left;
     const std::int32_t tile_row = job.first_px.y;
     Coverage& coverage = buffer.coverage;
@@ -262,7 +262,7 @@ cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, Til
         const bool is_upper = below <= triangle.middle;
         const bool is_through = above >= triangle.top && below <= triangle.bottom &&
                                 (is_upper || above >= triangle.middle);
-        const EdgeWalk& bent = is_upper ? upper : lower;
+        const EdgeStepper& bent = is_upper ? upper : lower;
         RowSpan span{left, right, tile_width, 0};
         if (is_through) {
             narrow(bends_left ? bent : whole, bends_left ? whole : bent, at, span);
@@ -282,7 +282,7 @@ cover(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, Til
         const auto whole_columns = whole.columns(at);
         auto within = hn::Set(Bytes(), tile_width);
         if (!is_through) {
-            const auto lane = counting_from(Bytes(), 0);
+            const auto lane = lane_indices_from(Bytes(), 0);
             const auto is_before = [&](std::int32_t y) HWY_ATTR {
                 return hn::Lt(
                     lane, hn::Set(Bytes(), static_cast<std::uint8_t>(lanes_above(y, row, lanes))));

@@ -9,7 +9,7 @@
 #endif
 
 #include "visuals/raster/pixel_colour.h"
-#include "visuals/raster/strip_level-inl.h"
+#include "visuals/raster/strip_gradient-inl.h"
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
 
@@ -60,11 +60,11 @@ HWY_INLINE void clear_group(const GroupBox& box, TileBuffer& buffer) {
 }
 
 /// The depths of a triangle at the samples of a pixel: its own plus one for each sample.
-struct DepthWalk {
-    RealPlane middle; ///< at pixel middles, from the tile's first: steep planes cancel much
+struct DepthStepper {
+    AttributePlane middle; ///< at pixel middles, from the tile's first: steep planes cancel much
     alignas(64) std::array<float, samples> of_sample{};
 
-    DepthWalk(const TriangleExtra& extra, const TileJob& job, const SampleLanes& lanes) {
+    DepthStepper(const TriangleExtra& extra, const TileJob& job, const SampleLanes& lanes) {
         const auto share = static_cast<double>(extra.depth_share);
         middle.base = extra.depth.at(job.first_px.x, job.first_px.y) * share;
         middle.per_x = extra.depth.per_x * share;
@@ -83,7 +83,7 @@ struct DepthWalk {
 HWY_INLINE void draw_pixel(
     std::uint32_t mask,
     float pixel_depth,
-    const DepthWalk& walk,
+    const DepthStepper& walk,
     scene::DepthUse use,
     std::uint32_t name,
     float* depth,
@@ -93,7 +93,7 @@ HWY_INLINE void draw_pixel(
     const Seen whole;
     const std::size_t at_once = hn::Lanes(real);
     for (std::size_t lane = 0; lane < samples; lane += at_once) {
-        const auto bit = hn::Shl(hn::Set(whole, 1U), counting_from(whole, lane));
+        const auto bit = hn::Shl(hn::Set(whole, 1U), lane_indices_from(whole, lane));
         const auto covered =
             hn::RebindMask(real, hn::Ne(hn::And(hn::Set(whole, mask), bit), hn::Zero(whole)));
         const auto before = hn::LoadU(real, depth + lane);
@@ -124,7 +124,7 @@ HWY_INLINE void draw_by_depth(
     const TileJob& job,
     const SampleLanes& lanes,
     TileBuffer& buffer) {
-    const DepthWalk walk(*one.extra, job, lanes);
+    const DepthStepper walk(*one.extra, job, lanes);
     const scene::DepthUse use = one.triangle->depth;
     const Coverage& coverage = buffer.coverage;
     for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
@@ -152,7 +152,7 @@ HWY_INLINE void draw_by_depth(
 
 /// The covered samples of a pixel where a clear triangle is nearer than what is there.
 HWY_INLINE std::uint32_t
-nearer_samples(std::uint32_t mask, float pixel_depth, const DepthWalk& walk, const float* depth) {
+nearer_samples(std::uint32_t mask, float pixel_depth, const DepthStepper& walk, const float* depth) {
     const Depths real;
     std::uint32_t nearer = 0;
     for (std::size_t lane = 0; lane < samples; lane += hn::Lanes(real)) {
@@ -166,9 +166,9 @@ nearer_samples(std::uint32_t mask, float pixel_depth, const DepthWalk& walk, con
 }
 
 /// Notes where a clear triangle is seen: before its group, and not behind nearer ones.
-HWY_INLINE void note_clear(
+HWY_INLINE void record_transparent_surface(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    const DepthWalk walk(*one.extra, job, lanes);
+    const DepthStepper walk(*one.extra, job, lanes);
     const Coverage& coverage = buffer.coverage;
     for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
         const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
@@ -184,11 +184,11 @@ HWY_INLINE void note_clear(
             const std::uint32_t seen = nearer_samples(
                 free, walk.at(column, row), walk, buffer.depth.data() + pixel * samples);
             if (seen != 0) {
-                buffer.clear.push_back(
+                buffer.transparent_pixels.push_back(
                     {static_cast<std::uint16_t>(pixel),
                      static_cast<std::uint16_t>(seen),
                      colour_of(one, job, job.first_px.x + column, job.first_px.y + row),
-                     ClearPixel::share_of(one.extra->opacity, std::popcount(seen))});
+                     TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
             }
         }
     }
@@ -242,17 +242,17 @@ HWY_INLINE void paint_group(
         return;
     }
     clear_group(box, buffer);
-    const std::size_t clear_before = buffer.clear.size();
+    const std::size_t clear_before = buffer.transparent_pixels.size();
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover(group[i], job, lanes, buffer);
         if (group[i].extra->opacity < 1.0F) {
-            note_clear(group[i], job, lanes, buffer);
+            record_transparent_surface(group[i], job, lanes, buffer);
         } else {
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
         }
     }
-    if (buffer.clear.size() > clear_before) {
-        buffer.first_clear.push_back(clear_before);
+    if (buffer.transparent_pixels.size() > clear_before) {
+        buffer.group_first_transparent.push_back(clear_before);
     }
     // Each of its samples shows one triangle: they are coloured in any order.
     for (std::size_t i = 0; i < group.size(); ++i) {

@@ -9,7 +9,7 @@
 
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/tile_coverage-inl.h"
-#include "visuals/raster/tile_nearness-inl.h"
+#include "visuals/raster/tile_inverse_depth-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 
@@ -42,25 +42,25 @@ take_free(const std::uint16_t* masks, std::uint16_t* covered, Counts& counts, st
 }
 
 /// Levels along a row of pixels: 1/128 level from the level 128, wrapping.
-struct LevelWalk {
+struct GradientStepper {
     alignas(16) std::array<std::int32_t, 4> base; ///< at the first pixel of a block; 16 bits count
     std::array<std::int16_t, 4> per_px;
 };
 
-HWY_INLINE void add_level(
-    const LevelWalk& walk,
-    const Levels& levels,
+HWY_INLINE void add_gradient(
+    const GradientStepper& walk,
+    const ColourGradients& gradients,
     std::size_t k,
     std::size_t pixel_in_block,
     Counts counts,
     std::uint16_t* sums) {
     const PixelsSigned sign;
     const Pixels px;
-    const auto steps = counting_from(sign, pixel_in_block);
+    const auto steps = lane_indices_from(sign, pixel_in_block);
     const auto base = hn::Set(sign, static_cast<std::int16_t>(walk.base[k]));
     const auto raw = hn::Add(base, hn::Mul(steps, hn::Set(sign, walk.per_px[k])));
     const auto level =
-        hn::Min(hn::Max(raw, hn::Set(sign, levels.least[k])), hn::Set(sign, levels.most[k]));
+        hn::Min(hn::Max(raw, hn::Set(sign, gradients.least[k])), hn::Set(sign, gradients.most[k]));
     // To 1/16 level from 0, rounded.
     const auto from_zero = hn::Add(hn::BitCast(px, level), hn::Set(px, 128 * 128 + 4));
     const auto colour = hn::ShiftRight<3>(from_zero);
@@ -69,26 +69,26 @@ HWY_INLINE void add_level(
 
 /// The planes' levels at a column and row of the picture.
 HWY_INLINE void
-walk_levels(const Levels& levels, std::int32_t column, std::int32_t row, LevelWalk& walk) {
+step_gradients(const ColourGradients& gradients, std::int32_t column, std::int32_t row, GradientStepper& walk) {
     const hn::FixedTag<std::int32_t, 4> four;
-    const auto across = hn::Mul(hn::Load(four, levels.per_x.data()), hn::Set(four, column));
-    const auto down = hn::Mul(hn::Load(four, levels.per_y.data()), hn::Set(four, row));
+    const auto across = hn::Mul(hn::Load(four, gradients.per_x.data()), hn::Set(four, column));
+    const auto down = hn::Mul(hn::Load(four, gradients.per_y.data()), hn::Set(four, row));
     const auto at = hn::Add(
-        hn::Add(hn::Load(four, levels.base.data()), hn::Set(four, 256)), hn::Add(across, down));
+        hn::Add(hn::Load(four, gradients.base.data()), hn::Set(four, 256)), hn::Add(across, down));
     hn::Store(hn::ShiftRight<9>(at), four, walk.base.data());
-    walk.per_px = levels.per_column;
+    walk.per_px = gradients.per_column;
 }
 
 /// Levels corrected for perspective at the ends of a block and even in between. The ends lie within
 /// the columns that the triangle covers, where 1 / w is positive.
 HWY_INLINE void walk_perspective(
-    const TriangleExtra& extra, int column, int last_column, int row, LevelWalk& walk) {
+    const TriangleExtra& extra, int column, int last_column, int row, GradientStepper& walk) {
     const int end = std::max(std::min(column + block_px, last_column), column + 1);
-    const double w_here = 1.0 / std::max(extra.by_w[4].at(column, row), 1e-30);
-    const double w_end = 1.0 / std::max(extra.by_w[4].at(end, row), 1e-30);
+    const double w_here = 1.0 / std::max(extra.over_w[4].at(column, row), 1e-30);
+    const double w_end = 1.0 / std::max(extra.over_w[4].at(end, row), 1e-30);
     for (std::size_t i = 0; i < walk.base.size(); ++i) {
-        const double here = extra.by_w[i].at(column, row) * w_here;
-        const double there = extra.by_w[i].at(end, row) * w_end;
+        const double here = extra.over_w[i].at(column, row) * w_here;
+        const double there = extra.over_w[i].at(end, row) * w_end;
         const double per_px = (there - here) / (end - column);
         walk.base[i] =
             static_cast<std::int32_t>(std::clamp((here - 128.0) * 128.0, -32000.0, 32000.0));
@@ -136,7 +136,7 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                                                static_cast<std::size_t>(in_tile);
             const auto pixel = static_cast<std::size_t>(at * tile_width + in_tile);
             bool walked = false;
-            LevelWalk walk;
+            GradientStepper walk;
             for (std::size_t i = 0; i < block_px; i += px_at_once) {
                 Counts counts;
                 std::uint64_t full = 0;
@@ -147,10 +147,10 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                 if (shift < tile_width) {
                     buffer.full[static_cast<std::size_t>(at)] |= full << shift;
                 }
-                if (job.grain != nullptr && !triangle.has_grain) {
-                    count_beside(Pixels(), pixel + i, counts, buffer);
+                if (job.detail_texture != nullptr && !triangle.has_detail_texture) {
+                    count_other_than_ground(Pixels(), pixel + i, counts, buffer);
                 }
-                if (triangle.fill != Fill::Levels && triangle.fill != Fill::Perspective) {
+                if (triangle.fill != Fill::Gouraud && triangle.fill != Fill::Perspective) {
                     alignas(32) std::array<std::uint16_t, px_at_once> each;
                     hn::Store(counts, Pixels(), each.data());
                     add_pixel_by_pixel(
@@ -165,18 +165,18 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                 }
                 if (!walked) {
                     walked = true;
-                    if (triangle.fill == Fill::Levels) {
-                        walk_levels(triangle.levels, column, row, walk);
+                    if (triangle.fill == Fill::Gouraud) {
+                        step_gradients(triangle.gradients, column, row, walk);
                     } else {
                         walk_perspective(
                             *one.extra, column, job.first_px.x + places.last, row, walk);
                     }
                 }
                 for (std::size_t k = 0; k < 3; ++k) {
-                    add_level(
-                        walk, triangle.levels, k, i, counts, buffer.sums[k].data() + pixel + i);
+                    add_gradient(
+                        walk, triangle.gradients, k, i, counts, buffer.sums[k].data() + pixel + i);
                 }
-                if (triangle.has_grain) {
+                if (triangle.has_detail_texture) {
                     const glm::ivec2 from(in_tile + static_cast<int>(i), at);
                     put_ground(Pixels(), triangle, job, from, counts, buffer);
                 }

@@ -18,16 +18,16 @@
 #pragma GCC optimize("Og")
 #endif
 
-#include "visuals/raster/tile_compared-inl.h"
+#include "visuals/raster/reference_rasterizer-inl.h"
 #include "visuals/raster/tile_coverage-inl.h"
 #include "visuals/raster/tile_depth-inl.h"
-#include "visuals/raster/tile_even_texture-inl.h"
+#include "visuals/raster/tile_affine_triangle-inl.h"
 #include "visuals/raster/tile_fill-inl.h"
-#include "visuals/raster/tile_grain-inl.h"
-#include "visuals/raster/tile_levels-inl.h"
+#include "visuals/raster/tile_detail_texture-inl.h"
+#include "visuals/raster/tile_gouraud-inl.h"
 #include "visuals/raster/tile_picture-inl.h"
-#include "visuals/raster/tile_texture-inl.h"
-#include "visuals/raster/tile_veil-inl.h"
+#include "visuals/raster/perspective_texture-inl.h"
+#include "visuals/raster/tile_transparent-inl.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,16 +44,16 @@ namespace HWY_NAMESPACE {
 HWY_INLINE void paint_one(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Fill fill_with = one.triangle->fill;
-    if (fill_with == Fill::Levels && one.extra == nullptr) {
-        if (job.grain == nullptr) {
-            paint_levels<PaintAs::Plain>(*one.triangle, job, lanes, buffer);
-        } else if (one.triangle->has_grain) {
-            paint_levels<PaintAs::Ground>(*one.triangle, job, lanes, buffer);
+    if (fill_with == Fill::Gouraud && one.extra == nullptr) {
+        if (job.detail_texture == nullptr) {
+            paint_gouraud<PaintAs::Plain>(*one.triangle, job, lanes, buffer);
+        } else if (one.triangle->has_detail_texture) {
+            paint_gouraud<PaintAs::Ground>(*one.triangle, job, lanes, buffer);
         } else {
-            paint_levels<PaintAs::Beside>(*one.triangle, job, lanes, buffer);
+            paint_gouraud<PaintAs::Beside>(*one.triangle, job, lanes, buffer);
         }
     } else if (fill_with == Fill::Texture) {
-        paint_even_texture(*one.triangle, job, lanes, buffer);
+        paint_affine_triangle(*one.triangle, job, lanes, buffer);
     } else if (fill_with == Fill::TextureInPerspective && one.extra->cut_count == 0) {
         paint_texture(one, job, lanes, buffer);
     } else {
@@ -64,7 +64,7 @@ HWY_INLINE void paint_one(
 
 /// Triangles lie where they were set up, far apart for a tile: they are on their way from memory
 /// while others are painted.
-HWY_INLINE void fetch_ahead(const TileJob& job, std::size_t end) {
+HWY_INLINE void prefetch_triangle(const TileJob& job, std::size_t end) {
     constexpr std::size_t ahead = 4;
     constexpr std::size_t cache_line = 64;
     if (end >= ahead) {
@@ -80,14 +80,14 @@ HWY_INLINE void
 paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     std::size_t end = job.triangles.size();
     while (end > 0 && buffer.full_rows != job.full_rows()) {
-        fetch_ahead(job, end);
+        prefetch_triangle(job, end);
         const std::uint16_t group = job.triangles[end - 1].triangle->group;
         std::size_t first = end - 1;
-        if (is_veil(job.triangles[first])) {
-            while (first > 0 && is_veil(job.triangles[first - 1])) {
+        if (is_transparent_fill(job.triangles[first])) {
+            while (first > 0 && is_transparent_fill(job.triangles[first - 1])) {
                 --first;
             }
-            note_veil({job.triangles.data() + first, end - first}, job, lanes, buffer);
+            record_transparent({job.triangles.data() + first, end - first}, job, lanes, buffer);
         } else if (group == 0) {
             const TileTriangle& one = job.triangles[first];
             paint_one(one, job, lanes, buffer);
@@ -103,18 +103,18 @@ paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buff
 
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     clear(job, buffer);
-    buffer.clear.clear();
-    buffer.first_clear.clear();
+    buffer.transparent_pixels.clear();
+    buffer.group_first_transparent.clear();
     if (is_painted_over(job, lanes)) {
         paint_over(job, lanes, buffer);
     } else {
         paint_near_to_far(job, lanes, buffer);
     }
-    if (job.grain != nullptr) {
-        add_grain(job, buffer);
+    if (job.detail_texture != nullptr) {
+        add_detail_texture(job, buffer);
     }
     resolve(job, buffer);
-    paint_clear(job, buffer);
+    blend_transparent(job, buffer);
     paint_overlay(job, lanes, buffer);
 }
 
@@ -132,7 +132,7 @@ namespace {
 
 /// Highway's set AVX3_DL is used with GFNI, which all its processors have but Highway does not ask
 /// for.
-bool leave_out_sets_without_gfni() {
+bool exclude_targets_without_gfni() {
 #if HWY_ARCH_X86
     if (__builtin_cpu_supports("gfni") == 0) {
         hwy::DisableTargets(HWY_AVX3_DL);
@@ -144,7 +144,7 @@ bool leave_out_sets_without_gfni() {
 } // namespace
 
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    static const bool may_choose = leave_out_sets_without_gfni();
+    static const bool may_choose = exclude_targets_without_gfni();
     static_cast<void>(may_choose);
     HWY_DYNAMIC_DISPATCH(PaintTile)(job, lanes, buffer);
 }

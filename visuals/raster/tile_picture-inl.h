@@ -24,7 +24,7 @@ HWY_NOINLINE void clear(const TileJob& job, TileBuffer& buffer) {
     for (std::size_t k = 0; k < 3; ++k) {
         buffer.sums[k].fill(0);
     }
-    if (job.grain != nullptr) {
+    if (job.detail_texture != nullptr) {
         buffer.sums[3].fill(0);
         buffer.ground.fill(0);
     }
@@ -124,8 +124,8 @@ HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
 /// Blends what waits at a pixel.
 HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffer) {
     const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-    const std::uint32_t colour = buffer.waiting_colour[pixel];
-    const auto samples_covered = static_cast<std::uint32_t>(std::popcount(buffer.waiting[pixel]));
+    const std::uint32_t colour = buffer.pending_colours[pixel];
+    const auto samples_covered = static_cast<std::uint32_t>(std::popcount(buffer.pending[pixel]));
     const std::uint32_t share = (colour >> 24U) * samples_covered; // of 255 * 16
     std::uint8_t* const to = job.rgba + static_cast<std::size_t>(row) * job.row_bytes +
                              static_cast<std::size_t>(column) * 4;
@@ -134,12 +134,12 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
         std::uint8_t& under = to[byte_of_colour(job, k)];
         under = static_cast<std::uint8_t>((over * share + under * (4080U - share) + 2040U) / 4080U);
     }
-    buffer.waiting[pixel] = 0;
+    buffer.pending[pixel] = 0;
 }
 
 /// Blends one clear triangle over a pixel.
-HWY_INLINE void blend_clear(const TileJob& job, const ClearPixel& clear) {
-    constexpr std::uint32_t whole = ClearPixel::whole;
+HWY_INLINE void blend_transparent_pixel(const TileJob& job, const TransparentPixel& clear) {
+    constexpr std::uint32_t whole = TransparentPixel::whole;
     const std::uint32_t share = clear.share;
     const int row = clear.pixel / tile_width;
     const int column = clear.pixel % tile_width;
@@ -154,12 +154,12 @@ HWY_INLINE void blend_clear(const TileJob& job, const ClearPixel& clear) {
 }
 
 /// Clear surfaces over the picture: the farthest group's first.
-HWY_INLINE void paint_clear(const TileJob& job, const TileBuffer& buffer) {
-    std::size_t end = buffer.clear.size();
-    for (std::size_t group = buffer.first_clear.size(); group > 0; --group) {
-        const std::size_t first = buffer.first_clear[group - 1];
+HWY_INLINE void blend_transparent(const TileJob& job, const TileBuffer& buffer) {
+    std::size_t end = buffer.transparent_pixels.size();
+    for (std::size_t group = buffer.group_first_transparent.size(); group > 0; --group) {
+        const std::size_t first = buffer.group_first_transparent[group - 1];
         for (std::size_t i = first; i < end; ++i) {
-            blend_clear(job, buffer.clear[i]);
+            blend_transparent_pixel(job, buffer.transparent_pixels[i]);
         }
         end = first;
     }
@@ -173,8 +173,8 @@ HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, Tile
     }
     buffer.full.fill(0);
     buffer.full_rows = 0;
-    buffer.waiting.assign(TileBuffer::pixels, 0);
-    buffer.waiting_colour.resize(TileBuffer::pixels);
+    buffer.pending.assign(TileBuffer::pixels, 0);
+    buffer.pending_colours.resize(TileBuffer::pixels);
     for (const TileTriangle& one : job.overlay) {
         cover(one, job, lanes, buffer);
         const Coverage& coverage = buffer.coverage;
@@ -191,18 +191,18 @@ HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, Tile
                 const auto pixel = static_cast<std::size_t>(row * tile_width + column);
                 const std::uint32_t colour =
                     overlay_colour_of(one, job.first_px.x + column, job.first_px.y + row);
-                if (buffer.waiting[pixel] != 0 && (buffer.waiting_colour[pixel] != colour ||
-                                                   (buffer.waiting[pixel] & mask) != 0)) {
+                if (buffer.pending[pixel] != 0 && (buffer.pending_colours[pixel] != colour ||
+                                                   (buffer.pending[pixel] & mask) != 0)) {
                     blend(job, column, row, buffer);
                 }
-                buffer.waiting[pixel] = static_cast<std::uint16_t>(buffer.waiting[pixel] | mask);
-                buffer.waiting_colour[pixel] = colour;
+                buffer.pending[pixel] = static_cast<std::uint16_t>(buffer.pending[pixel] | mask);
+                buffer.pending_colours[pixel] = colour;
             }
         }
     }
     for (int row = 0; row < job.size_px.y; ++row) {
         for (int column = 0; column < job.size_px.x; ++column) {
-            if (buffer.waiting[static_cast<std::size_t>(row * tile_width + column)] != 0) {
+            if (buffer.pending[static_cast<std::size_t>(row * tile_width + column)] != 0) {
                 blend(job, column, row, buffer);
             }
         }

@@ -8,9 +8,9 @@
 #define OCTANT_RASTER_ROWS_INL
 #endif
 
-#include "visuals/raster/strip_level-inl.h"
-#include "visuals/raster/tile_nearness-inl.h"
-#include "visuals/raster/window_of_rows-inl.h"
+#include "visuals/raster/strip_gradient-inl.h"
+#include "visuals/raster/tile_inverse_depth-inl.h"
+#include "visuals/raster/row_pair_window-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -111,8 +111,8 @@ private:
     hn::Vec<PairLanes> bottom_;
 };
 
-/// A level over two rows, as StripLevel.
-struct PairLevel {
+/// A level over two rows, as StripGradient.
+struct PairGradient {
     std::uint32_t at; ///< of the upper row's first column in the box, 2^-16 level
     std::uint32_t per_row;
     hn::Vec<StripSigned> least;
@@ -120,14 +120,14 @@ struct PairLevel {
     hn::Vec<StripSigned> steps;
 
     HWY_INLINE
-    PairLevel(const Levels& levels, std::size_t k, const TileJob& job, const TileBox& box)
-        : at(first_level(levels, k, job.first_px + glm::ivec2(box.left, box.first_row)))
-        , per_row(static_cast<std::uint32_t>(levels.per_y[k]))
-        , least(hn::Set(StripSigned(), levels.least[k]))
-        , most(hn::Set(StripSigned(), levels.most[k])) {
+    PairGradient(const ColourGradients& gradients, std::size_t k, const TileJob& job, const TileBox& box)
+        : at(first_level(gradients, k, job.first_px + glm::ivec2(box.left, box.first_row)))
+        , per_row(static_cast<std::uint32_t>(gradients.per_y[k]))
+        , least(hn::Set(StripSigned(), gradients.least[k]))
+        , most(hn::Set(StripSigned(), gradients.most[k])) {
         const StripSigned sign;
-        const auto columns = hn::And(counting_from(sign, 0), hn::Set(sign, window_px - 1));
-        steps = hn::Mul(columns, hn::Set(sign, levels.per_column[k]));
+        const auto columns = hn::And(lane_indices_from(sign, 0), hn::Set(sign, window_px - 1));
+        steps = hn::Mul(columns, hn::Set(sign, gradients.per_column[k]));
     }
 
     /// 1/128 level from the level 128.
@@ -144,9 +144,9 @@ struct PairLevel {
 };
 
 /// The levels of a triangle over two rows.
-HWY_INLINE std::array<PairLevel, 3>
-pair_levels(const Levels& levels, const TileJob& job, const TileBox& box) {
-    const auto level = [&](std::size_t k) HWY_ATTR { return PairLevel(levels, k, job, box); };
+HWY_INLINE std::array<PairGradient, 3>
+pair_gradients(const ColourGradients& gradients, const TileJob& job, const TileBox& box) {
+    const auto level = [&](std::size_t k) HWY_ATTR { return PairGradient(gradients, k, job, box); };
     return {level(0), level(1), level(2)};
 }
 
@@ -154,7 +154,7 @@ pair_levels(const Levels& levels, const TileJob& job, const TileBox& box) {
 template <PaintAs kind>
 HWY_INLINE auto ground_of_box(const Triangle& triangle, const TileJob& job, const TileBox& box) {
     if constexpr (kind == PaintAs::Ground) {
-        return GroundOfColumns<Row>(triangle, job, box.left);
+        return GroundOfColumns<RowLanes>(triangle, job, box.left);
     } else {
         return 0;
     }
@@ -195,31 +195,31 @@ HWY_INLINE void paint_in_pairs(
 /// Paints a triangle of levels that is as narrow as a window; of ground its box begins in an even
 /// row and column.
 template <PaintAs kind>
-HWY_INLINE void paint_levels_in_pairs(
+HWY_INLINE void paint_gouraud_in_pairs(
     const Triangle& triangle,
     const TileJob& job,
     const SampleLanes& lanes,
     const TileBox& box,
     TileBuffer& buffer) {
     PairCoverage coverage(triangle, job, box, lanes);
-    auto levels = pair_levels(triangle.levels, job, box);
+    auto gradients = pair_gradients(triangle.gradients, job, box);
     [[maybe_unused]] const auto ground = ground_of_box<kind>(triangle, job, box);
     const auto paint = [&](const PairWindow& window, hn::Vec<Strip> fresh) HWY_ATTR {
         const auto counts = hn::PopulationCount(fresh);
-        for (std::size_t k = 0; k < levels.size(); ++k) {
+        for (std::size_t k = 0; k < gradients.size(); ++k) {
             std::uint16_t* const sums = buffer.sums[k].data();
-            const auto colour = from_level(levels[k].level());
+            const auto colour = from_level(gradients[k].level());
             window.store(hn::Add(window.load(sums), hn::Mul(colour, counts)), sums);
         }
         if constexpr (kind == PaintAs::Ground) {
-            ground.put(window.row, hn::LowerHalf(Row(), fresh), buffer);
+            ground.put(window.row, hn::LowerHalf(RowLanes(), fresh), buffer);
         } else if constexpr (kind == PaintAs::Beside) {
-            std::uint16_t* const beside = buffer.sums[3].data();
-            window.store(hn::Add(window.load(beside), counts), beside);
+            std::uint16_t* const other_than_ground = buffer.sums[3].data();
+            window.store(hn::Add(window.load(other_than_ground), counts), other_than_ground);
         }
     };
     paint_in_pairs(coverage, job, box, buffer, paint, [&]() HWY_ATTR {
-        for (PairLevel& level : levels) {
+        for (PairGradient& level : gradients) {
             level.next_rows();
         }
     });

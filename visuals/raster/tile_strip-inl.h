@@ -8,7 +8,7 @@
 #define OCTANT_RASTER_STRIP_INL
 #endif
 
-#include "visuals/raster/tile_counting-inl.h"
+#include "visuals/raster/lane_indices-inl.h"
 
 #include <array>
 #include <cstddef>

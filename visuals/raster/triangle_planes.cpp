@@ -89,24 +89,24 @@ struct PlaneBase {
     double bottom_y;
 };
 
-HWY_INLINE PlaneBase edges_of(const FallingCorners& corners, Triangle& triangle) {
+HWY_INLINE PlaneBase edges_of(const TopDownVertices& vertices, Triangle& triangle) {
     const Pair real;
-    const auto whole = distance(corners.top, corners.bottom);
-    const auto upper = distance(corners.top, corners.middle);
-    const auto lower = distance(corners.middle, corners.bottom);
-    const auto area = hn::Set(real, static_cast<double>(corners.doubled_area));
+    const auto whole = distance(vertices.top, vertices.bottom);
+    const auto upper = distance(vertices.top, vertices.middle);
+    const auto lower = distance(vertices.middle, vertices.bottom);
+    const auto area = hn::Set(real, static_cast<double>(vertices.doubled_area));
     const auto one_px = hn::Set(real, static_cast<double>(ScreenVertex::per_px));
     const auto from_top_heights = hn::InterleaveUpper(real, whole, upper);
     const EdgePair from_top(
         hn::Div(hn::InterleaveLower(real, whole, upper), from_top_heights),
         from_top_heights,
-        corners.top);
+        vertices.top);
     from_top.store_first(triangle.whole);
     from_top.store_second(triangle.upper);
     // Beside the lower edge's slope: one pixel over the doubled area.
     const auto divisors = hn::InterleaveUpper(real, lower, area);
     const auto quotients = hn::Div(hn::InterleaveLower(real, lower, one_px), divisors);
-    const EdgePair from_middle(quotients, divisors, corners.middle);
+    const EdgePair from_middle(quotients, divisors, vertices.middle);
     from_middle.store_first(triangle.lower);
     const auto to_px = hn::InterleaveUpper(real, quotients, quotients);
     alignas(16) std::array<double, 2> to_middle;
@@ -140,25 +140,25 @@ HWY_INLINE void store_short(hn::Vec<Whole> value, std::int16_t* to) {
 }
 
 /// Values i, i + 1 ... of the corners as planes.
-HWY_INLINE void set_levels(
-    const FallingCorners& corners,
+HWY_INLINE void set_gradients(
+    const TopDownVertices& vertices,
     const PlaneBase& base,
     double max_per_px,
     std::size_t i,
-    Levels& levels) {
+    ColourGradients& gradients) {
     const Reals real;
     const Floats floats;
     const Whole whole;
-    const auto a = hn::LoadU(floats, corners.top.value.data() + i);
-    const auto b = hn::LoadU(floats, corners.middle.value.data() + i);
-    const auto c = hn::LoadU(floats, corners.bottom.value.data() + i);
+    const auto a = hn::LoadU(floats, vertices.top.value.data() + i);
+    const auto b = hn::LoadU(floats, vertices.middle.value.data() + i);
+    const auto c = hn::LoadU(floats, vertices.bottom.value.data() + i);
     const auto middle = hn::Set(floats, level_middle);
     const auto limit = [&](hn::Vec<Floats> level) HWY_ATTR {
         const auto parts = hn::Mul(hn::Sub(level, middle), hn::Set(floats, 128.0F));
         return rounded(hn::PromoteTo(real, parts));
     };
-    store_short(limit(hn::Min(hn::Min(a, b), c)), levels.least.data() + i);
-    store_short(limit(hn::Max(hn::Max(a, b), c)), levels.most.data() + i);
+    store_short(limit(hn::Min(hn::Min(a, b), c)), gradients.least.data() + i);
+    store_short(limit(hn::Max(hn::Max(a, b), c)), gradients.most.data() + i);
     const auto to_b = hn::PromoteTo(real, hn::Sub(b, a));
     const auto to_c = hn::PromoteTo(real, hn::Sub(c, a));
     const auto times = [&](hn::Vec<Reals> value, double factor)
@@ -169,33 +169,33 @@ HWY_INLINE void set_levels(
     const auto is_sliver = hn::Or(hn::Gt(hn::Abs(real_x), most), hn::Gt(hn::Abs(real_y), most));
     const auto per_x = rounded(hn::IfThenZeroElse(is_sliver, times(real_x, level_fraction)));
     const auto per_y = rounded(hn::IfThenZeroElse(is_sliver, times(real_y, level_fraction)));
-    hn::StoreU(per_x, whole, levels.per_x.data() + i);
-    hn::StoreU(per_y, whole, levels.per_y.data() + i);
+    hn::StoreU(per_x, whole, gradients.per_x.data() + i);
+    hn::StoreU(per_y, whole, gradients.per_y.data() + i);
     store_short(
-        hn::ShiftRight<9>(hn::Add(per_x, hn::Set(whole, 256))), levels.per_column.data() + i);
+        hn::ShiftRight<9>(hn::Add(per_x, hn::Set(whole, 256))), gradients.per_column.data() + i);
     const auto mean = hn::Sub(hn::Div(hn::Add(hn::Add(a, b), c), hn::Set(floats, 3.0F)), middle);
     const auto at_base = hn::IfThenElse(
         is_sliver, hn::PromoteTo(real, mean), hn::PromoteTo(real, hn::Sub(a, middle)));
     hn::StoreU(
-        hn::Sub(rounded(times(at_base, level_fraction)), from_origin(per_x, per_y, corners.top)),
+        hn::Sub(rounded(times(at_base, level_fraction)), from_origin(per_x, per_y, vertices.top)),
         whole,
-        levels.base.data() + i);
+        gradients.base.data() + i);
 }
 
 /// One over the depth in a triangle of ground. A sliver has the corners' mean.
 HWY_INLINE void
-set_nearness(const FallingCorners& corners, const PlaneBase& base, Triangle& triangle) {
-    const ScreenVertex& top = corners.top;
+set_inverse_depth(const TopDownVertices& vertices, const PlaneBase& base, Triangle& triangle) {
+    const ScreenVertex& top = vertices.top;
     const auto at_top = static_cast<double>(top.inverse_w);
-    const double to_middle = static_cast<double>(corners.middle.inverse_w) - at_top;
-    const double to_bottom = static_cast<double>(corners.bottom.inverse_w) - at_top;
+    const double to_middle = static_cast<double>(vertices.middle.inverse_w) - at_top;
+    const double to_bottom = static_cast<double>(vertices.bottom.inverse_w) - at_top;
     const double per_x = to_middle * base.bottom_y - to_bottom * base.middle_y;
     const double per_y = to_bottom * base.middle_x - to_middle * base.bottom_x;
-    NearnessPlane& plane = triangle.nearness;
+    InverseDepthPlane& plane = triangle.inverse_depth;
     plane.least =
-        std::min(std::min(top.inverse_w, corners.middle.inverse_w), corners.bottom.inverse_w);
+        std::min(std::min(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
     plane.most =
-        std::max(std::max(top.inverse_w, corners.middle.inverse_w), corners.bottom.inverse_w);
+        std::max(std::max(top.inverse_w, vertices.middle.inverse_w), vertices.bottom.inverse_w);
     const double range = static_cast<double>(plane.most) - static_cast<double>(plane.least);
     if (std::max(std::abs(per_x), std::abs(per_y)) > range) {
         plane.first = static_cast<float>(at_top + (to_middle + to_bottom) / 3.0);
@@ -211,20 +211,20 @@ set_nearness(const FallingCorners& corners, const PlaneBase& base, Triangle& tri
     plane.per_y = static_cast<float>(per_y);
 }
 
-void SetEdges(const FallingCorners& corners, Triangle& triangle) {
-    const PlaneBase base = edges_of(corners, triangle);
-    if (triangle.has_grain) {
-        set_nearness(corners, base, triangle);
+void SetEdges(const TopDownVertices& vertices, Triangle& triangle) {
+    const PlaneBase base = edges_of(vertices, triangle);
+    if (triangle.has_detail_texture) {
+        set_inverse_depth(vertices, base, triangle);
     }
 }
 
-void SetEdgesAndLevels(const FallingCorners& corners, double max_per_px, Triangle& triangle) {
-    const PlaneBase base = edges_of(corners, triangle);
-    for (std::size_t i = 0; i < corners.top.value.size(); i += hn::Lanes(Reals())) {
-        set_levels(corners, base, max_per_px, i, triangle.levels);
+void SetEdgesAndGradients(const TopDownVertices& vertices, double max_per_px, Triangle& triangle) {
+    const PlaneBase base = edges_of(vertices, triangle);
+    for (std::size_t i = 0; i < vertices.top.value.size(); i += hn::Lanes(Reals())) {
+        set_gradients(vertices, base, max_per_px, i, triangle.gradients);
     }
-    if (triangle.has_grain) {
-        set_nearness(corners, base, triangle);
+    if (triangle.has_detail_texture) {
+        set_inverse_depth(vertices, base, triangle);
     }
 }
 
@@ -237,28 +237,28 @@ HWY_AFTER_NAMESPACE();
 namespace octant::visuals::raster {
 
 HWY_EXPORT(SetEdges);
-HWY_EXPORT(SetEdgesAndLevels);
+HWY_EXPORT(SetEdgesAndGradients);
 
-void set_edges(const FallingCorners& corners, Triangle& triangle) {
-    HWY_DYNAMIC_DISPATCH(SetEdges)(corners, triangle);
+void set_edges(const TopDownVertices& vertices, Triangle& triangle) {
+    HWY_DYNAMIC_DISPATCH(SetEdges)(vertices, triangle);
 }
 
-void set_edges_and_levels(const FallingCorners& corners, double max_per_px, Triangle& triangle) {
-    HWY_DYNAMIC_DISPATCH(SetEdgesAndLevels)(corners, max_per_px, triangle);
+void set_edges_and_gradients(const TopDownVertices& vertices, double max_per_px, Triangle& triangle) {
+    HWY_DYNAMIC_DISPATCH(SetEdgesAndGradients)(vertices, max_per_px, triangle);
 }
 
-Levels even_levels(const std::array<float, 3>& rgb) {
-    Levels levels;
+ColourGradients constant_gradients(const std::array<float, 3>& rgb) {
+    ColourGradients gradients;
     const auto rounded = [](double value) {
         return static_cast<std::int32_t>(value + (value < 0.0 ? -0.5 : 0.5));
     };
     for (std::size_t i = 0; i < rgb.size(); ++i) {
         const auto level = static_cast<double>(rgb[i] - 128.0F);
-        levels.base[i] = rounded(level * 65536.0);
-        levels.least[i] = static_cast<std::int16_t>(rounded(level * 128.0));
-        levels.most[i] = levels.least[i];
+        gradients.base[i] = rounded(level * 65536.0);
+        gradients.least[i] = static_cast<std::int16_t>(rounded(level * 128.0));
+        gradients.most[i] = gradients.least[i];
     }
-    return levels;
+    return gradients;
 }
 
 } // namespace octant::visuals::raster

@@ -15,7 +15,7 @@ constexpr double sliver_per_px = 64.0;
 constexpr double any_per_px = 16000.0; ///< no triangle counts as a sliver
 
 /// Three corners from top to bottom.
-struct FallingCorners {
+struct TopDownVertices {
     const ScreenVertex& top;
     const ScreenVertex& middle;
     const ScreenVertex& bottom;
@@ -24,13 +24,13 @@ struct FallingCorners {
 };
 
 /// Fills in the edges of a triangle, and of one with grain how near it is; its box is known.
-void set_edges(const FallingCorners& corners, Triangle& triangle);
+void set_edges(const TopDownVertices& vertices, Triangle& triangle);
 
 /// Fills in these and the four values at the corners as planes of levels. Where a level would
 /// change by more than `max_per_px` it is the corners' mean.
-void set_edges_and_levels(const FallingCorners& corners, double max_per_px, Triangle& triangle);
+void set_edges_and_gradients(const TopDownVertices& vertices, double max_per_px, Triangle& triangle);
 
 /// The levels of a triangle that has one colour everywhere.
-Levels even_levels(const std::array<float, 3>& rgb);
+ColourGradients constant_gradients(const std::array<float, 3>& rgb);
 
 } // namespace octant::visuals::raster

@@ -1,7 +1,7 @@
 #include "visuals/raster/triangle_setup.h"
 
-#include "visuals/raster/even_texture.h"
-#include "visuals/raster/real_planes.h"
+#include "visuals/raster/affine_textured_triangle.h"
+#include "visuals/raster/attribute_planes.h"
 #include "visuals/raster/triangle_planes.h"
 
 #include <algorithm>
@@ -47,21 +47,21 @@ TriangleSetup::TriangleSetup(
     , texture_levels_(texture_levels) {}
 
 void TriangleSetup::add(
-    const ScreenCorners& corners,
+    const VertexOutputs& corners,
     const std::array<std::uint32_t, 3>& triangle,
     const FlatColour* flat,
     TriangleList& list) {
-    if (style_.culls_back_faces && flat != nullptr && flat->is_turned_away) {
+    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing) {
         return;
     }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
-    if ((vertices[a].outside & vertices[b].outside & vertices[c].outside & sides) != 0) {
+    if ((vertices[a].outcode & vertices[b].outcode & vertices[c].outcode & sides) != 0) {
         return;
     }
     const bool is_cut =
-        ((vertices[a].outside | vertices[b].outside | vertices[c].outside) & unplaced) != 0;
+        ((vertices[a].outcode | vertices[b].outcode | vertices[c].outcode) & beyond_range) != 0;
     if (!is_cut && style_.culls_back_faces &&
         doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) {
         return;
@@ -74,20 +74,20 @@ void TriangleSetup::add(
         lit_ = {&corners.lit[a], &corners.lit[b], &corners.lit[c]};
     }
     if (!is_cut && style_.group == 0 && style_.clip_planes.empty()) {
-        if (fill_ == Fill::Levels) {
+        if (fill_ == Fill::Gouraud) {
             add_placed(vertices[a], vertices[b], vertices[c], list);
             return;
         }
         if (fill_ == Fill::TextureInPerspective &&
-            add_even_texture({&vertices[a], &vertices[b], &vertices[c]}, list)) {
+            add_affine_triangle({&vertices[a], &vertices[b], &vertices[c]}, list)) {
             return;
         }
     }
-    const std::array<Corner, 3> three{
-        Corner{vertices[a], corners.clip[a]},
-        Corner{vertices[b], corners.clip[b]},
-        Corner{vertices[c], corners.clip[c]}};
-    if (style_.group != 0 || fill_ != Fill::Levels || !style_.clip_planes.empty()) {
+    const std::array<ClipVertex, 3> three{
+        ClipVertex{vertices[a], corners.clip[a]},
+        ClipVertex{vertices[b], corners.clip[b]},
+        ClipVertex{vertices[c], corners.clip[c]}};
+    if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty()) {
         add_extra(three, list);
     }
     if (is_cut) {
@@ -98,21 +98,21 @@ void TriangleSetup::add(
 }
 
 /// Adds a textured triangle if perspective need not be looked at.
-bool TriangleSetup::add_even_texture(
+bool TriangleSetup::add_affine_triangle(
     const std::array<const ScreenVertex*, 3>& corners, TriangleList& list) {
-    const std::optional<EvenTexture> even = even_texture(corners, texture_levels_);
+    const std::optional<AffineTexturedTriangle> even = fit_affine_texture(corners, texture_levels_);
     if (!even) {
         return false;
     }
     fill_ = Fill::Texture;
-    levels_ = even->levels;
-    add_placed(even->corners[0], even->corners[1], even->corners[2], list);
+    mip_selection_ = even->mip_selection;
+    add_placed(even->vertices[0], even->vertices[1], even->vertices[2], list);
     return true;
 }
 
 void TriangleSetup::add_overlay(
     const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
-    if (((a.outside | b.outside | c.outside) & unplaced) != 0) {
+    if (((a.outcode | b.outcode | c.outcode) & beyond_range) != 0) {
         return;
     }
     fill_ = style_.fill;
@@ -126,39 +126,39 @@ void TriangleSetup::add_overlay(
 /// Whether straight lines over the picture are good enough for the levels between the corners.
 Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const {
     const auto [a, b, c] = corners;
-    if (style_.fill != Fill::Levels || flat_ != nullptr) {
+    if (style_.fill != Fill::Gouraud || flat_ != nullptr) {
         return style_.fill;
     }
     if (is_cut) {
         return Fill::Perspective;
     }
     const float min_by_w = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
-    const float max_by_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
+    const float max_over_w = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
     // At the middle of an edge the line is wrong by range * correction.
-    const float correction = (max_by_w - min_by_w) / (2.0F * (max_by_w + min_by_w));
+    const float correction = (max_over_w - min_by_w) / (2.0F * (max_over_w + min_by_w));
     if (correction * 255.0F <= min_correction) {
-        return Fill::Levels;
+        return Fill::Gouraud;
     }
     float range = 0.0F;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto [least, most] = std::minmax({a->value[i], b->value[i], c->value[i]});
         range = std::max(range, most - least);
     }
-    return correction * range > min_correction ? Fill::Perspective : Fill::Levels;
+    return correction * range > min_correction ? Fill::Perspective : Fill::Gouraud;
 }
 
-void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& list) {
+void TriangleSetup::add_extra(std::span<const ClipVertex, 3> corners, TriangleList& list) {
     const PlaneSolver solver({corners[0].clip, corners[1].clip, corners[2].clip}, projection_);
     TriangleExtra extra;
-    const RealPlane by_w = solver.plane({1.0, 1.0, 1.0});
-    extra.by_w[4] = by_w;
+    const AttributePlane over_w = solver.plane({1.0, 1.0, 1.0});
+    extra.over_w[4] = over_w;
     if (style_.group != 0) {
-        set_depth(extra, by_w, style_, projection_);
+        set_depth(extra, over_w, style_, projection_);
         extra.opacity = style_.opacity;
     }
-    if (fill_ != Fill::Levels && fill_ != Fill::Lit) {
+    if (fill_ != Fill::Gouraud && fill_ != Fill::Lit) {
         for (std::size_t i = 0; i < 4; ++i) {
-            extra.by_w[i] = solver.plane(
+            extra.over_w[i] = solver.plane(
                 {static_cast<double>(corners[0].vertex.value[i]),
                  static_cast<double>(corners[1].vertex.value[i]),
                  static_cast<double>(corners[2].vertex.value[i])});
@@ -174,7 +174,7 @@ void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& 
     }
     for (const glm::vec4& plane : style_.clip_planes) {
         extra.cuts[static_cast<std::size_t>(extra.cut_count++)] =
-            cut_line(plane, by_w, plan_, projection_);
+            clip_line(plane, over_w, plan_, projection_);
     }
     extra_ = static_cast<std::uint32_t>(list.extras.size());
     list.extras.push_back(extra);
@@ -183,15 +183,15 @@ void TriangleSetup::add_extra(std::span<const Corner, 3> corners, TriangleList& 
 /// Keeps what has dot(by_clip, (x, y, w)) + offset >= 0. A cut edge is cut from its kept end, so
 /// that both triangles that share it get the same corner.
 void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
-    const auto inside = [&](const Corner& corner) {
+    const auto inside = [&](const ClipVertex& corner) {
         return by_clip.x * static_cast<double>(corner.clip.x) +
                by_clip.y * static_cast<double>(corner.clip.y) +
                by_clip.z * static_cast<double>(corner.clip.w) + offset;
     };
     scratch_.clear();
     for (std::size_t i = 0; i < polygon_.size(); ++i) {
-        const Corner& from = polygon_[i];
-        const Corner& to = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
+        const ClipVertex& from = polygon_[i];
+        const ClipVertex& to = polygon_[i + 1 < polygon_.size() ? i + 1 : 0];
         const double from_inside = inside(from);
         const double to_inside = inside(to);
         if (from_inside >= 0.0) {
@@ -201,8 +201,8 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
             continue;
         }
         const bool keeps_from = from_inside >= 0.0;
-        const Corner& kept = keeps_from ? from : to;
-        const Corner& lost = keeps_from ? to : from;
+        const ClipVertex& kept = keeps_from ? from : to;
+        const ClipVertex& lost = keeps_from ? to : from;
         const double kept_inside = keeps_from ? from_inside : to_inside;
         const double lost_inside = keeps_from ? to_inside : from_inside;
         const double share = kept_inside / (kept_inside - lost_inside);
@@ -211,7 +211,7 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
             return static_cast<float>(
                 from_value + share * (static_cast<double>(at_lost) - from_value));
         };
-        Corner corner;
+        ClipVertex corner;
         corner.clip.x = between(kept.clip.x, lost.clip.x);
         corner.clip.y = between(kept.clip.y, lost.clip.y);
         corner.clip.w = between(kept.clip.w, lost.clip.w);
@@ -223,20 +223,20 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
     polygon_.swap(scratch_);
 }
 
-void TriangleSetup::add_cut(std::span<const Corner> corners, TriangleList& list) {
+void TriangleSetup::add_cut(std::span<const ClipVertex> corners, TriangleList& list) {
     polygon_.assign(corners.begin(), corners.end());
     // A little inside the limits of place(), so that rounding leaves no corner unplaced.
     constexpr double within = 1.0 - 1e-5;
     cut({0.0, 0.0, 1.0}, -static_cast<double>(projection_.near_m) * (2.0 - within));
-    const double x_max = static_cast<double>(projection_.max_by_w.x) * within;
-    const double y_max = static_cast<double>(projection_.max_by_w.y) * within;
+    const double x_max = static_cast<double>(projection_.max_over_w.x) * within;
+    const double y_max = static_cast<double>(projection_.max_over_w.y) * within;
     cut({1.0, 0.0, x_max}, 0.0);
     cut({-1.0, 0.0, x_max}, 0.0);
     cut({0.0, 1.0, y_max}, 0.0);
     cut({0.0, -1.0, y_max}, 0.0);
-    for (Corner& corner : polygon_) {
+    for (ClipVertex& corner : polygon_) {
         place(projection_, corner.clip, corner.vertex);
-        assert((corner.vertex.outside & unplaced) == 0);
+        assert((corner.vertex.outcode & beyond_range) == 0);
     }
     for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
         const auto& a = polygon_[0].vertex;
@@ -286,23 +286,23 @@ void TriangleSetup::add_placed(
     triangle.group = style_.group;
     triangle.depth = style_.depth;
     triangle.fill = fill_;
-    const FallingCorners corners{top, middle, bottom, area};
-    triangle.has_grain =
-        style_.has_grain && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
+    const TopDownVertices corners{top, middle, bottom, area};
+    triangle.has_detail_texture =
+        style_.has_detail_texture && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
     if (flat_ != nullptr) {
         set_edges(corners, triangle);
-        triangle.levels = even_levels(flat_->rgb);
+        triangle.gradients = constant_gradients(flat_->rgb);
     } else if (fill_ == Fill::TextureInPerspective || fill_ == Fill::Lit) {
         set_edges(corners, triangle);
     } else if (fill_ == Fill::Texture) {
-        triangle.texture = levels_;
-        set_edges_and_levels(corners, texture_per_px, triangle);
+        triangle.texture = mip_selection_;
+        set_edges_and_gradients(corners, texture_per_px, triangle);
     } else {
         // With one sample every pixel that is coloured has its middle within the triangle. Soft
         // edges of what lies over the picture are as narrow as a pixel: their alpha changes fast,
         // and is looked at only within the triangle's own.
         const bool has_slivers = reach_ > 0 && !is_overlay_;
-        set_edges_and_levels(corners, has_slivers ? sliver_per_px : any_per_px, triangle);
+        set_edges_and_gradients(corners, has_slivers ? sliver_per_px : any_per_px, triangle);
     }
 }
 

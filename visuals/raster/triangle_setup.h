@@ -35,13 +35,13 @@ public:
 
     void begin_step(const DrawStyle& style) { style_ = style; }
 
-    /// Of the triangles that are added from now on: FramePlan::mesh_look's.
+    /// Of the triangles that are added from now on: FramePlan::mesh_display's.
     void set_mesh_level(float level) { mesh_level_ = level; }
 
     /// Appends a triangle, its corners by index, if any of it may be seen; several where the view
     /// cuts it. `flat` is that of its first corner; none for what is no aircraft.
     void
-    add(const ScreenCorners& corners,
+    add(const VertexOutputs& corners,
         const std::array<std::uint32_t, 3>& triangle,
         const FlatColour* flat,
         TriangleList& list);
@@ -52,18 +52,18 @@ public:
         const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
 
 private:
-    struct Corner {
+    struct ClipVertex {
         ScreenVertex vertex;
-        ClipPlace clip;
+        ClipPosition clip;
     };
 
-    void add_cut(std::span<const Corner> corners, TriangleList& list);
+    void add_cut(std::span<const ClipVertex> corners, TriangleList& list);
     void add_placed(
         const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
     void cut(const glm::dvec3& by_clip, double offset);
-    bool add_even_texture(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
+    bool add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
     Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;
-    void add_extra(std::span<const Corner, 3> corners, TriangleList& list);
+    void add_extra(std::span<const ClipVertex, 3> corners, TriangleList& list);
 
     const Projection& projection_;
     const scene::FramePlan& plan_;
@@ -73,14 +73,14 @@ private:
     float mesh_level_ = 0.0F;
     bool is_overlay_ = false;
     // Of the triangle at hand.
-    Fill fill_ = Fill::Levels;
+    Fill fill_ = Fill::Gouraud;
     const FlatColour* flat_ = nullptr;      ///< of a flat polygon of an aircraft
-    std::array<const LitCorner*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
+    std::array<const LitVertex*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
     std::uint32_t extra_ = Triangle::none;
-    TextureLevels levels_; ///< of one with an even texture
+    MipSelection mip_selection_; ///< of one with an even texture
     // Its polygon while the view cuts it.
-    std::vector<Corner> polygon_;
-    std::vector<Corner> scratch_;
+    std::vector<ClipVertex> polygon_;
+    std::vector<ClipVertex> scratch_;
 };
 
 } // namespace octant::visuals::raster

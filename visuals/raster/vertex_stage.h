@@ -21,7 +21,7 @@ struct Light {
     float per_m = 0.0F;   ///< one over the visibility; 0: no haze
     float falloff_per_m = 0.0F;
     glm::vec2 horizontal_to_sun{0.0F};
-    glm::vec3 sunward{0.0F}; ///< display values 0..1
+    glm::vec3 sunward_colour{0.0F}; ///< display values 0..1
 };
 
 // Where the fall of the haze's density is looked at as a straight line, and where it ends; powers
@@ -32,31 +32,31 @@ constexpr float max_haze_fall = 60.0F;
 Light light_of(const scene::FramePlan& plan);
 
 /// Where corners go. All spans are as long as what they are made of.
-struct ScreenCorners {
+struct VertexOutputs {
     std::span<ScreenVertex> vertices;
-    std::span<ClipPlace> clip;
+    std::span<ClipPosition> clip;
     std::span<FlatColour> flat; ///< of aircraft alone
-    std::span<LitCorner> lit{}; ///< of aircraft that are lit in each pixel; else empty
+    std::span<LitVertex> lit{}; ///< of aircraft that are lit in each pixel; else empty
 };
 
 /// Takes x and y in world axes with the eye subtracted to texels.
-struct TexelPlace {
+struct TexelTransform {
     glm::vec2 at_eye{0.0F};
     glm::vec2 per_m{0.0F};
 };
 
 /// How the corners of one aircraft are turned and coloured.
-struct AircraftLook {
+struct AircraftDrawState {
     std::span<const glm::mat4> parts;
     std::span<const std::uint32_t> smooth; ///< words, from the aircraft's first
-    scene::Tints tints{};
+    scene::PolygonTints tints{};
 };
 
-void place_aircraft(
+void project_aircraft(
     std::span<const scene::ModelVertex> from,
-    const AircraftLook& look,
+    const AircraftDrawState& look,
     const Projection& projection,
     const Light& light,
-    const ScreenCorners& to);
+    const VertexOutputs& to);
 
 } // namespace octant::visuals::raster

@@ -11,7 +11,7 @@ struct Workers::Run {
     const std::function<void(int, int)>* work = nullptr; ///< not to be used when no task is left
     int tasks = 0;
     std::atomic<int> next{0};
-    std::atomic<int> undone{0};
+    std::atomic<int> unfinished_tasks{0};
 };
 
 Workers::Workers(int threads) {
@@ -38,7 +38,7 @@ void Workers::run(int tasks, const std::function<void(int task, int thread)>& wo
     const auto run = std::make_shared<Run>();
     run->work = &work;
     run->tasks = tasks;
-    run->undone = tasks;
+    run->unfinished_tasks = tasks;
     if (tasks > 1 && !helpers_.empty()) {
         {
             const std::lock_guard lock(mutex_);
@@ -47,19 +47,19 @@ void Workers::run(int tasks, const std::function<void(int task, int thread)>& wo
         begun_.notify_all();
     }
     take_tasks(*run, 0);
-    for (int undone = run->undone; undone > 0; undone = run->undone) {
-        run->undone.wait(undone);
+    for (int unfinished_tasks = run->unfinished_tasks; unfinished_tasks > 0; unfinished_tasks = run->unfinished_tasks) {
+        run->unfinished_tasks.wait(unfinished_tasks);
     }
 }
 
-bool Workers::begin_beside(std::function<void()> work) {
+bool Workers::begin_on_idle_thread(std::function<void()> work) {
     if (helpers_.empty() ||
         static_cast<unsigned>(threads()) < std::thread::hardware_concurrency()) {
         return false;
     }
     {
         const std::lock_guard lock(mutex_);
-        beside_.push_back(std::move(work));
+        idle_tasks_.push_back(std::move(work));
     }
     begun_.notify_all();
     return true;
@@ -68,8 +68,8 @@ bool Workers::begin_beside(std::function<void()> work) {
 void Workers::take_tasks(Run& run, int thread) {
     for (int task = run.next++; task < run.tasks; task = run.next++) {
         (*run.work)(task, thread);
-        if (--run.undone == 0) {
-            run.undone.notify_all();
+        if (--run.unfinished_tasks == 0) {
+            run.unfinished_tasks.notify_all();
         }
     }
 }
@@ -78,10 +78,10 @@ void Workers::help(int thread) {
     std::shared_ptr<Run> seen;
     std::unique_lock lock(mutex_);
     while (true) {
-        begun_.wait(lock, [&] { return ends_ || !beside_.empty() || run_ != seen; });
-        if (!beside_.empty()) {
-            const std::function<void()> work = std::move(beside_.front());
-            beside_.pop_front();
+        begun_.wait(lock, [&] { return ends_ || !idle_tasks_.empty() || run_ != seen; });
+        if (!idle_tasks_.empty()) {
+            const std::function<void()> work = std::move(idle_tasks_.front());
+            idle_tasks_.pop_front();
             lock.unlock();
             work();
             lock.lock();

@@ -32,7 +32,7 @@ public:
     /// Does other work on one of the threads, before what is left of loops: more threads than cores
     /// would push each other aside, and a loop waits for the last of its tasks. False, and nothing
     /// is done, where the caller is alone or cores are left over. `work` must not throw.
-    bool begin_beside(std::function<void()> work);
+    bool begin_on_idle_thread(std::function<void()> work);
 
 private:
     struct Run;
@@ -44,7 +44,7 @@ private:
     std::mutex mutex_;
     std::condition_variable begun_;
     std::shared_ptr<Run> run_; ///< the last that began
-    std::deque<std::function<void()>> beside_;
+    std::deque<std::function<void()>> idle_tasks_;
     bool ends_ = false;
 };
 

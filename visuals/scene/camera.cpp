@@ -67,7 +67,7 @@ glm::dquat body_from_view() {
         glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(-1.0, 0.0, 0.0)));
 }
 
-glm::dvec3 ahead_of(const Camera& camera) {
+glm::dvec3 view_direction(const Camera& camera) {
     return camera.view_to_world * glm::dvec3(0.0, 0.0, -1.0);
 }
 

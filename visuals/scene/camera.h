@@ -45,7 +45,7 @@ glm::mat4 view_to_clip(const Camera& camera, double aspect);
 double focal_px(const Camera& camera, int picture_height_px);
 
 /// The direction in which a camera looks, world axes.
-glm::dvec3 ahead_of(const Camera& camera);
+glm::dvec3 view_direction(const Camera& camera);
 
 /// The cosine of the angle between that and the farthest of the picture's corners.
 double corner_cos(const Camera& camera, double aspect);

@@ -14,7 +14,7 @@ namespace octant::visuals::scene {
 
 namespace {
 
-constexpr double usual_fov_deg = 45.0;
+constexpr double default_fov_deg = 45.0;
 constexpr double chase_lag_s = 0.45;
 constexpr double chase_distance_radii = 3.0;
 /// The share of the distance by which the eye stands higher.
@@ -64,27 +64,27 @@ glm::dquat around_aircraft(const glm::dvec3& from_aircraft, const Turn& turn) {
     const glm::dvec3 up(0.0, 0.0, 1.0);
     const glm::dquat sideways = glm::angleAxis(-turn.azimuth_rad, up);
     const glm::dvec3 outward = sideways * from_aircraft;
-    const glm::dvec3 level_right = glm::cross(outward, up);
-    const double size = glm::length(level_right);
+    const glm::dvec3 horizontal_right = glm::cross(outward, up);
+    const double size = glm::length(horizontal_right);
     if (size < 1e-9) {
         return sideways;
     }
     const double rise_rad = change_of_elevation(elevation_of(outward), turn.elevation_rad);
-    return glm::angleAxis(rise_rad, level_right / size) * sideways;
+    return glm::angleAxis(rise_rad, horizontal_right / size) * sideways;
 }
 
 Camera chase(
     const sim::AircraftState& state,
-    const RigMemory& memory,
+    const RigState& memory,
     const Subject& subject,
     const Turn& turn,
     const GroundHeight& ground) {
-    const double usual_m = chase_distance_radii * subject.radius_m;
-    const double distance_m = nearer_m(usual_m, turn.zoom, subject);
+    const double default_distance_m = chase_distance_radii * subject.radius_m;
+    const double distance_m = nearer_m(default_distance_m, turn.zoom, subject);
     glm::dvec3 eye_m = state.position_m - distance_m * memory.lagging_forward;
     eye_m.z += chase_rise * distance_m;
     glm::dvec3 target_m =
-        state.position_m + 0.5 * subject.radius_m * (distance_m / usual_m) * memory.lagging_forward;
+        state.position_m + 0.5 * subject.radius_m * (distance_m / default_distance_m) * memory.lagging_forward;
     if (is_turned(turn)) {
         const glm::dquat around = around_aircraft(eye_m - state.position_m, turn);
         eye_m = state.position_m + around * (eye_m - state.position_m);
@@ -146,7 +146,7 @@ void turn_look(Camera& camera, View view, const Turn& turn) {
 
 } // namespace
 
-RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state) {
+RigState next_rig_state(const RigState& memory, const sim::AircraftState& state) {
     static const double share = 1.0 - std::exp(-sim::step_s / chase_lag_s);
     const glm::dvec3 forward = state.body_to_world * glm::dvec3(1, 0, 0);
     if (memory.lagging_forward == glm::dvec3(0.0)) {
@@ -160,13 +160,13 @@ RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state) {
 Camera camera_of(
     const ViewSettings& settings,
     const sim::AircraftState& state,
-    const RigMemory& memory,
+    const RigState& memory,
     const Subject& subject,
-    const FixedPoints& points,
+    const FixedViewpoints& points,
     const GroundHeight& ground) {
     const Turn turn = turn_of(settings);
     const auto with_fov = [&](Camera camera) {
-        camera.vertical_fov_rad = rad_from_deg(settings.fov_deg.value_or(usual_fov_deg));
+        camera.vertical_fov_rad = rad_from_deg(settings.fov_deg.value_or(default_fov_deg));
         return camera;
     };
     const auto lifted = [&](glm::dvec3 eye_m) {

@@ -19,20 +19,20 @@ struct Subject {
 };
 
 /// Where the views stand that do not follow the aircraft.
-struct FixedPoints {
+struct FixedViewpoints {
     Tower tower;
     glm::dvec3 free_eye_m{0.0};
     glm::dvec3 free_look_m{0.0};
 };
 
 /// What a view remembers from one simulation step to the next: a value, so that a run repeats.
-struct RigMemory {
+struct RigState {
     /// A unit vector, ahead as the camera follows it; zero before the first step.
     glm::dvec3 lagging_forward{0.0};
 };
 
 /// Memory after one simulation step of the aircraft that is followed.
-RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state);
+RigState next_rig_state(const RigState& memory, const sim::AircraftState& state);
 
 /// The camera of a view at the state's time, turned and moved nearer as the settings say: the eye
 /// around the aircraft (chase, orbit; no nearer than the sphere around it), else the look. Neither
@@ -41,9 +41,9 @@ RigMemory advanced(const RigMemory& memory, const sim::AircraftState& state);
 Camera camera_of(
     const ViewSettings& settings,
     const sim::AircraftState& state,
-    const RigMemory& memory,
+    const RigState& memory,
     const Subject& subject,
-    const FixedPoints& points,
+    const FixedViewpoints& points,
     const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

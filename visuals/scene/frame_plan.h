@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/scene/cover_contrast.h"
-#include "visuals/scene/grain_pattern.h"
+#include "visuals/scene/land_cover_contrast.h"
+#include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/index_range.h"
 #include "visuals/scene/model_buffers.h"
 #include "visuals/scene/paint_step.h"
@@ -26,7 +26,7 @@
 namespace octant::visuals::scene {
 
 /// Colours that polygons are shown in instead of their own, as ColourVertex::colour; 0 = their own.
-struct Tints {
+struct PolygonTints {
     std::uint32_t smooth = 0;
     std::uint32_t flat = 0;
 };
@@ -41,7 +41,7 @@ struct AircraftDraw {
     std::uint32_t first_part = 0;
     /// The word of FramePlan::smooth whose bit 0 is polygon 0.
     std::uint32_t first_smooth = 0;
-    Tints tints{};
+    PolygonTints tints{};
     /// Drawn one after the other in place of the range above, if there are any. Memory as
     /// TriangleDraw.
     std::span<const IndexRange> ranges{};
@@ -59,7 +59,7 @@ struct RefinedDraw {
     std::uint32_t first_part = 0;
     /// The word of FramePlan::smooth whose bits 0 and 1 are 1 and 0.
     std::uint32_t first_smooth = 0;
-    Tints tints{};
+    PolygonTints tints{};
 };
 
 /// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the
@@ -87,15 +87,15 @@ struct OverlayDraw {
 
 /// Where world axes with the eye subtracted lie in a texture: at_eye + position * per_m, in shares
 /// of its width from the west and of its height from the south.
-struct TexturePlace {
+struct TextureTransform {
     glm::vec2 at_eye{0.0F};
     glm::vec2 per_m{0.0F};
 };
 
 /// Where both parts of the ground's texture lie.
-struct TexturePlaces {
-    TexturePlace albedo;
-    TexturePlace normal;
+struct GroundTextureTransforms {
+    TextureTransform albedo;
+    TextureTransform normal;
 };
 
 /// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-depth)), mixed in display
@@ -112,18 +112,18 @@ struct Haze {
     /// The level direction of the sun, a unit vector east and north; 0 = one colour all around.
     glm::vec2 horizontal_to_sun{0.0F};
     /// The colour of the haze towards the sun, display values 0..1.
-    glm::vec3 sunward{0.0F};
+    glm::vec3 sunward_colour{0.0F};
 };
 
 /// The fine pattern (grain_pattern.h) on ground that its vertices colour. By it and by a vertex's
 /// alpha, the number of a mixture of covers, a pixel differs from its colour, and by so much less
 /// as haze lies before it.
-struct Grain {
+struct DetailTexture {
     /// Where the eye stands in the pattern at each scale, in tiles, 0..1.
-    std::array<glm::vec2, GrainPattern::scales> at_eye{};
+    std::array<glm::vec2, DetailPattern::scales> at_eye{};
     /// How high the eye is above the pattern's origin, likewise: for slopes that show it upright.
-    std::array<float, GrainPattern::scales> up_at_eye{};
-    std::shared_ptr<const CoverContrast> contrast;
+    std::array<float, DetailPattern::scales> eye_height_tiles{};
+    std::shared_ptr<const LandCoverContrast> contrast;
 };
 
 /// What a surface that is lit in each pixel has beside the light of all others, where it faces the
@@ -135,7 +135,7 @@ struct Highlight {
 };
 
 /// What the ground shows of its mesh.
-enum class MeshLook {
+enum class MeshDisplay {
     None,
     /// Lines are drawn along the edges of the triangles that are seen.
     Edges,
@@ -167,17 +167,17 @@ struct FramePlan {
     std::vector<std::uint32_t> repaint_indices;
     /// The corners of each triangle of the ground have one colour, which has to reach the picture
     /// to the last bit: polygon numbers.
-    bool ground_has_numbers = false;
+    bool ground_has_polygon_numbers = false;
     std::vector<models::ColourVertex> shadow_vertices;
-    MeshLook mesh_look = MeshLook::None;
+    MeshDisplay mesh_display = MeshDisplay::None;
     /// The spacing of the ground's samples, from which levels are counted.
     float sample_spacing_m = 1.0F;
     /// Ground and shadows are coloured by the renderer's ground texture under `ambient` and
     /// `sunlight`, times the vertices' alpha; nothing = by the vertices' colours. So is what is
     /// painted on textured ground: a triangle of shadow_vertices whose alpha is 0.
-    std::optional<TexturePlaces> ground_texture;
+    std::optional<GroundTextureTransforms> ground_texture;
     /// The fine pattern on ground and shadows without a texture; nothing = none.
-    std::optional<Grain> grain;
+    std::optional<DetailTexture> detail_texture;
 
     /// Aircraft, in the order in which `steps` first names them.
     std::vector<AircraftDraw> aircraft;

@@ -33,7 +33,7 @@ struct ModelBuffers {
     std::vector<std::uint32_t> indices;
     /// Whether a plan may draw it by depth though its polygons are painted in order: it has levels
     /// of detail, or is refined in each frame.
-    bool has_meshes = false;
+    bool has_depth_drawn_meshes = false;
 };
 
 } // namespace octant::visuals::scene

@@ -40,7 +40,7 @@ struct Clip {
 
 /// One step of painting: a range of one of the plan's lists, and how it is drawn.
 struct PaintStep {
-    enum class What {
+    enum class Content {
         /// Depth becomes infinitely far in a box of FramePlan::depth_boxes.
         ClearDepth,
         /// Indices of FramePlan::sky are drawn without haze.
@@ -48,24 +48,24 @@ struct PaintStep {
         /// Indices of FramePlan::ground are drawn.
         Ground,
         /// Indices of FramePlan::repaint_indices are drawn.
-        GroundAgain,
+        GroundRepaint,
         /// Aircraft of FramePlan::aircraft are drawn without their back faces.
         Aircraft,
         /// Meshes of FramePlan::refined are drawn without their back faces.
         Refined,
         /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn
         /// over it.
-        Veil,
+        Transparent,
         /// Indices of FramePlan::overlay are blended by their alpha, after all others.
         Overlay
     };
-    static constexpr std::uint32_t whole = ~std::uint32_t{0};
-    What what = What::Aircraft;
-    /// A place in the list that `what` names.
+    static constexpr std::uint32_t no_clip = ~std::uint32_t{0};
+    Content content = Content::Aircraft;
+    /// A place in the list that `content` names.
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    /// Index into FramePlan::clips; `whole` = what is drawn is not cut.
-    std::uint32_t clip = whole;
+    /// Index into FramePlan::clips; `no_clip` = what is drawn is not cut.
+    std::uint32_t clip = no_clip;
     DepthUse depth = DepthUse::None;
     /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where
     /// their depth, which is Nearest, says so, and depth is not written: clear surfaces, drawn

@@ -10,14 +10,14 @@ namespace octant::visuals::scene {
 /// Gives memory that begins where a line of the processor's caches does, so that whoever writes
 /// past the caches writes whole lines.
 template <class Value>
-struct LineAllocator {
+struct CacheLineAllocator {
     using value_type = Value;
     static constexpr std::align_val_t line{64};
 
-    LineAllocator() = default;
+    CacheLineAllocator() = default;
 
     template <class Other>
-    explicit LineAllocator(const LineAllocator<Other>& /*other*/) {}
+    explicit CacheLineAllocator(const CacheLineAllocator<Other>& /*other*/) {}
 
     Value* allocate(std::size_t count) {
         return static_cast<Value*>(::operator new(count * sizeof(Value), line));
@@ -25,10 +25,10 @@ struct LineAllocator {
 
     void deallocate(Value* at, std::size_t /*count*/) { ::operator delete(at, line); }
 
-    bool operator==(const LineAllocator&) const = default;
+    bool operator==(const CacheLineAllocator&) const = default;
 };
 
-using PictureBytes = std::vector<std::uint8_t, LineAllocator<std::uint8_t>>;
+using PictureBytes = std::vector<std::uint8_t, CacheLineAllocator<std::uint8_t>>;
 
 /// A picture in memory: display values.
 struct Picture {

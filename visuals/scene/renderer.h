@@ -21,7 +21,7 @@ struct RendererInfo {
     /// The GPU, or the driver's name for what stands in for one.
     std::string device;
     /// Whether a processor draws and not a GPU.
-    bool on_processor = false;
+    bool is_software = false;
 };
 
 /// Makes pictures of frame plans: draws their steps in their order and decides nothing. Belongs to
@@ -58,7 +58,7 @@ public:
 
     /// Begins other work on one of the threads that draw, so that it takes no core from them;
     /// false, and nothing is done, where there is none for it. `work` must not throw.
-    virtual bool begin_beside(std::function<void()> /*work*/) { return false; }
+    virtual bool begin_on_idle_thread(std::function<void()> /*work*/) { return false; }
 
     /// Starts the drawing of a picture; the plan's memory is free again on return.
     virtual void draw(const FramePlan& plan) = 0;
@@ -85,10 +85,10 @@ public:
 
     /// From now on pictures may be drawn straight into the window, which is so large, where they
     /// fit: that saves copying them there. 0,0 = no window.
-    virtual void aim_at_window(const glm::ivec2& window_px) = 0;
+    virtual void set_window_target(const glm::ivec2& window_px) = 0;
 
     /// Whether the last picture was drawn straight into the window: it cannot be read then.
-    virtual bool is_in_window() const = 0;
+    virtual bool is_drawn_to_window() const = 0;
 
     /// Waits for the picture and copies it into the lower left corner of the window, stretched to
     /// `size_px`, upright there.

@@ -2,7 +2,7 @@
 
 #include "visuals/draworder/order_method.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/model_look.h"
+#include "visuals/scene/model_display.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -102,7 +102,7 @@ struct ShadingSettings {
     double near_m = 0.0;
     /// By the paper's rule all polygons are flat from this distance on.
     double far_m = 1000.0;
-    ModelLook show_model = ModelLook::None;
+    ModelDisplay show_model = ModelDisplay::None;
 
     bool operator==(const ShadingSettings&) const = default;
 };
@@ -140,7 +140,7 @@ struct GroundSettings {
     bool roads = true;
     /// A runway where the path begins, on ground that is levelled for it.
     bool airfield = false;
-    MeshLook show_mesh = MeshLook::None;
+    MeshDisplay show_mesh = MeshDisplay::None;
 
     bool operator==(const GroundSettings&) const = default;
 };
@@ -194,11 +194,11 @@ struct Settings {
 /// What refines the ground: unless told, the screen-space error; the paper's quadtree by mid-point
 /// roughness where something is asked for that only it has.
 inline GroundMetric ground_metric(const GroundSettings& settings) {
-    const bool of_the_paper = settings.detail != DetailControl::Exact || settings.roughness_c ||
+    const bool uses_paper_quadtree = settings.detail != DetailControl::Exact || settings.roughness_c ||
                               settings.fans != GroundFans::Partial ||
                               settings.propagation != Propagation::CrackFree;
     return settings.mesh.value_or(
-        of_the_paper ? GroundMetric::Midpoint : GroundMetric::ScreenError);
+        uses_paper_quadtree ? GroundMetric::Midpoint : GroundMetric::ScreenError);
 }
 
 /// Whether the detail of the ground is controlled alike, so that one goes on where the other was.
@@ -212,8 +212,8 @@ inline constexpr int unlimited_triangles = 1000000000;
 /// Triangles of ground that are held, in the first frame where that number follows the clock; a
 /// number beyond all meshes where the error alone decides.
 inline int triangle_target(const Settings& settings) {
-    const bool error_alone = settings.ground.error_px && !settings.adapt.terrain;
-    return settings.ground.triangles.value_or(error_alone ? unlimited_triangles : 20000);
+    const bool uses_error_only = settings.ground.error_px && !settings.adapt.terrain;
+    return settings.ground.triangles.value_or(uses_error_only ? unlimited_triangles : 20000);
 }
 
 } // namespace octant::visuals::scene

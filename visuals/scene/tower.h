@@ -13,7 +13,7 @@
 namespace octant::visuals::scene {
 
 /// The narrowest field of view of the tower's lens.
-inline constexpr double narrowest_fov_rad = 0.0122;
+inline constexpr double min_lens_fov_rad = 0.0122;
 
 /// Where the tower's camera stands, and what it knows of the land around it.
 struct Tower {
@@ -21,7 +21,7 @@ struct Tower {
     /// Elevation of the skyline at even steps of heading from north; empty: level all around.
     std::vector<float> skyline_rad;
     /// A narrower field of view would show single samples of the ground.
-    double min_fov_rad = narrowest_fov_rad;
+    double min_fov_rad = min_lens_fov_rad;
 };
 
 /// Elevation of the skyline at a heading, radians.
@@ -32,7 +32,7 @@ double skyline_rad(const Tower& tower, double heading_rad);
 Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double radius_m);
 
 /// What a place for the tower is chosen by.
-struct TowerWish {
+struct TowerRequest {
     /// States of the flight at even times.
     std::span<const sim::AircraftState> flight;
     /// The radius of the sphere around the aircraft.
@@ -40,21 +40,21 @@ struct TowerWish {
     /// The spacing of the ground's samples; 0 = as fine as one likes.
     double spacing_m = 0.0;
     /// Where the tower stands if nothing is known of the flight.
-    glm::dvec2 around_m{0.0};
+    glm::dvec2 fallback_m{0.0};
 };
 
 /// A tower at an eye point, lifted out of the ground, for flights as in the wish.
-Tower tower_at(glm::dvec3 eye_m, const TowerWish& wish, const GroundHeight& ground);
+Tower tower_at(glm::dvec3 eye_m, const TowerRequest& request, const GroundHeight& ground);
 
-/// The tower on the ground from which the flight is seen best, as tower_score() has it; `around_m`
+/// The tower on the ground from which the flight is seen best, as tower_score() has it; `fallback_m`
 /// where there is no ground beside the flight. The same wish gives the same tower. Loading work.
-Tower tower_for(const TowerWish& wish, const GroundHeight& ground);
+Tower tower_for(const TowerRequest& request, const GroundHeight& ground);
 
 /// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the
 /// aircraft is, how near to the middle of the picture the skyline runs, so that relief and sky are
 /// seen, and how many samples of the ground behind it the picture spans. Times at which ground
 /// hides the aircraft, or no operator could follow it, count nothing, and the more of them there
 /// are the less the others count.
-double tower_score(const glm::dvec3& eye_m, const TowerWish& wish, const GroundHeight& ground);
+double tower_score(const glm::dvec3& eye_m, const TowerRequest& request, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

@@ -191,7 +191,7 @@ TEST_CASE("pictures with a head-up display are those that were approved") {
 }
 
 TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were approved") {
-    using visuals::scene::ModelLook;
+    using visuals::scene::ModelDisplay;
     const auto file = tests::scratch_folder() / "ball.ply";
     models::meshfile::write_mesh(file, ui::studies::hybrid_shading::uneven_ball(24, 49));
     RunSettings ball = small("turn", file.string(), "hills", View::Chase);
@@ -199,9 +199,9 @@ TEST_CASE("pictures of a refined mesh, three in ten smooth, are those that were 
     ball.air.sun_azimuth_deg = 45.0; // on the side that is seen
     ball.surface.aircraft_error_px = 0.2;
     check_against_golden("ball-turn-hills-hybrid", ball);
-    ball.shading.show_model = ModelLook::Shading;
+    ball.shading.show_model = ModelDisplay::Shading;
     check_against_golden("ball-turn-hills-shading", ball);
-    ball.shading.show_model = ModelLook::Levels;
+    ball.shading.show_model = ModelDisplay::Levels;
     check_against_golden("ball-turn-hills-levels", ball);
 }
 

@@ -50,9 +50,9 @@ public:
 
     int draw_calls() const override { return 1; }
 
-    void aim_at_window(const glm::ivec2& /*window_px*/) override {}
+    void set_window_target(const glm::ivec2& /*window_px*/) override {}
 
-    bool is_in_window() const override { return false; }
+    bool is_drawn_to_window() const override { return false; }
 
     void copy_to_window(const glm::ivec2& /*size_px*/) override {}
 

@@ -14,18 +14,18 @@ TEST_CASE("back faces of aircraft are not drawn, those of ground and sky are") {
     Triangles turned_away;
     turned_away.add({}, 10.0F, red, false);
     const glm::mat4 flipped = glm::rotate(ahead(10.0F), 3.14159265F, glm::vec3(0.0F, 1.0F, 0.0F));
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         plan.ground = turned_away.draw();
-        CHECK(middle(studio.picture(plan, way)) == red_px);
+        CHECK(middle(studio.picture(plan, mode)) == red_px);
         plan.ground = {};
         set_square(plan, 0, flipped);
-        CHECK(middle(studio.picture(plan, way)) == grey_px);
+        CHECK(middle(studio.picture(plan, mode)) == grey_px);
         set_square(plan, 0, ahead(10.0F));
-        CHECK(middle(studio.picture(plan, way)) == red_px);
+        CHECK(middle(studio.picture(plan, mode)) == red_px);
         plan = empty_plan();
         plan.sky = turned_away.draw();
-        CHECK(middle(studio.picture(plan, way)) == red_px);
+        CHECK(middle(studio.picture(plan, mode)) == red_px);
     }
 }
 
@@ -39,8 +39,8 @@ TEST_CASE("a polygon whose back is seen by its plane is not drawn, however its c
         studio.renderer().load_models({&model, 1});
         scene::FramePlan plan = empty_plan();
         set_square(plan, 0, ahead(10.0F));
-        for (const Way way : all_ways) {
-            CHECK(middle(studio.picture(plan, way)) == (outwards > 0.0F ? red_px : grey_px));
+        for (const HiddenSurfaceMode mode : all_modes) {
+            CHECK(middle(studio.picture(plan, mode)) == (outwards > 0.0F ? red_px : grey_px));
         }
     }
 }
@@ -71,14 +71,14 @@ TEST_CASE("with depth an aircraft behind a wall of ground is hidden, else it is 
     load_squares(studio);
     Triangles wall;
     wall.add({}, 20.0F, blue);
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         plan.ground = wall.draw();
         set_square(plan, 0, ahead(20.5F));
-        CHECK(middle(studio.picture(plan, way)) == (way == Way::ByDepth ? blue_px : red_px));
+        CHECK(middle(studio.picture(plan, mode)) == (mode == HiddenSurfaceMode::ByDepth ? blue_px : red_px));
         set_square(plan, 0, ahead(19.5F));
-        CHECK(middle(studio.picture(plan, way)) == red_px);
-        CHECK(pixel(studio.picture(plan, way), 0, 0) == blue_px);
+        CHECK(middle(studio.picture(plan, mode)) == red_px);
+        CHECK(pixel(studio.picture(plan, mode), 0, 0) == blue_px);
     }
 }
 
@@ -89,9 +89,9 @@ TEST_CASE("of aircraft the last in the list is on top, unless depth decides") {
         scene::FramePlan plan = empty_plan();
         add_square(plan, nearer_first ? 0 : 1, ahead(nearer_first ? 10.0F : 12.0F));
         add_square(plan, nearer_first ? 1 : 0, ahead(nearer_first ? 12.0F : 10.0F));
-        for (const Way way : all_ways) {
-            const bool red_is_seen = way == Way::ByDepth || !nearer_first;
-            CHECK(middle(studio.picture(plan, way)) == (red_is_seen ? red_px : green_px));
+        for (const HiddenSurfaceMode mode : all_modes) {
+            const bool red_is_seen = mode == HiddenSurfaceMode::ByDepth || !nearer_first;
+            CHECK(middle(studio.picture(plan, mode)) == (red_is_seen ? red_px : green_px));
         }
     }
 }
@@ -112,7 +112,7 @@ TEST_CASE("within an aircraft the last polygon is on top, unless depth decides")
     add_square(plan, 0, ahead(10.0F));
     plan.aircraft[0].index_count = 12;
     CHECK(middle(studio.picture(plan)) == green_px);
-    CHECK(middle(studio.picture(plan, Way::ByDepth)) == red_px);
+    CHECK(middle(studio.picture(plan, HiddenSurfaceMode::ByDepth)) == red_px);
 }
 
 TEST_CASE("an aircraft is drawn from its own model and its own range of indices") {
@@ -172,19 +172,19 @@ TEST_CASE("each part of an aircraft turns with its own matrix") {
     model.indices.insert(model.indices.end(), {4, 5, 6, 4, 6, 7});
     const std::array<scene::ModelBuffers, 2> models{square_model(blue), model};
     studio.renderer().load_models(models);
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         add_square(plan, 0, glm::translate(ahead(4.0F), glm::vec3(-3.0F, 0.0F, 0.0F)));
         add_square(plan, 1, ahead(4.0F));
         plan.aircraft[1].index_count = 12;
         plan.parts.push_back(ahead(3.9F));
-        const scene::Picture upright = studio.picture(plan, way);
+        const scene::Picture upright = studio.picture(plan, mode);
         CHECK(pixel(upright, 0, 32) == blue_px);
         CHECK(middle(upright) == green_px);
         CHECK(pixel(upright, 32, 26) == green_px);
         CHECK(pixel(upright, 26, 32) == red_px);
         plan.parts[2] = glm::rotate(plan.parts[2], 1.57079633F, glm::vec3(0.0F, 0.0F, 1.0F));
-        const scene::Picture turned = studio.picture(plan, way);
+        const scene::Picture turned = studio.picture(plan, mode);
         CHECK(middle(turned) == green_px);
         CHECK(pixel(turned, 32, 26) == red_px);
         CHECK(pixel(turned, 26, 32) == green_px);
@@ -206,10 +206,10 @@ TEST_CASE("aircraft drawn together give the picture of those drawn one by one") 
     scene::FramePlan apart = together;
     apart.steps.clear();
     for (std::uint32_t i = 0; i < 60; ++i) {
-        apart.steps.push_back({scene::PaintStep::What::Aircraft, i, 1, scene::PaintStep::whole});
+        apart.steps.push_back({scene::PaintStep::Content::Aircraft, i, 1, scene::PaintStep::no_clip});
     }
     const scene::Picture picture = studio.picture(together);
     CHECK((studio.picture(apart).rgba == picture.rgba));
     // They do not cross, so depth finds the same; its order within models changes nothing.
-    CHECK((studio.picture(together, Way::ByDepth).rgba == picture.rgba));
+    CHECK((studio.picture(together, HiddenSurfaceMode::ByDepth).rgba == picture.rgba));
 }

@@ -32,16 +32,16 @@ scene::FramePlan plan_of(const glm::vec3& background) {
 } // namespace
 
 TEST_CASE("a driver older than OpenGL 4.5 is refused with what it has") {
-    CHECK_NOTHROW(gl::expect_gl_4_5("4.5 (Core Profile) Mesa 22.3.6"));
-    CHECK_NOTHROW(gl::expect_gl_4_5("4.6.0 NVIDIA 550.54"));
-    CHECK_NOTHROW(gl::expect_gl_4_5("5.0"));
-    CHECK_NOTHROW(gl::expect_gl_4_5("4.10"));
+    CHECK_NOTHROW(gl::require_gl_4_5("4.5 (Core Profile) Mesa 22.3.6"));
+    CHECK_NOTHROW(gl::require_gl_4_5("4.6.0 NVIDIA 550.54"));
+    CHECK_NOTHROW(gl::require_gl_4_5("5.0"));
+    CHECK_NOTHROW(gl::require_gl_4_5("4.10"));
     CHECK_THROWS_WITH(
-        gl::expect_gl_4_5("3.3 (Core Profile) Mesa 22.3.6"),
+        gl::require_gl_4_5("3.3 (Core Profile) Mesa 22.3.6"),
         "expected OpenGL 4.5, got 3.3 (Core Profile) Mesa 22.3.6");
     CHECK_THROWS_WITH(
-        gl::expect_gl_4_5("OpenGL ES 3.2 Mesa"), "expected OpenGL 4.5, got OpenGL ES 3.2 Mesa");
-    CHECK_THROWS_WITH(gl::expect_gl_4_5("4"), "expected OpenGL 4.5, got 4");
+        gl::require_gl_4_5("OpenGL ES 3.2 Mesa"), "expected OpenGL 4.5, got OpenGL ES 3.2 Mesa");
+    CHECK_THROWS_WITH(gl::require_gl_4_5("4"), "expected OpenGL 4.5, got 4");
 }
 
 TEST_CASE("a driver without a needed function is refused by the function's name") {

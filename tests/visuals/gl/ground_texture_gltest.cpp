@@ -29,8 +29,8 @@ scene::FramePlan plan_over(const Triangles& ground) {
     scene::FramePlan plan = empty_plan();
     plan.background = glm::vec3(0.0F);
     plan.ground = ground.draw();
-    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(0.05F)};
-    plan.ground_texture = scene::TexturePlaces{place, place};
+    const scene::TextureTransform place{glm::vec2(0.5F), glm::vec2(0.05F)};
+    plan.ground_texture = scene::GroundTextureTransforms{place, place};
     return plan;
 }
 
@@ -46,9 +46,9 @@ TEST_CASE("textured ground has south at the texture's first row and west at its 
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = plan_over(ground);
-        const scene::Picture picture = studio.picture(plan, way);
+        const scene::Picture picture = studio.picture(plan, mode);
         CHECK(pixel(picture, 2, 61) == red_px);
         CHECK(pixel(picture, 61, 61) == green_px);
         CHECK(pixel(picture, 2, 2) == blue_px);
@@ -87,14 +87,14 @@ TEST_CASE("a shadow on textured ground leaves its share of the texture's colour"
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = plan_over(ground);
         for (const models::ColourVertex& vertex : ground.vertices) {
             plan.shadow_vertices.push_back({vertex.position_m, 0x80000000U});
         }
         plan.repaint_indices = {4, 5, 6};
-        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 3}};
-        const scene::Picture picture = studio.picture(plan, way, 3);
+        plan.steps = {{scene::PaintStep::Content::GroundRepaint, 0, 3}};
+        const scene::Picture picture = studio.picture(plan, mode, 3);
         CHECK(pixel(picture, 61, 61) == Pixel{0, 128, 0, 255});
         CHECK(pixel(picture, 2, 2) == blue_px); // not in the shadow
     }
@@ -104,7 +104,7 @@ TEST_CASE("what is painted on textured ground has its own colour, in haze too") 
     Studio studio;
     studio.renderer().load_ground_texture(four_texels());
     const Triangles ground = whole_ground();
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = plan_over(ground);
         plan.ambient = glm::vec3(0.3F); // its colour has its light already
         for (const models::ColourVertex& vertex : ground.vertices) {
@@ -114,13 +114,13 @@ TEST_CASE("what is painted on textured ground has its own colour, in haze too") 
             plan.shadow_vertices.push_back({vertex.position_m, 0xff000000U});
         }
         plan.repaint_indices = {4, 5, 6, 8, 10, 11};
-        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 6}};
-        const scene::Picture clear = studio.picture(plan, way, 6);
+        plan.steps = {{scene::PaintStep::Content::GroundRepaint, 0, 6}};
+        const scene::Picture clear = studio.picture(plan, mode, 6);
         CHECK(pixel(clear, 61, 61) == red_px);
         CHECK(pixel(clear, 2, 2)[2] == Approx(0.3 * 255.0).margin(1.0)); // of the texture
         plan.haze.colour = glm::vec3(0.0F, 1.0F, 0.0F);
         plan.haze.visibility_m = 14.0F;
-        const Pixel hazy = pixel(studio.picture(plan, way, 6), 32, 40);
+        const Pixel hazy = pixel(studio.picture(plan, mode, 6), 32, 40);
         const double left = std::exp(-std::sqrt(300.0) / 14.0); // as at all corners
         CHECK(hazy[0] == Approx(255.0 * left).margin(2.0));
         CHECK(hazy[1] == Approx(255.0 * (1.0 - left)).margin(2.0));
@@ -135,16 +135,16 @@ TEST_CASE("textured ground that is painted again is cut by its planes") {
     plan.ground.indices = {};
     plan.repaint_indices = ground.indices;
     plan.clips.push_back({{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F)}, 1});
-    plan.steps = {{scene::PaintStep::What::GroundAgain, 0, 6, 0}};
+    plan.steps = {{scene::PaintStep::Content::GroundRepaint, 0, 6, 0}};
     const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 61, 61) == green_px);
     CHECK(pixel(picture, 2, 61) == Pixel{0, 0, 0, 255});
 }
 
 TEST_CASE("renderers on a processor are told from GPUs by their names") {
-    CHECK(gl::is_processor("llvmpipe (LLVM 15.0.6, 256 bits)"));
-    CHECK(gl::is_processor("softpipe"));
-    CHECK_FALSE(gl::is_processor("NVIDIA H200/PCIe/SSE2"));
-    CHECK_FALSE(gl::is_processor("Mesa Intel(R) UHD Graphics 620"));
-    CHECK(gl::draws_on_processor(gl::make_osmesa_context()->functions()));
+    CHECK(gl::is_software_device("llvmpipe (LLVM 15.0.6, 256 bits)"));
+    CHECK(gl::is_software_device("softpipe"));
+    CHECK_FALSE(gl::is_software_device("NVIDIA H200/PCIe/SSE2"));
+    CHECK_FALSE(gl::is_software_device("Mesa Intel(R) UHD Graphics 620"));
+    CHECK(gl::is_software_renderer(gl::make_osmesa_context()->functions()));
 }

@@ -71,11 +71,11 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
     Overlay overlay;
     overlay.add({8.0F, 4.0F}, {16.0F, 60.0F}, white, 255)
         .add({32.0F, 4.0F}, {40.0F, 60.0F}, 0, 128);
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         add_square(plan, 0, ahead(0.6F)); // red over the whole picture, near
         plan.overlay = overlay.draw();
-        const scene::Picture picture = studio.picture(plan, way);
+        const scene::Picture picture = studio.picture(plan, mode);
         CHECK(pixel(picture, 8, 4) == Pixel{255, 255, 255, 255});
         CHECK(pixel(picture, 15, 59) == Pixel{255, 255, 255, 255});
         CHECK(pixel(picture, 7, 4) == red_px);
@@ -87,7 +87,7 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
         CHECK(half[3] == 255);
         CHECK(studio.renderer().draw_calls() == 2);
         plan.overlay = {};
-        CHECK(count_of(studio.picture(plan, way), red_px) == side_px * side_px);
+        CHECK(count_of(studio.picture(plan, mode), red_px) == side_px * side_px);
         CHECK(studio.renderer().draw_calls() == 1);
     }
 }
@@ -112,17 +112,17 @@ TEST_CASE("an inset shows what a renderer of its size shows, around it nothing c
     for (Studio* studio : {&large, &small}) {
         studio->renderer().load_models(full.models());
     }
-    for (const Way outer_way : all_ways) {
-        for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode outer_way : all_modes) {
+        for (const HiddenSurfaceMode mode : all_modes) {
             const scene::FramePlan plan = full.plan();
             scene::FramePlan inset = full.plan();
             inset.overlay = overlay.draw();
-            const scene::Picture alone = small.picture(inset, way, FullScene::shadow_indices);
+            const scene::Picture alone = small.picture(inset, mode, FullScene::shadow_indices);
             const scene::Picture without =
                 large.picture(plan, outer_way, FullScene::shadow_indices);
             scene::Picture with;
             large.renderer().draw(framed(plan, outer_way, FullScene::shadow_indices));
-            large.renderer().draw_inset(framed(inset, way, FullScene::shadow_indices), rect);
+            large.renderer().draw_inset(framed(inset, mode, FullScene::shadow_indices), rect);
             large.renderer().finish_and_read(with);
             CHECK(differing(part_of(with, rect), alone, 2) <= 3);
             const scene::PixelRect framed{rect.x - 1, rect.y - 1, rect.width + 2, rect.height + 2};
@@ -146,7 +146,7 @@ TEST_CASE("in an inset planes cut where they cut in a picture of its own") {
     add_square(inset, 0, ahead(0.6F)); // red over the whole inset
     inset.clips.push_back(
         {{glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 1.0F, 0.0F, 0.0F)}, 2});
-    inset.steps = {{scene::PaintStep::What::Aircraft, 0, 1, 0}};
+    inset.steps = {{scene::PaintStep::Content::Aircraft, 0, 1, 0}};
     const scene::PixelRect rect{24, 40, 20, 20};
     studio.renderer().draw(empty_plan());
     studio.renderer().draw_inset(inset, rect);
@@ -164,16 +164,16 @@ TEST_CASE("an inset may lie in a corner, and the next picture is whole again") {
     load_squares(studio);
     scene::FramePlan green_plan = empty_plan();
     green_plan.background = green;
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
-        studio.renderer().draw(framed(plan, way));
-        studio.renderer().draw_inset(framed(green_plan, way), {0, 44, 20, 20});
+        studio.renderer().draw(framed(plan, mode));
+        studio.renderer().draw_inset(framed(green_plan, mode), {0, 44, 20, 20});
         scene::Picture picture;
         studio.renderer().finish_and_read(picture);
         CHECK(count_of(picture, green_px) == 20 * 20);
         CHECK(pixel(picture, 0, 63) == green_px);
         CHECK(pixel(picture, 19, 44) == green_px);
         CHECK(count_of(picture, grey_px) == side_px * side_px - 21 * 21); // a frame of one pixel
-        CHECK(count_of(studio.picture(green_plan, way), green_px) == side_px * side_px);
+        CHECK(count_of(studio.picture(green_plan, mode), green_px) == side_px * side_px);
     }
 }

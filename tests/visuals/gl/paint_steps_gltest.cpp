@@ -9,11 +9,11 @@
 using namespace octant;
 using namespace octant::tests;
 using scene::PaintStep;
-using What = scene::PaintStep::What;
+using Content = scene::PaintStep::Content;
 
 namespace {
 
-constexpr std::uint32_t whole = PaintStep::whole;
+constexpr std::uint32_t whole = PaintStep::no_clip;
 
 /// A plane through the line x = `offset` of the picture 10 m ahead; what is to the right is drawn.
 scene::Clip right_of(float offset) {
@@ -44,16 +44,16 @@ struct Overlapping {
 TEST_CASE("aircraft and ground are painted in the order of the steps") {
     Studio studio;
     Overlapping scene(studio);
-    scene.plan.steps = {{What::Aircraft, 0, 2, whole}};
+    scene.plan.steps = {{Content::Aircraft, 0, 2, whole}};
     CHECK(middle(studio.picture(scene.plan)) == blue_px);
-    scene.plan.steps = {{What::Aircraft, 1, 1, whole}, {What::Aircraft, 0, 1, whole}};
+    scene.plan.steps = {{Content::Aircraft, 1, 1, whole}, {Content::Aircraft, 0, 1, whole}};
     CHECK(middle(studio.picture(scene.plan)) == red_px);
-    scene.plan.steps = {{What::Aircraft, 0, 2, whole}, {What::GroundAgain, 0, 6, whole}};
+    scene.plan.steps = {{Content::Aircraft, 0, 2, whole}, {Content::GroundRepaint, 0, 6, whole}};
     CHECK(count_of(studio.picture(scene.plan), green_px) == side_px * side_px);
     scene.plan.steps = {
-        {What::Aircraft, 0, 1, whole},
-        {What::GroundAgain, 0, 6, whole},
-        {What::Aircraft, 1, 1, whole}};
+        {Content::Aircraft, 0, 1, whole},
+        {Content::GroundRepaint, 0, 6, whole},
+        {Content::Aircraft, 1, 1, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, blue_px) == 16 * 16);
     CHECK(count_of(picture, red_px) == 0);
@@ -70,10 +70,10 @@ TEST_CASE("a clear surface is blended where it is nearest and hides nothing by i
     plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(side_px)}};
     using scene::DepthUse;
     plan.steps = {
-        {What::ClearDepth, 0, 1},
-        {What::Aircraft, 0, 2, whole, DepthUse::Nearest},
-        {What::Aircraft, 2, 1, whole, DepthUse::Nearest, 0.25F},
-        {What::Aircraft, 3, 1, whole, DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1},
+        {Content::Aircraft, 0, 2, whole, DepthUse::Nearest},
+        {Content::Aircraft, 2, 1, whole, DepthUse::Nearest, 0.25F},
+        {Content::Aircraft, 3, 1, whole, DepthUse::Nearest}};
     const scene::Picture picture = studio.picture(plan);
     CHECK(pixel(picture, 4, 4) == red_px);
     CHECK(pixel(picture, 18, 20) == Pixel{191, 64, 0, 255});
@@ -84,7 +84,7 @@ TEST_CASE("a clear surface is blended where it is nearest and hides nothing by i
 TEST_CASE("only the named ground triangles are painted again") {
     Studio studio;
     Overlapping scene(studio);
-    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::GroundAgain, 3, 3, whole}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, whole}, {Content::GroundRepaint, 3, 3, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(pixel(picture, 40, 36) == red_px);
     CHECK(pixel(picture, 24, 28) == green_px);
@@ -100,7 +100,7 @@ TEST_CASE("a shadow piece is painted again like the ground it counts on after") 
     for (const std::uint32_t corner : shadow.indices) {
         scene.plan.repaint_indices.push_back(corner + 4);
     }
-    scene.plan.steps = {{What::Aircraft, 0, 1, whole}, {What::GroundAgain, 0, 6, whole}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, whole}, {Content::GroundRepaint, 0, 6, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, grey_px) == 16 * 16);
     CHECK(count_of(picture, red_px) == 32 * 32 - 16 * 16);
@@ -111,7 +111,7 @@ TEST_CASE("a clip cuts an aircraft's draw and that of the ground at its plane, a
     Overlapping scene(studio);
     scene.plan.clips = {right_of(0.0F), right_of(0.125F)};
     scene.plan.steps = {
-        {What::Aircraft, 0, 1, 0}, {What::GroundAgain, 0, 6, 1}, {What::Aircraft, 1, 1, whole}};
+        {Content::Aircraft, 0, 1, 0}, {Content::GroundRepaint, 0, 6, 1}, {Content::Aircraft, 1, 1, whole}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(count_of(picture, red_px) == 4 * 8 * 2); // columns 32 to 35, rows outside the blue ones
     CHECK(pixel(picture, 31, 18) == green_px);
@@ -124,7 +124,7 @@ TEST_CASE("a clip cuts an aircraft's draw and that of the ground at its plane, a
 TEST_CASE("up to eight planes cut a draw, each by its own offset") {
     Studio studio;
     Overlapping scene(studio);
-    scene.plan.steps = {{What::Aircraft, 0, 1, 0}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, 0}};
     scene::Clip octagon;
     octagon.planes = {
         glm::vec4(1.0F, 0.0F, 0.0F, 3.75F),
@@ -160,7 +160,7 @@ TEST_CASE("planes lie in world axes whichever way the eye looks") {
     scene::Clip clip = right_of(0.125F);
     clip.planes[0] = view_to_world * clip.planes[0];
     scene.plan.clips = {clip};
-    scene.plan.steps = {{What::Aircraft, 0, 1, 0}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, 0}};
     const scene::Picture picture = studio.picture(scene.plan);
     CHECK(pixel(picture, 35, 32) == grey_px);
     CHECK(pixel(picture, 36, 32) == red_px);
@@ -177,7 +177,7 @@ TEST_CASE("ground painted again cut by a plane has the colours that it has whole
     const scene::Picture once = studio.picture(plan);
     plan.clips[0].planes[0] = glm::vec4(0.8F, 0.0F, -0.6F, -300.0F);
     plan.clips[0].count = 1;
-    plan.steps = {{What::GroundAgain, 0, count, 0}};
+    plan.steps = {{Content::GroundRepaint, 0, count, 0}};
     const scene::Picture twice = studio.picture(plan);
     // Cutting adds corners, rounded to 1/256 pixel: edges may move by a pixel, colours by a step.
     int other = 0;
@@ -202,12 +202,12 @@ TEST_CASE("a plan after one with clips is drawn uncut") {
     Studio studio;
     Overlapping scene(studio);
     scene.plan.clips = {right_of(0.0F)};
-    scene.plan.steps = {{What::Aircraft, 0, 1, 0}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, 0}};
     CHECK(count_of(studio.picture(scene.plan), red_px) == 32 * 16);
-    scene.plan.steps = {{What::Aircraft, 0, 1, whole}};
+    scene.plan.steps = {{Content::Aircraft, 0, 1, whole}};
     CHECK(count_of(studio.picture(scene.plan), red_px) == 32 * 32);
     scene.plan.ground = {};
-    CHECK(count_of(studio.picture(scene.plan, Way::ByDepth), red_px) > 32 * 16);
+    CHECK(count_of(studio.picture(scene.plan, HiddenSurfaceMode::ByDepth), red_px) > 32 * 16);
 }
 
 TEST_CASE("the renderer says how many draw calls the last picture took") {
@@ -217,7 +217,7 @@ TEST_CASE("the renderer says how many draw calls the last picture took") {
     studio.picture(scene.plan);
     CHECK(studio.renderer().draw_calls() == 1);
     scene.plan.clips = {right_of(0.0F)};
-    scene.plan.steps = {{What::GroundAgain, 0, 6, 0}, {What::Aircraft, 0, 1, whole}};
+    scene.plan.steps = {{Content::GroundRepaint, 0, 6, 0}, {Content::Aircraft, 0, 1, whole}};
     studio.picture(scene.plan);
     CHECK(studio.renderer().draw_calls() == 3);
     studio.picture(empty_plan());
@@ -236,18 +236,18 @@ TEST_CASE("solids are hidden by depth among themselves, and by nothing painted b
     add_square(plan, 2, ahead(12.0F));
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}};
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole}, {What::Aircraft, 0, 2, whole, scene::DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole}, {Content::Aircraft, 0, 2, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == red_px);
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole},
-        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest},
-        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest},
+        {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == red_px);
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole},
-        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
-        {What::ClearDepth, 0, 1, whole},
-        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == blue_px);
 }
 
@@ -263,11 +263,11 @@ TEST_CASE("ground drawn as depth alone hides solids and changes no pixel") {
     add_square(plan, 0, ahead(9.0F));
     add_square(plan, 2, ahead(11.0F));
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole},
-        {What::GroundAgain, 0, 6, whole, scene::DepthUse::DepthOnly},
-        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::GroundRepaint, 0, 6, whole, scene::DepthUse::DepthOnly},
+        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     CHECK(middle(studio.picture(plan)) == grey_px);
-    plan.steps.back() = {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest};
+    plan.steps.back() = {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest};
     CHECK(middle(studio.picture(plan)) == red_px);
 }
 
@@ -279,10 +279,10 @@ TEST_CASE("depth is cleared inside its box only") {
     add_square(plan, 2, glm::scale(ahead(20.0F), glm::vec3(40.0F, 40.0F, 1.0F)));
     plan.depth_boxes = {{{0, 0}, {side_px, side_px}}, {{8, 4}, {20, 14}}};
     plan.steps = {
-        {What::ClearDepth, 0, 1, whole},
-        {What::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
-        {What::ClearDepth, 1, 1, whole},
-        {What::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::Aircraft, 0, 1, whole, scene::DepthUse::Nearest},
+        {Content::ClearDepth, 1, 1, whole},
+        {Content::Aircraft, 1, 1, whole, scene::DepthUse::Nearest}};
     const scene::Picture picture = studio.picture(plan);
     CHECK(count_of(picture, blue_px) == 12 * 10);
     CHECK(pixel(picture, 8, 4) == blue_px);
@@ -297,10 +297,10 @@ TEST_CASE("slivers of ground keep their numbers to the last bit") {
     constexpr std::uint32_t number = 0xff1ebde2U;
     for (std::uint32_t i = 0; i < 30000; ++i) {
         const glm::vec2 from(dice.between(-0.9, 0.9), dice.between(-0.9, 0.9));
-        const glm::vec2 way(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3));
+        const glm::vec2 mode(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3));
         for (const float share : {0.0F, 0.4F, 1.0F}) {
-            const glm::vec2 aside(-way.y, way.x);
-            const glm::vec2 at = from + way * share + aside * (share == 0.4F ? 2e-5F : 0.0F);
+            const glm::vec2 aside(-mode.y, mode.x);
+            const glm::vec2 at = from + mode * share + aside * (share == 0.4F ? 2e-5F : 0.0F);
             const auto ahead_m = static_cast<float>(dice.between(5000.0, 9000.0));
             slivers.vertices.push_back({glm::vec3(at * ahead_m, -ahead_m), number});
             slivers.indices.push_back(static_cast<std::uint32_t>(slivers.indices.size()));
@@ -308,7 +308,7 @@ TEST_CASE("slivers of ground keep their numbers to the last bit") {
     }
     scene::FramePlan plan = empty_plan();
     plan.ground = slivers.draw();
-    plan.ground_has_numbers = true;
+    plan.ground_has_polygon_numbers = true;
     const scene::Picture picture = studio.picture(plan);
     const int right = count_of(picture, {0xe2, 0xbd, 0x1e, 255});
     CHECK(right > 100);

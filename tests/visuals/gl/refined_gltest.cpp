@@ -14,11 +14,11 @@ using namespace octant;
 using namespace octant::tests;
 using scene::DepthUse;
 using scene::PaintStep;
-using What = scene::PaintStep::What;
+using Content = scene::PaintStep::Content;
 
 namespace {
 
-constexpr std::uint32_t whole = PaintStep::whole;
+constexpr std::uint32_t whole = PaintStep::no_clip;
 constexpr int picture_px = 160;
 
 /// A coloured torus, each triangle with three corners of its own, lit at its corners and as a
@@ -59,7 +59,7 @@ public:
     TwoTori()
         : refined_(torus_corners()) {
         level_.vertices = refined_;
-        level_.has_meshes = true;
+        level_.has_depth_drawn_meshes = true;
         for (std::uint32_t i = 0; i < refined_.size(); ++i) {
             level_.indices.push_back(i);
             level_.vertices[i].polygon = i / 3;
@@ -75,7 +75,7 @@ public:
         plan.smooth.assign(refined_.size() / 3 / 32 + 1, smooth ? ~0U : 0U);
         plan.aircraft = {
             {.model = 0, .index_count = static_cast<std::uint32_t>(level_.indices.size())}};
-        plan.steps.push_back({What::Aircraft, 0, 1, whole, DepthUse::Nearest});
+        plan.steps.push_back({Content::Aircraft, 0, 1, whole, DepthUse::Nearest});
         return plan;
     }
 
@@ -88,7 +88,7 @@ public:
             refined_[std::size_t{3} * static_cast<std::size_t>(i)].polygon = is_smooth ? 0 : 1;
         }
         plan.refined = {{.vertices = refined_, .indices = level_.indices}};
-        plan.steps.push_back({What::Refined, 0, 1, whole, DepthUse::Nearest});
+        plan.steps.push_back({Content::Refined, 0, 1, whole, DepthUse::Nearest});
         return plan;
     }
 
@@ -100,7 +100,7 @@ private:
         plan.to_sun = glm::normalize(glm::vec3(0.5F, 0.7F, 0.6F));
         plan.parts = {body_};
         plan.depth_boxes = {{{0, 0}, {picture_px, picture_px}}};
-        plan.steps = {{What::ClearDepth, 0, 1, whole}};
+        plan.steps = {{Content::ClearDepth, 0, 1, whole}};
         return plan;
     }
 
@@ -139,8 +139,8 @@ struct TorusStudio {
 
     TorusStudio() { tori.load(studio); }
 
-    scene::Picture picture(const scene::FramePlan& plan, Way way = Way::InOrder) {
-        return studio.picture(plan, way);
+    scene::Picture picture(const scene::FramePlan& plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder) {
+        return studio.picture(plan, mode);
     }
 };
 
@@ -184,16 +184,16 @@ TEST_CASE("of a refined mesh each pixel is as all smooth or as all flat, and som
 TEST_CASE("a refined mesh hides itself and is hidden by ground before it, and by depth anywhere") {
     TorusStudio here;
     scene::FramePlan painted = here.tori.refined_plan(here.tori.triangles() / 3);
-    CHECK(largest_difference(here.picture(painted), here.picture(painted, Way::ByDepth)) == 0);
+    CHECK(largest_difference(here.picture(painted), here.picture(painted, HiddenSurfaceMode::ByDepth)) == 0);
     Triangles ground;
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 0.5F, green); // the left half, before the torus
     ground.add({0.0F, -1.0F, 1.0F, 1.0F}, 5.0F, green);  // the right half, behind it
     painted.ground = {ground.vertices, {}};
     painted.repaint_indices = ground.indices;
     painted.steps = {
-        {What::ClearDepth, 0, 1, whole},
-        {What::GroundAgain, 0, 12, whole, DepthUse::DepthOnly},
-        {What::Refined, 0, 1, whole, DepthUse::Nearest}};
+        {Content::ClearDepth, 0, 1, whole},
+        {Content::GroundRepaint, 0, 12, whole, DepthUse::DepthOnly},
+        {Content::Refined, 0, 1, whole, DepthUse::Nearest}};
     const scene::Picture free = here.picture(here.tori.refined_plan(here.tori.triangles() / 3));
     const scene::Picture cut = here.picture(painted);
     for (int row = 0; row < picture_px; ++row) {

@@ -41,7 +41,7 @@ TEST_CASE("with depth a nearer ground triangle hides a farther one, whichever is
             .add({}, nearer_first ? 20.0F : 10.0F, nearer_first ? green : red);
         scene::FramePlan plan = empty_plan();
         plan.ground = ground.draw();
-        CHECK(middle(studio.picture(plan, Way::ByDepth)) == red_px);
+        CHECK(middle(studio.picture(plan, HiddenSurfaceMode::ByDepth)) == red_px);
     }
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("reversed depth tells 1 cm apart at 5 km") {
             .add({}, nearer_first ? 5000.01F : 5000.0F, nearer_first ? green : red);
         scene::FramePlan plan = empty_plan();
         plan.ground = ground.draw();
-        const scene::Picture picture = studio.picture(plan, Way::ByDepth);
+        const scene::Picture picture = studio.picture(plan, HiddenSurfaceMode::ByDepth);
         CHECK(count_of(picture, red_px) == side_px * side_px);
     }
 }
@@ -75,7 +75,7 @@ TEST_CASE("what is nearer than the near plane is cut off, what is a million km a
     ground.add({-1.0F, -1.0F, 0.0F, 1.0F}, 0.4F, red).add({0.0F, -1.0F, 1.0F, 1.0F}, 1e9F, green);
     scene::FramePlan plan = empty_plan();
     plan.ground = ground.draw();
-    const scene::Picture picture = studio.picture(plan, Way::ByDepth);
+    const scene::Picture picture = studio.picture(plan, HiddenSurfaceMode::ByDepth);
     CHECK(pixel(picture, 10, 32) == grey_px);
     CHECK(pixel(picture, 50, 32) == green_px);
 }
@@ -87,12 +87,12 @@ TEST_CASE("the sky is behind everything, however near its triangles are") {
     Triangles ground;
     sky.add({}, 1.0F, blue);
     ground.add({-1.0F, -1.0F, 1.0F, 0.0F}, 1e6F, green);
-    for (const Way way : all_ways) {
+    for (const HiddenSurfaceMode mode : all_modes) {
         scene::FramePlan plan = empty_plan();
         plan.sky = sky.draw();
         plan.ground = ground.draw();
         add_square(plan, 0, ahead(4.0F));
-        const scene::Picture picture = studio.picture(plan, way);
+        const scene::Picture picture = studio.picture(plan, mode);
         CHECK(pixel(picture, 32, 0) == blue_px);
         CHECK(pixel(picture, 32, 63) == green_px);
         CHECK(middle(picture) == red_px);

@@ -62,9 +62,9 @@ TEST_CASE("with depth a shadow lies on the ground without a hole") {
         }
         const auto shadows = static_cast<std::uint32_t>(plan.repaint_indices.size());
         const scene::Picture by_depth =
-            studio.picture(plan, Way::ByDepth, static_cast<int>(shadows));
+            studio.picture(plan, HiddenSurfaceMode::ByDepth, static_cast<int>(shadows));
         // The same painted: ground, then shadows.
-        plan.steps = {{scene::PaintStep::What::GroundAgain, 0, shadows}};
+        plan.steps = {{scene::PaintStep::Content::GroundRepaint, 0, shadows}};
         const scene::Picture over = studio.picture(plan);
         CHECK(count_of(over, red_px) > 1000);
         CHECK(count_of(over, green_px) > 1000);
@@ -85,7 +85,7 @@ TEST_CASE("a shadow is hidden by ground and aircraft in front of it") {
     for (const std::uint32_t corner : shadow.indices) {
         plan.repaint_indices.push_back(corner + 8);
     }
-    CHECK(count_of(studio.picture(plan, Way::ByDepth, 6), grey_px) == 16 * 32);
+    CHECK(count_of(studio.picture(plan, HiddenSurfaceMode::ByDepth, 6), grey_px) == 16 * 32);
     add_square(plan, 0, ahead(10.09F));
-    CHECK(middle(studio.picture(plan, Way::ByDepth, 6)) == red_px);
+    CHECK(middle(studio.picture(plan, HiddenSurfaceMode::ByDepth, 6)) == red_px);
 }

@@ -34,15 +34,15 @@ scene::ModelBuffers box_model(const glm::vec3& half_m) {
 
 } // namespace
 
-scene::FramePlan framed(scene::FramePlan plan, Way way, int shadow_indices) {
-    using What = scene::PaintStep::What;
+scene::FramePlan framed(scene::FramePlan plan, HiddenSurfaceMode mode, int shadow_indices) {
+    using Content = scene::PaintStep::Content;
     using scene::DepthUse;
-    constexpr std::uint32_t whole = scene::PaintStep::whole;
+    constexpr std::uint32_t whole = scene::PaintStep::no_clip;
     const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-    const scene::PaintStep overlay{What::Overlay, 0, size(plan.overlay.indices)};
-    if (way == Way::InOrder) {
+    const scene::PaintStep overlay{Content::Overlay, 0, size(plan.overlay.indices)};
+    if (mode == HiddenSurfaceMode::InOrder) {
         std::vector<scene::PaintStep> steps{
-            {What::Sky, 0, size(plan.sky.indices)}, {What::Ground, 0, size(plan.ground.indices)}};
+            {Content::Sky, 0, size(plan.sky.indices)}, {Content::Ground, 0, size(plan.ground.indices)}};
         steps.insert(steps.end(), plan.steps.begin(), plan.steps.end());
         steps.push_back(overlay);
         plan.steps = steps;
@@ -52,12 +52,12 @@ scene::FramePlan framed(scene::FramePlan plan, Way way, int shadow_indices) {
     const std::uint32_t first_shadow = size(plan.repaint_indices) - shadows;
     plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(1 << 14)}}; // beyond any picture
     plan.steps = {
-        {What::ClearDepth, 0, 1},
-        {What::Aircraft, 0, size(plan.aircraft), whole, DepthUse::Nearest},
-        {What::Refined, 0, size(plan.refined), whole, DepthUse::Nearest},
-        {What::Ground, 0, size(plan.ground.indices), whole, DepthUse::Nearest},
-        {What::GroundAgain, first_shadow, shadows, whole, DepthUse::OnGround},
-        {What::Sky, 0, size(plan.sky.indices), whole, DepthUse::InfinitelyFar},
+        {Content::ClearDepth, 0, 1},
+        {Content::Aircraft, 0, size(plan.aircraft), whole, DepthUse::Nearest},
+        {Content::Refined, 0, size(plan.refined), whole, DepthUse::Nearest},
+        {Content::Ground, 0, size(plan.ground.indices), whole, DepthUse::Nearest},
+        {Content::GroundRepaint, first_shadow, shadows, whole, DepthUse::OnGround},
+        {Content::Sky, 0, size(plan.sky.indices), whole, DepthUse::InfinitelyFar},
         overlay};
     return plan;
 }
@@ -67,7 +67,7 @@ void add_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& bo
     plan.parts.push_back(body_to_eye_world);
     plan.aircraft.push_back({model, 0, 6, first_part});
     const auto count = static_cast<std::uint32_t>(plan.aircraft.size());
-    plan.steps = {{scene::PaintStep::What::Aircraft, 0, count, scene::PaintStep::whole}};
+    plan.steps = {{scene::PaintStep::Content::Aircraft, 0, count, scene::PaintStep::no_clip}};
 }
 
 void set_square(scene::FramePlan& plan, std::uint32_t model, const glm::mat4& body_to_eye_world) {
@@ -80,7 +80,7 @@ void load_squares(Studio& studio, bool as_meshes) {
     std::array<scene::ModelBuffers, 3> models{
         square_model(red), square_model(green), square_model(blue)};
     for (scene::ModelBuffers& model : models) {
-        model.has_meshes = as_meshes;
+        model.has_depth_drawn_meshes = as_meshes;
     }
     studio.renderer().load_models(models);
 }
@@ -120,7 +120,7 @@ scene::FramePlan FullScene::plan() const {
     plan.ambient = glm::vec3(0.45F);
     plan.sunlight = glm::vec3(0.65F);
     plan.to_sun = glm::normalize(glm::vec3(0.4F, 0.7F, 0.6F));
-    using What = scene::PaintStep::What;
+    using Content = scene::PaintStep::Content;
     for (const int i : {2, 1, 0}) {
         const auto turn = static_cast<float>(i) + 0.5F;
         const glm::mat4 body_to_eye_world = glm::rotate(
@@ -140,12 +140,12 @@ scene::FramePlan FullScene::plan() const {
     plan.repaint_indices = {0, 1, 2, first_shadow, first_shadow + 1, first_shadow + 2};
     plan.clips.push_back(
         {{glm::vec4(0.7F, 0.7F, 0.0F, 1.0F), glm::vec4(-1.0F, 0.0F, 0.0F, 3.0F)}, 2});
-    constexpr std::uint32_t whole = scene::PaintStep::whole;
+    constexpr std::uint32_t whole = scene::PaintStep::no_clip;
     plan.steps = {
-        {What::Aircraft, 0, 2, whole},
-        {What::GroundAgain, 0, 6, 0},
-        {What::Aircraft, 2, 1, whole},
-        {What::Aircraft, 0, 1, 0}};
+        {Content::Aircraft, 0, 2, whole},
+        {Content::GroundRepaint, 0, 6, 0},
+        {Content::Aircraft, 2, 1, whole},
+        {Content::Aircraft, 0, 1, 0}};
     return plan;
 }
 
@@ -153,8 +153,8 @@ std::uint64_t hash_of_full_scene(Studio& studio) {
     const FullScene full;
     studio.renderer().load_models(full.models());
     Hash hash;
-    for (const Way way : all_ways) {
-        const scene::Picture picture = studio.picture(full.plan(), way, FullScene::shadow_indices);
+    for (const HiddenSurfaceMode mode : all_modes) {
+        const scene::Picture picture = studio.picture(full.plan(), mode, FullScene::shadow_indices);
         hash.add(std::as_bytes(std::span(picture.rgba)));
     }
     return hash.value();

@@ -27,8 +27,8 @@ constexpr glm::vec3 grey{0.5F, 0.5F, 0.5F};
 using Pixel = std::array<int, 4>;
 
 /// The two ways in which planners have a scene drawn.
-enum class Way { InOrder, ByDepth };
-constexpr std::array<Way, 2> all_ways{Way::InOrder, Way::ByDepth};
+enum class HiddenSurfaceMode { InOrder, ByDepth };
+constexpr std::array<HiddenSurfaceMode, 2> all_modes{HiddenSurfaceMode::InOrder, HiddenSurfaceMode::ByDepth};
 
 constexpr Pixel red_px{255, 0, 0, 255};
 constexpr Pixel green_px{0, 255, 0, 255};
@@ -88,7 +88,7 @@ inline scene::ModelBuffers square_model(const glm::vec3& colour) {
 /// The steps of a whole picture for a plan. In order: sky, ground, the plan's own steps, overlay.
 /// By depth: all its aircraft and meshes, ground, the last `shadow_indices` of repaint_indices as
 /// shadows, sky, overlay.
-scene::FramePlan framed(scene::FramePlan plan, Way way = Way::InOrder, int shadow_indices = 0);
+scene::FramePlan framed(scene::FramePlan plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0);
 
 /// Nothing but grey background; aircraft keep their own colour.
 inline scene::FramePlan empty_plan() {
@@ -147,9 +147,9 @@ public:
 
     /// Of the framed() plan.
     scene::Picture
-    picture(const scene::FramePlan& plan, Way way = Way::InOrder, int shadow_indices = 0) {
+    picture(const scene::FramePlan& plan, HiddenSurfaceMode mode = HiddenSurfaceMode::InOrder, int shadow_indices = 0) {
         scene::Picture drawn;
-        renderer_.draw(framed(plan, way, shadow_indices));
+        renderer_.draw(framed(plan, mode, shadow_indices));
         renderer_.finish_and_read(drawn);
         return drawn;
     }

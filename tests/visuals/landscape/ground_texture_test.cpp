@@ -30,7 +30,7 @@ std::array<int, 3> colour(const GroundImage& image, int column, int row) {
 }
 
 /// Which texel lies below the eye, from the middle of the south-western one.
-glm::dvec2 texel_below(const GroundImage& image, const TexturePlace& place) {
+glm::dvec2 texel_below(const GroundImage& image, const TextureTransform& place) {
     return glm::dvec2(place.at_eye) * glm::dvec2(image.width, image.height) - 0.5;
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("the texture under its light shows each sample as the lit vertex does,
                     255.0F);
                 CHECK(shown == Approx(expected).margin(4.0));
             }
-            const TexturePlaces places = texture_places(texture, field.sample_m(column, row));
+            const GroundTextureTransforms places = ground_texture_transforms(texture, field.sample_m(column, row));
             const glm::dvec2 texel = texel_below(texture.albedo, places.albedo);
             CHECK(texel.x == Approx(column).margin(1e-4));
             CHECK(texel.y == Approx(row).margin(1e-4));
@@ -109,7 +109,7 @@ TEST_CASE("a drape lies north up from edge to edge and lets the ground through w
     CHECK(colour(texture.albedo, 0, 0) == std::array{0, 0, 255});
     CHECK(colour(texture.albedo, 1, 0) == colour(bare.albedo, 6, 2)); // 100 m east, 75 m south
     CHECK(texture.normal.texels == bare.normal.texels);
-    const auto corner = texture_places(texture, {-200.0, 150.0, 0.0}).albedo;
+    const auto corner = ground_texture_transforms(texture, {-200.0, 150.0, 0.0}).albedo;
     CHECK(corner.at_eye.x == Approx(0.0).margin(1e-6));
     CHECK(corner.at_eye.y == Approx(1.0));
     CHECK(corner.per_m.x * 400.0F == Approx(1.0));
@@ -138,6 +138,6 @@ TEST_CASE("a field of more samples than a texture may have is sampled at a strid
     CHECK(texture.normal.width == 4097);
     CHECK(texture.normal.step_m.x == 20.0);
     const glm::dvec2 texel =
-        texel_below(texture.normal, texture_places(texture, field.sample_m(8192, 0)).normal);
+        texel_below(texture.normal, ground_texture_transforms(texture, field.sample_m(8192, 0)).normal);
     CHECK(texel.x == Approx(4096.0).margin(0.01));
 }

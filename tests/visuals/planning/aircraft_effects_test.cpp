@@ -62,14 +62,14 @@ Painted painted(
     AircraftEffects& effects,
     const glm::dvec3& eye_m,
     const EffectStrength& strength,
-    std::span<const TurnedPart> turned = {}) {
+    std::span<const ArticulatedPart> articulated_parts = {}) {
     const Camera camera = camera_looking_at(eye_m, {0.0, 0.0, 0.0});
-    Veils veils;
+    TransparentGeometry transparents;
     const Haze haze;
-    veils.begin(view_to_clip(camera, 1.0) * world_to_view(camera), {400, 400}, haze);
+    transparents.begin(view_to_clip(camera, 1.0) * world_to_view(camera), {400, 400}, haze);
     glm::dmat4 place(1.0);
     place[3] = glm::dvec4(-eye_m, 1.0);
-    const auto ranges = effects.add(place, strength, turned, 1, veils);
+    const auto ranges = effects.add(place, strength, articulated_parts, 1, transparents);
     return {ranges.before.count / 3, ranges.after.count / 3};
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("a rotor has a disc only where a plane parts it from the rest") {
     CHECK(painted(above, {-20.0, 3.0, -15.0}, {}).after > 0);
     CHECK(painted(above, {-20.0, 3.0, 15.0}, {}).before > 0);
     CHECK(AircraftEffects(helicopter(0.0)).empty());
-    const std::vector<TurnedPart> of_another{{0, 0}};
-    const std::vector<TurnedPart> held{{1, 0}};
+    const std::vector<ArticulatedPart> of_another{{0, 0}};
+    const std::vector<ArticulatedPart> held{{1, 0}};
     CHECK(painted(above, {-20.0, 3.0, -15.0}, {}, of_another).after > 0);
     CHECK(painted(above, {-20.0, 3.0, -15.0}, {}, held).after == 0);
     CHECK(AircraftEffects(box_model({4.0, 0.8, 1.0})).empty());

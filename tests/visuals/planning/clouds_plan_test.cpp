@@ -75,13 +75,13 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
         const Camera camera = camera_looking_at({0.0, -200.0, eye_m}, states.front().position_m);
         const auto [plan, counts] = planner.plan({camera, states});
         const auto& steps = plan.steps;
-        const auto step = [&](PaintStep::What what) {
-            return std::ranges::find(steps, what, &PaintStep::what) - steps.begin();
+        const auto step = [&](PaintStep::Content content) {
+            return std::ranges::find(steps, content, &PaintStep::content) - steps.begin();
         };
-        const auto veil = step(PaintStep::What::Veil);
+        const auto veil = step(PaintStep::Content::Transparent);
         REQUIRE(static_cast<std::size_t>(veil) < plan.steps.size());
-        CHECK((step(PaintStep::What::Ground) < veil) == (eye_m > clouds_m));
-        const auto first = step(PaintStep::What::Aircraft);
+        CHECK((step(PaintStep::Content::Ground) < veil) == (eye_m > clouds_m));
+        const auto first = step(PaintStep::Content::Aircraft);
         CHECK(first < veil); // the one beyond
         const std::uint32_t beyond =
             plan.aircraft[plan.steps[static_cast<std::size_t>(first)].first].first_part;
@@ -99,10 +99,10 @@ TEST_CASE("pictures of numbers have no clouds, and without clouds nothing is see
     Planner cloudy_planner(scene, settings);
     IdPlan ids(scene);
     const FramePlan& numbers = ids.of(cloudy_planner.plan({camera, states}).plan);
-    CHECK(std::ranges::count(numbers.steps, PaintStep::What::Veil, &PaintStep::what) == 0);
+    CHECK(std::ranges::count(numbers.steps, PaintStep::Content::Transparent, &PaintStep::content) == 0);
     const Settings clear = plain_settings();
     Planner planner(scene, clear);
     const auto [plan, counts] = planner.plan({camera, states});
     CHECK(counts.transparent_triangles == 0);
-    CHECK(std::ranges::count(plan.steps, PaintStep::What::Veil, &PaintStep::what) == 0);
+    CHECK(std::ranges::count(plan.steps, PaintStep::Content::Transparent, &PaintStep::content) == 0);
 }

@@ -14,7 +14,7 @@ using namespace octant::visuals::scene;
 namespace {
 
 /// The eye at the origin, 10 m above level ground; a box of 12 x 8 x 2 m 100 m north of it.
-const HullBox wings{{0, 100, 0}, glm::dmat3(1.0), {6, 4, 1}};
+const OrientedBox wings{{0, 100, 0}, glm::dmat3(1.0), {6, 4, 1}};
 
 /// Ground across the line of sight, level or rising to the north.
 GroundTriangle strip(
@@ -32,17 +32,17 @@ GroundTriangle strip(
 
 struct Found {
     std::vector<std::uint32_t> triangles;
-    std::vector<std::uint32_t> meeting;
+    std::vector<std::uint32_t> intersecting;
 };
 
-Found before(const HullBox& box, std::vector<GroundTriangle> triangles) {
+Found before(const OrientedBox& box, std::vector<GroundTriangle> triangles) {
     const auto mesher = triangle_ground(std::move(triangles))->mesher({});
     GroundCounts counts;
     const TriangleDraw draw = mesher->triangles({}, counts);
     GroundInFront in_front;
     in_front.find(box, *mesher, draw, glm::dvec3(0.0));
-    Found found{{}, {in_front.meeting().begin(), in_front.meeting().end()}};
-    for (const NearTriangle& near : in_front.found()) {
+    Found found{{}, {in_front.intersecting().begin(), in_front.intersecting().end()}};
+    for (const GroundInFrontTriangle& near : in_front.found()) {
         found.triangles.push_back(near.triangle);
     }
     return found;
@@ -81,7 +81,7 @@ TEST_CASE("ground that cuts the box is told apart and comes with what lies befor
         {strip(0, 30, 120, -10, 130, 5),
          strip(0, 50, 90, -5, 110, 5),
          strip(0, 30, 50, -10, 60, 5)});
-    CHECK(found.meeting == Numbers{1});
+    CHECK(found.intersecting == Numbers{1});
     CHECK(found.triangles == Numbers{1, 2});
 }
 
@@ -95,15 +95,15 @@ TEST_CASE("a triangle under one wing with a ridge before the other leaves the ri
 }
 
 TEST_CASE("an eye inside the box has nothing before it") {
-    const HullBox around{{0, 0, 0}, glm::dmat3(1.0), {6, 4, 1}};
+    const OrientedBox around{{0, 0, 0}, glm::dmat3(1.0), {6, 4, 1}};
     CHECK(before(around, {strip(0, 30, 50, -10, 60, 5)}).triangles.empty());
 }
 
 TEST_CASE("the room of the sight lines leaves out what lies under them") {
-    const ConvexRoom room = sight_lines_to(wings);
-    CHECK(may_meet(room, {-1, 40, -1}, {1, 60, 1}));
-    CHECK_FALSE(may_meet(room, {-5000, -5000, -50}, {5000, 5000, -2}));
-    CHECK_FALSE(may_meet(room, {-5000, 20, -50}, {5000, 60, -1.0}));
-    CHECK_FALSE(may_meet(room, {-5000, 120, -50}, {5000, 500, 50}));
-    CHECK_FALSE(may_meet(room, {20, 20, -50}, {40, 80, 50}));
+    const ConvexVolume room = sight_volume_of(wings);
+    CHECK(may_intersect(room, {-1, 40, -1}, {1, 60, 1}));
+    CHECK_FALSE(may_intersect(room, {-5000, -5000, -50}, {5000, 5000, -2}));
+    CHECK_FALSE(may_intersect(room, {-5000, 20, -50}, {5000, 60, -1.0}));
+    CHECK_FALSE(may_intersect(room, {-5000, 120, -50}, {5000, 500, 50}));
+    CHECK_FALSE(may_intersect(room, {20, 20, -50}, {40, 80, 50}));
 }

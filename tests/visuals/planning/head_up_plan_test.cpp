@@ -44,5 +44,5 @@ TEST_CASE("plans of the cockpit view have a head-up display unless it is off, ot
     CHECK(drawn(View::Cockpit, true) > 0);
     IdPlan ids(scene);
     const FramePlan& numbers = ids.of(planner.plan({cockpit_camera(states.front()), states}).plan);
-    CHECK(std::ranges::count(numbers.steps, PaintStep::What::Overlay, &PaintStep::what) == 0);
+    CHECK(std::ranges::count(numbers.steps, PaintStep::Content::Overlay, &PaintStep::content) == 0);
 }

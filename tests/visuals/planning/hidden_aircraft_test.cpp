@@ -29,6 +29,6 @@ TEST_CASE("aircraft that are not there are in no plan, wherever the eye looks") 
         CHECK(plan.aircraft.front().first_part == 3);
         CHECK(counts.aircraft_polygons == 6);
         CHECK(counts.cuts == 0);
-        CHECK(counts.knots == 0);
+        CHECK(counts.overlap_groups == 0);
     }
 }

@@ -34,14 +34,14 @@ std::set<std::uint32_t> first_corners(const scene::ModelBuffers& buffers) {
 
 TEST_CASE("the coarsest level within the error is drawn, and no change comes back at once") {
     const std::array errors_m{0.0, 0.1, 0.4, 1.6};
-    CHECK(planning::chosen_level(errors_m, 0.05, -1) == 0);
-    CHECK(planning::chosen_level(errors_m, 0.5, -1) == 2);
-    CHECK(planning::chosen_level(errors_m, 100.0, -1) == 3);
-    CHECK(planning::chosen_level(errors_m, 0.41, 1) == 1); // good enough, but not by a margin
-    CHECK(planning::chosen_level(errors_m, 0.6, 1) == 2);
-    CHECK(planning::chosen_level(errors_m, 0.41, 2) == 2);
-    CHECK(planning::chosen_level(errors_m, 0.39, 2) == 1); // never worse than asked for
-    CHECK(planning::chosen_level({errors_m.data(), 1}, 0.0, 0) == 0);
+    CHECK(planning::select_level(errors_m, 0.05, -1) == 0);
+    CHECK(planning::select_level(errors_m, 0.5, -1) == 2);
+    CHECK(planning::select_level(errors_m, 100.0, -1) == 3);
+    CHECK(planning::select_level(errors_m, 0.41, 1) == 1); // good enough, but not by a margin
+    CHECK(planning::select_level(errors_m, 0.6, 1) == 2);
+    CHECK(planning::select_level(errors_m, 0.41, 2) == 2);
+    CHECK(planning::select_level(errors_m, 0.39, 2) == 1); // never worse than asked for
+    CHECK(planning::select_level({errors_m.data(), 1}, 0.0, 0) == 0);
 }
 
 TEST_CASE("a level never changes to and fro while the distance trembles") {
@@ -50,7 +50,7 @@ TEST_CASE("a level never changes to and fro while the distance trembles") {
     int changes = 0;
     for (int frame = 0; frame < 1000; ++frame) {
         const double max_m = 0.4 + 0.02 * (frame % 2 == 0 ? 1.0 : -1.0);
-        const int next = planning::chosen_level(errors_m, max_m, level);
+        const int next = planning::select_level(errors_m, max_m, level);
         changes += static_cast<int>(next != level);
         level = next;
     }
@@ -65,7 +65,7 @@ TEST_CASE("smooth corners share a vertex, creased ones do not") {
     CHECK(level.error_m == 0.25);
     CHECK(level.range.index_count == 6);
     CHECK(level.range.polygons == 2);
-    CHECK(flat.has_meshes);
+    CHECK(flat.has_depth_drawn_meshes);
     scene::ModelBuffers creased;
     const models::TriangleMesh fold = folded_square(3.0);
     planning::append_level(creased, {&fold, 0.0});

@@ -53,7 +53,7 @@ TEST_CASE("a turning part's matrix puts its points where the pivot has turned th
     // All three in one step that is not cut: there is neither sky nor ground.
     REQUIRE(plan.steps.size() == 1);
     CHECK(plan.steps[0].count == 3);
-    CHECK(plan.steps[0].clip == PaintStep::whole);
+    CHECK(plan.steps[0].clip == PaintStep::no_clip);
 }
 
 TEST_CASE("a far model stands in by distance, and others turn its part of the same name") {
@@ -72,7 +72,7 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
     scene.aircraft = {0};
     scene.far_models = {{0, 1, 0.1}};
     const double quarter_rad = 0.5 * 3.14159265358979;
-    const std::vector<TurnedPart> turned = {
+    const std::vector<ArticulatedPart> turned = {
         {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(0.0, 0.0, 1.0))}};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
@@ -80,7 +80,7 @@ TEST_CASE("a far model stands in by distance, and others turn its part of the sa
          {std::tuple{30.0, 0U, 1U}, std::tuple{30000.0, 1U, 2U}}) {
         const std::vector<sim::AircraftState> states = {state_at({0, away_m, 0})};
         PlanRequest request{camera_looking_at({0, 0, 0}, {0, away_m, 0}), states};
-        request.turned = turned;
+        request.articulated_parts = turned;
         const FramePlan& plan = planner.plan(request).plan;
         REQUIRE(plan.aircraft.size() == 1);
         const AircraftDraw& drawn = plan.aircraft.front();
@@ -181,14 +181,14 @@ TEST_CASE("a part that somebody moves lies so far along the body's axes, and tur
     scene.add_model(convex_aircraft(model));
     scene.aircraft = {0};
     const double quarter_rad = 0.5 * 3.14159265358979;
-    const std::vector<TurnedPart> turned = {
+    const std::vector<ArticulatedPart> turned = {
         {0, 0, glm::angleAxis(quarter_rad, glm::dvec3(1.0, 0.0, 0.0)), {-2.0, 3.0, 0.5}}};
     const Settings settings = plain_settings();
     Planner planner(scene, settings);
     const glm::dquat attitude = body_to_world_from_euler({0.7, 0.2, -0.4});
     const std::vector<sim::AircraftState> states = {state_at({0, 30, 0}, attitude)};
     PlanRequest request{camera_looking_at({1, 2, 3}, {0, 30, 0}), states};
-    request.turned = turned;
+    request.articulated_parts = turned;
     const FramePlan& plan = planner.plan(request).plan;
     const glm::vec4 at = plan.parts[plan.aircraft.front().first_part + 1] * glm::vec4(1, 0, 2, 1);
     // One below the pivot becomes one to its left: y is right and z is down.
@@ -208,9 +208,9 @@ TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
     const std::vector states{state_at({0, 30, 0}), state_at({0, 90, 0}), state_at({0, 60, 0})};
     const FramePlan& plan = planner.plan({Camera(), states}).plan;
     REQUIRE(plan.steps.size() == 2);
-    CHECK(plan.steps[0].what == PaintStep::What::ClearDepth);
+    CHECK(plan.steps[0].content == PaintStep::Content::ClearDepth);
     CHECK(plan.depth_boxes.at(0).most == settings.view.size_px);
-    CHECK(plan.steps[1].what == PaintStep::What::Aircraft);
+    CHECK(plan.steps[1].content == PaintStep::Content::Aircraft);
     CHECK(plan.steps[1].count == 3);
     CHECK(plan.steps[1].depth == DepthUse::Nearest);
     REQUIRE(plan.aircraft.size() == 3);

@@ -23,7 +23,7 @@ struct Total {
     int seen = 0;
     int wrong = 0;
     int cuts = 0;
-    int knots = 0;
+    int overlap_groups = 0;
     int unordered = 0;
 };
 
@@ -61,7 +61,7 @@ Total paint_scenes(
         total.seen += count.seen;
         total.wrong += count.wrong;
         total.cuts += counts.cuts;
-        total.knots += counts.knots;
+        total.overlap_groups += counts.overlap_groups;
         total.unordered += counts.unordered;
     }
     return total;
@@ -126,7 +126,7 @@ TEST_CASE("aircraft that touch the ground are painted right") {
         });
     CHECK(total.seen > 5000);
     CHECK(total.wrong == 0);
-    CHECK(total.knots > 50);
+    CHECK(total.overlap_groups > 50);
     CHECK(total.unordered == 0);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("aircraft close together, in rings and through each other are painted 
         CHECK(total.seen > 5000);
         CHECK(total.wrong == 0);
         CHECK(total.unordered == 0);
-        CHECK(total.knots > 10);
+        CHECK(total.overlap_groups > 10);
     }
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("27 aircraft in any attitudes 20 m apart are painted right") {
     CHECK(total.seen > 10000);
     CHECK(total.wrong == 0);
     CHECK(total.unordered == 0);
-    CHECK(total.knots > 30);
+    CHECK(total.overlap_groups > 30);
     CHECK(total.cuts > 0);
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("125 aircraft in any attitudes 20 m apart are planned without giving u
     const Camera camera = camera_looking_at({-120, -90, 140}, {40, 40, 120});
     const PlanCounts counts = planner.plan({camera, states}).counts;
     CHECK(counts.unordered == 0);
-    CHECK(counts.knots > 1);
+    CHECK(counts.overlap_groups > 1);
     CHECK(counts.cuts < 500);
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("a heap of aircraft that meet in thousands of places is drawn by depth
     CHECK(plan.clips.empty());
     CHECK(plan.depth_boxes.size() == 1);
     REQUIRE(plan.aircraft.size() == count);
-    const auto drawn = [](const PaintStep& step) { return step.what == PaintStep::What::Aircraft; };
+    const auto drawn = [](const PaintStep& step) { return step.content == PaintStep::Content::Aircraft; };
     CHECK(std::ranges::count_if(plan.steps, drawn) == 1);
     const auto heap = std::ranges::find_if(plan.steps, drawn);
     REQUIRE(heap != plan.steps.end());
@@ -233,7 +233,7 @@ TEST_CASE("ground before a knot stays behind what is seen between the members") 
     Planner planner(scene, settings);
     const Camera camera = camera_looking_at({0, 0, 0}, states[2].position_m);
     const auto [plan, counts] = planner.plan({camera, states});
-    REQUIRE(counts.knots == 1);
+    REQUIRE(counts.overlap_groups == 1);
     CHECK(plan.aircraft.front().model == 2);
     PlaceDice dice(1);
     const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
@@ -259,7 +259,7 @@ TEST_CASE("27 aircraft in any attitudes among ridges are painted right") {
     CHECK(total.seen > 10000);
     CHECK(total.wrong == 0);
     CHECK(total.unordered == 0);
-    CHECK(total.knots > 30);
+    CHECK(total.overlap_groups > 30);
 }
 
 TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {

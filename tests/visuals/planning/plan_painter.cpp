@@ -49,18 +49,18 @@ PlanPainter::PlanPainter(const scene::FramePlan& plan, const planning::Scene& sc
         return Triangle{at[0], at[1], at[2]};
     };
     for (const scene::PaintStep& step : plan.steps) {
-        if (step.what == scene::PaintStep::What::Aircraft) {
+        if (step.content == scene::PaintStep::Content::Aircraft) {
             add_aircraft(plan, scene, step);
             continue;
         }
-        const bool again = step.what == scene::PaintStep::What::GroundAgain;
-        if (!again && step.what != scene::PaintStep::What::Ground) {
+        const bool again = step.content == scene::PaintStep::Content::GroundRepaint;
+        if (!again && step.content != scene::PaintStep::Content::Ground) {
             continue;
         }
         const std::span indices = again ? std::span(plan.repaint_indices) : plan.ground.indices;
         for (std::size_t i = step.first; i < step.first + step.count; i += 3) {
             Triangle triangle = ground_triangle(indices, i);
-            triangle.clip = step.clip == scene::PaintStep::whole ? nullptr : &plan.clips[step.clip];
+            triangle.clip = step.clip == scene::PaintStep::no_clip ? nullptr : &plan.clips[step.clip];
             triangle.again = again;
             triangles_.push_back(triangle);
         }
@@ -81,7 +81,7 @@ void PlanPainter::add_aircraft(
                 return glm::dvec3(part * glm::dvec4(glm::dvec3(vertex.position_m), 1.0));
             };
             const scene::Clip* clip =
-                step.clip == scene::PaintStep::whole ? nullptr : &plan.clips[step.clip];
+                step.clip == scene::PaintStep::no_clip ? nullptr : &plan.clips[step.clip];
             triangles_.push_back({corner(0), corner(1), corner(2), clip, clip != nullptr});
         }
     }

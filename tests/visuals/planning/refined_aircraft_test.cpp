@@ -1,6 +1,6 @@
 #include "visuals/planning/mesh_levels.h"
 #include "visuals/planning/refined_aircraft.h"
-#include "visuals/scene/model_look.h"
+#include "visuals/scene/model_display.h"
 
 #include <catch2/catch.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -205,7 +205,7 @@ TEST_CASE("shading follows a mesh that is refined further, and turns all smooth 
 
 TEST_CASE("a refined mesh shows its levels: white where it is as its file, else by its error") {
     scene::ShadingSettings shading;
-    shading.show_model = scene::ModelLook::Levels;
+    shading.show_model = scene::ModelDisplay::Levels;
     planning::RefinedAircraft fine(hierarchy(), refining(), shading);
     fine.update(below(5.0), looking_down(), true);
     for (const scene::ModelVertex& vertex : fine.draw().vertices) {
@@ -234,7 +234,7 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.5);
     const auto drawn_at = [&](double away_m) {
-        return planning::chosen_level(model.errors_m, away_m * 0.001, -1);
+        return planning::select_level(model.errors_m, away_m * 0.001, -1);
     };
     REQUIRE(model.errors_m.size() == 2);
     CHECK(drawn_at(100.0) == 0);
@@ -269,7 +269,7 @@ TEST_CASE(
         for (const scene::PaintStep& step : plan.steps) {
             const bool is_last = &step >= last.data();
             CHECK((step.opacity == 0.4F) == is_last);
-            CHECK((step.what == scene::PaintStep::What::Aircraft) == is_last);
+            CHECK((step.content == scene::PaintStep::Content::Aircraft) == is_last);
         }
         CHECK(last[0].depth == scene::DepthUse::Nearest);
         REQUIRE(last[0].count == 1);
@@ -290,8 +290,8 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
     models::TriangleMesh blade;
     blade.vertices_m = {{5, 0, 0}, {5, 1, 6}, {5, -1, 6}};
     blade.triangles = {{0, 1, 2}, {0, 2, 1}};
-    const std::array<planning::TurningMesh, 1> parts{{{&blade, 0}}};
-    planning::add_turning(model, parts);
+    const std::array<planning::TurningPartMesh, 1> parts{{{&blade, 0}}};
+    planning::add_turning_parts(model, parts);
     CHECK(model.hull.max_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
     CHECK(model.hull.min_m.z == Approx(-std::sqrt(37.0)));
 
@@ -309,11 +309,11 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
             planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states});
         const scene::FramePlan& plan = frame.plan;
         REQUIRE(plan.steps.size() == 3);
-        CHECK(plan.steps[0].what == scene::PaintStep::What::ClearDepth);
-        CHECK(plan.steps[1].what == scene::PaintStep::What::Refined);
+        CHECK(plan.steps[0].content == scene::PaintStep::Content::ClearDepth);
+        CHECK(plan.steps[1].content == scene::PaintStep::Content::Refined);
         REQUIRE(plan.refined.size() == 1);
         CHECK(frame.counts.aircraft_polygons == triangles_in(plan.refined[0]) + 2);
-        CHECK(plan.steps[2].what == scene::PaintStep::What::Aircraft);
+        CHECK(plan.steps[2].content == scene::PaintStep::Content::Aircraft);
         CHECK(plan.steps[2].depth == scene::DepthUse::Nearest);
         REQUIRE(plan.aircraft.size() == 1);
         const scene::AircraftDraw& draw = plan.aircraft[0];

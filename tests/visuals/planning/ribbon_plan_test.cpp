@@ -35,13 +35,13 @@ struct SeenRibbon {
     DrawnPath path = eastward();
     PathRibbon ribbon{path};
     Haze haze{};
-    Veils veils;
+    TransparentGeometry transparents;
     std::vector<PathRibbon::Dash> dashes;
 
     explicit SeenRibbon(double time_s = ribbon_time_s) {
         const Camera camera = camera_looking_at(view_eye_m, {0.0, 0.0, 200.0});
-        veils.begin(view_to_clip(camera, 2.0) * world_to_view(camera), {800, 400}, haze);
-        const auto made = ribbon.dashes({view_eye_m, 0.0, time_s, 3.0, 20.0}, veils);
+        transparents.begin(view_to_clip(camera, 2.0) * world_to_view(camera), {800, 400}, haze);
+        const auto made = ribbon.dashes({view_eye_m, 0.0, time_s, 3.0, 20.0}, transparents);
         dashes.assign(made.begin(), made.end());
     }
 };
@@ -64,7 +64,7 @@ TEST_CASE("dashes of a ribbon do not meet each other and leave the aircraft free
         const SeenRibbon seen(time_s);
         REQUIRE(seen.dashes.size() >= 18);
         for (std::size_t i = 0; i + 1 < seen.dashes.size(); ++i) {
-            CHECK(!hiding_pair(seen.dashes[i].box, seen.dashes[i + 1].box).meet);
+            CHECK(!occlusion_pair(seen.dashes[i].box, seen.dashes[i + 1].box).intersect);
         }
         double nearest_m = 1e9;
         for (const PathRibbon::Dash& dash : seen.dashes) {
@@ -80,7 +80,7 @@ TEST_CASE("dashes of a ribbon do not meet each other and leave the aircraft free
 
 TEST_CASE("what has been flown of a ribbon is stronger, legs differ in colour") {
     const SeenRibbon seen;
-    const OverlayDraw draw = seen.veils.draw();
+    const OverlayDraw draw = seen.transparents.draw();
     const auto colour_of = [&](const PathRibbon::Dash& dash) {
         return draw.vertices[draw.indices[dash.range.first]].colour;
     };
@@ -109,7 +109,7 @@ TEST_CASE("with a ribbon among them ground and aircraft are painted in the right
     PlaceDice dice(5);
     int seen = 0;
     int wrong = 0;
-    int veils = 0;
+    int transparents = 0;
     int hidden_again = 0;
     for (int i = 0; i < 40; ++i) {
         std::vector<sim::AircraftState> states{
@@ -126,16 +126,16 @@ TEST_CASE("with a ribbon among them ground and aircraft are painted in the right
         const SightCount count = count_wrong_sights(plan, scene, states, camera, dice);
         seen += count.seen;
         wrong += count.wrong;
-        veils += counts.transparent_triangles;
+        transparents += counts.transparent_triangles;
         for (std::size_t step = 0; step + 1 < plan.steps.size(); ++step) {
-            hidden_again += plan.steps[step].what == PaintStep::What::Veil &&
-                                    plan.steps[step + 1].what == PaintStep::What::GroundAgain
+            hidden_again += plan.steps[step].content == PaintStep::Content::Transparent &&
+                                    plan.steps[step + 1].content == PaintStep::Content::GroundRepaint
                                 ? 1
                                 : 0;
         }
     }
     CHECK(seen > 500);
     CHECK(wrong == 0);
-    CHECK(veils > 100);
+    CHECK(transparents > 100);
     CHECK(hidden_again > 10); // ground before a dash is painted once more, right after it
 }

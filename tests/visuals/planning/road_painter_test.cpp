@@ -60,7 +60,7 @@ struct PaintedRoads {
     scene::Camera camera;
     std::unique_ptr<landscape::GroundMesher> mesher;
     RoadPainter painter;
-    PaintCutter cutter;
+    DecalClipper cutter;
     FrameView view;
     scene::TriangleDraw ground;
 
@@ -79,8 +79,8 @@ struct PaintedRoads {
         painter.paint(*mesher, view, false, most, cutter);
     }
 
-    std::span<const glm::dvec3> corners(const GroundPaint& paint) const {
-        return cutter.paints().corners.subspan(paint.first, paint.count);
+    std::span<const glm::dvec3> corners(const GroundDecal& paint) const {
+        return cutter.decals().corners.subspan(paint.first, paint.count);
     }
 };
 
@@ -99,9 +99,9 @@ bool is_before(std::span<const glm::dvec3> corners, const glm::dvec3& sight) {
 
 TEST_CASE("each piece of a road lies in the plane of a triangle of the ground") {
     const PaintedRoads world(over_a_road(60.0), true);
-    REQUIRE(world.cutter.paints().paints.size() > 30);
-    SightPolygon placed;
-    for (const GroundPaint& paint : world.cutter.paints().paints) {
+    REQUIRE(world.cutter.decals().decals.size() > 30);
+    ViewPolygon placed;
+    for (const GroundDecal& paint : world.cutter.decals().decals) {
         place_triangle(world.ground, paint.triangle, placed);
         const std::vector<glm::dvec3> under{placed[0].at_m, placed[1].at_m, placed[2].at_m};
         const glm::dvec3 up = glm::normalize(glm::cross(under[1] - under[0], under[2] - under[0]));
@@ -117,7 +117,7 @@ TEST_CASE("a road near the eye is painted wherever the ground below it is in vie
     const PaintedRoads world(over_a_road(60.0));
     RandomGenerator dice(3);
     int seen = 0;
-    SightPolygon placed;
+    ViewPolygon placed;
     const auto& sections = shared_ground()->road_network()->sections();
     for (int i = 0; i < 20000; ++i) {
         const auto number =
@@ -154,7 +154,7 @@ TEST_CASE("a road near the eye is painted wherever the ground below it is in vie
             }
             ++seen;
             REQUIRE(
-                std::ranges::any_of(world.cutter.paints().paints, [&](const GroundPaint& paint) {
+                std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
                     return paint.triangle == t && is_before(world.corners(paint), at_m);
                 }));
         }
@@ -166,15 +166,15 @@ TEST_CASE("no road is painted on trees and houses, and none of them stands on on
     const PaintedRoads world(over_a_road(25.0), true);
     int things = 0;
     for (std::uint32_t t = 0; t < world.ground.indices.size() / 3; ++t) {
-        const bool is_thing = std::all_of(
+        const bool is_scenery = std::all_of(
             &world.ground.indices[3 * t], &world.ground.indices[3 * t] + 3, [&](std::uint32_t v) {
                 return world.ground.vertices[v].colour >> 24U == 0;
             });
-        if (!is_thing) {
+        if (!is_scenery) {
             continue;
         }
         ++things;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             REQUIRE(paint.triangle != t);
         }
         const glm::dvec2 foot_m =
@@ -195,13 +195,13 @@ TEST_CASE("roads take no more triangles than they may, and leave out the farthes
     CHECK(few.cutter.triangles() > most - 12);
     const auto farthest_m = [](const PaintedRoads& world) {
         double farthest = 0.0;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             farthest = std::max(farthest, glm::length(world.corners(paint)[0]));
         }
         return farthest;
     };
     CHECK(farthest_m(few) < 0.7 * farthest_m(all));
-    CHECK(PaintedRoads(camera, false, 0).cutter.paints().paints.empty());
+    CHECK(PaintedRoads(camera, false, 0).cutter.decals().decals.empty());
     CHECK(all.painter.max_triangles(all.view, 20000) > 0);
     FrameView elsewhere = all.view;
     elsewhere.camera.eye_m = {1e6, 1e6, 500.0};
@@ -217,13 +217,13 @@ TEST_CASE("a road fades into the ground before it is too narrow to be painted") 
     scene::Camera high = over_a_road(5000.0);
     const PaintedRoads far(high);
     high.eye_m.z += 30000.0;
-    CHECK(PaintedRoads(high).cutter.paints().paints.empty());
-    REQUIRE_FALSE(far.cutter.paints().paints.empty());
+    CHECK(PaintedRoads(high).cutter.decals().decals.empty());
+    REQUIRE_FALSE(far.cutter.decals().decals.empty());
     // Asphalt is grey, what grows is not.
     const auto greenness = [](const PaintedRoads& world, double nearer_m) {
         double sum = 0.0;
         int count = 0;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             if (glm::length(world.corners(paint)[0]) < nearer_m) {
                 const auto red = static_cast<double>(paint.colour & 0xffU);
                 sum += static_cast<double>(paint.colour >> 8U & 0xffU) - red;

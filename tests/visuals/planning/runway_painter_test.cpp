@@ -42,7 +42,7 @@ struct PaintedRunway {
     std::shared_ptr<const models::heights::RunwayStrip> strip = askew();
     std::unique_ptr<landscape::GroundMesher> mesher = cell_ground(60, 40.0, rolling)->mesher({});
     RunwayPainter painter{strip};
-    PaintCutter cutter;
+    DecalClipper cutter;
     scene::TriangleDraw ground;
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
@@ -66,8 +66,8 @@ struct PaintedRunway {
         return all;
     }
 
-    std::span<const glm::dvec3> corners(const GroundPaint& paint) const {
-        return cutter.paints().corners.subspan(paint.first, paint.count);
+    std::span<const glm::dvec3> corners(const GroundDecal& paint) const {
+        return cutter.decals().corners.subspan(paint.first, paint.count);
     }
 };
 
@@ -112,9 +112,9 @@ double area_m2(std::span<const glm::dvec3> corners) {
 TEST_CASE("each piece of a runway lies on its triangle, within it but for rounding, and faces up") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     const double pixel_rad = world.view().pixel_rad;
-    REQUIRE(world.cutter.paints().paints.size() > 500);
-    SightPolygon placed;
-    for (const GroundPaint& paint : world.cutter.paints().paints) {
+    REQUIRE(world.cutter.decals().decals.size() > 500);
+    ViewPolygon placed;
+    for (const GroundDecal& paint : world.cutter.decals().decals) {
         place_triangle(world.ground, paint.triangle, placed);
         const std::vector<glm::dvec3> under{placed[0].at_m, placed[1].at_m, placed[2].at_m};
         const glm::dvec3 up = glm::normalize(glm::cross(under[1] - under[0], under[2] - under[0]));
@@ -137,18 +137,18 @@ TEST_CASE("a runway goes on beyond a triangle's sides, its markings farther than
                glm::all(glm::lessThan(on_m, glm::dvec2(patch.max_m) - 0.5));
     };
     const auto covers = [&](std::uint32_t triangle, bool marking, const glm::dvec3& sight) {
-        return std::ranges::any_of(world.cutter.paints().paints, [&](const GroundPaint& paint) {
+        return std::ranges::any_of(world.cutter.decals().decals, [&](const GroundDecal& paint) {
             return paint.triangle == triangle && (paint.layer == GroundLayer::Marking) == marking &&
                    inside_rad(world.corners(paint), sight) > 0.0;
         });
     };
     std::set<std::uint32_t> triangles;
-    for (const GroundPaint& paint : world.cutter.paints().paints) {
+    for (const GroundDecal& paint : world.cutter.decals().decals) {
         triangles.insert(paint.triangle);
     }
     int on_surface = 0;
     int on_marking = 0;
-    SightPolygon placed;
+    ViewPolygon placed;
     for (const std::uint32_t triangle : triangles) {
         place_triangle(world.ground, triangle, placed);
         for (int place = 0; place < 60; ++place) {
@@ -174,7 +174,7 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     const PaintedRunway world({200.0, -300.0, 400.0});
     double surface_m2 = 0.0;
     double marked_m2 = 0.0;
-    for (const GroundPaint& paint : world.cutter.paints().paints) {
+    for (const GroundDecal& paint : world.cutter.decals().decals) {
         (paint.layer == GroundLayer::Surface ? surface_m2 : marked_m2) +=
             area_m2(world.corners(paint));
     }
@@ -192,11 +192,11 @@ TEST_CASE("the pieces cover a runway once but for rounding and leave no gap") {
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec2 at_m(dice.between(0.5, 1799.5), dice.between(-22.0, 22.0));
         const glm::dvec3 place = glm::dvec3(world.strip->place(at_m), 0.0) - world.camera.eye_m;
-        const auto covers = [&](const GroundPaint& paint) {
+        const auto covers = [&](const GroundDecal& paint) {
             return paint.layer == GroundLayer::Surface &&
                    inside_m(world.corners(paint), place) > -1e-6;
         };
-        REQUIRE(std::ranges::any_of(world.cutter.paints().paints, covers));
+        REQUIRE(std::ranges::any_of(world.cutter.decals().decals, covers));
     }
 }
 
@@ -207,14 +207,14 @@ TEST_CASE("markings farthest off are left out where triangles are few, and the s
     const PaintedRunway few(eye_m, most);
     const auto surface_m2 = [](const PaintedRunway& world) {
         double sum_m2 = 0.0;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             sum_m2 += paint.layer == GroundLayer::Surface ? area_m2(world.corners(paint)) : 0.0;
         }
         return sum_m2;
     };
     const auto farthest_marking_m = [](const PaintedRunway& world) {
         double farthest_m = 0.0;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             if (paint.layer == GroundLayer::Marking) {
                 farthest_m = std::max(farthest_m, glm::length(world.corners(paint)[0]));
             }
@@ -234,7 +234,7 @@ TEST_CASE("a runway is painted on triangles that may be in view and on no others
     PaintedRunway world({-900.0, -300.0, 60.0});
     const auto painted = [&] {
         std::set<std::uint32_t> triangles;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             triangles.insert(paint.triangle);
         }
         return triangles;
@@ -246,10 +246,10 @@ TEST_CASE("a runway is painted on triangles that may be in view and on no others
     CHECK(seen.size() > 20);
     CHECK(seen.size() < all.size());
     for (const std::uint32_t triangle : all) {
-        SightPolygon corners;
+        ViewPolygon corners;
         place_triangle(world.ground, triangle, corners);
         const bool is_beyond = std::ranges::any_of(view.frustum, [&](const glm::dvec3& inwards) {
-            return std::ranges::all_of(corners, [&](const SightCorner& corner) {
+            return std::ranges::all_of(corners, [&](const ViewVertex& corner) {
                 return glm::dot(inwards, corner.at_m) < 0.0;
             });
         });
@@ -261,7 +261,7 @@ TEST_CASE("what looks narrow takes the surface's colour before it is left out") 
     // Of pieces that begin nearer than this.
     const auto colours_of = [](const PaintedRunway& world, double nearer_m) {
         std::set<std::uint32_t> colours;
-        for (const GroundPaint& paint : world.cutter.paints().paints) {
+        for (const GroundDecal& paint : world.cutter.decals().decals) {
             CHECK(paint.colour >> 24U == 0); // neither pattern nor texture
             if (glm::length(world.corners(paint)[0]) < nearer_m) {
                 colours.insert(paint.colour);

@@ -14,35 +14,35 @@ using namespace octant::visuals::planning;
 
 namespace {
 
-HullBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) {
+OrientedBox box_at(const glm::dvec3& centre_m, const glm::dvec3& half_m) {
     return {centre_m, glm::dmat3(1.0), half_m};
 }
 
-using Knots = std::vector<std::vector<std::uint32_t>>;
+using Groups = std::vector<std::vector<std::uint32_t>>;
 
-Knots arranged(const std::vector<HullBox>& boxes) {
+Groups arranged(const std::vector<OrientedBox>& boxes) {
     SceneOrder order;
     order.arrange(boxes);
-    Knots knots;
-    for (const Knot& knot : order.knots()) {
-        const auto members = order.members(knot);
-        knots.emplace_back(members.begin(), members.end());
+    Groups overlap_groups;
+    for (const OverlapGroup& overlap_group : order.overlap_groups()) {
+        const auto members = order.members(overlap_group);
+        overlap_groups.emplace_back(members.begin(), members.end());
     }
-    return knots;
+    return overlap_groups;
 }
 
-Knots members_of_each(const SceneOrder& order) {
-    Knots knots;
-    for (const Knot& knot : order.knots()) {
-        const auto members = order.members(knot);
-        knots.emplace_back(members.begin(), members.end());
+Groups members_of_each(const SceneOrder& order) {
+    Groups overlap_groups;
+    for (const OverlapGroup& overlap_group : order.overlap_groups()) {
+        const auto members = order.members(overlap_group);
+        overlap_groups.emplace_back(members.begin(), members.end());
     }
-    std::ranges::sort(knots);
-    return knots;
+    std::ranges::sort(overlap_groups);
+    return overlap_groups;
 }
 
 /// Boxes from which each other is reached and that it reaches, in steps that `leads` allows.
-Knots groups(std::size_t count, const std::function<bool(std::size_t, std::size_t)>& leads) {
+Groups groups(std::size_t count, const std::function<bool(std::size_t, std::size_t)>& leads) {
     std::vector<std::vector<char>> reaches(count, std::vector<char>(count, 0));
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
@@ -56,7 +56,7 @@ Knots groups(std::size_t count, const std::function<bool(std::size_t, std::size_
             }
         }
     }
-    Knots found;
+    Groups found;
     for (std::size_t a = 0; a < count; ++a) {
         std::vector<std::uint32_t> group;
         for (std::size_t b = 0; b < count; ++b) {
@@ -72,35 +72,35 @@ Knots groups(std::size_t count, const std::function<bool(std::size_t, std::size_
 }
 
 /// The knots that no order can do without.
-Knots rings_of(const std::vector<HullBox>& boxes) {
+Groups rings_of(const std::vector<OrientedBox>& boxes) {
     return groups(boxes.size(), [&](std::size_t a, std::size_t b) {
-        return hiding_pair(boxes[a], boxes[b]).a_hides_b;
+        return occlusion_pair(boxes[a], boxes[b]).a_occludes_b;
     });
 }
 
-Knots meeting_groups(const std::vector<HullBox>& boxes) {
+Groups meeting_groups(const std::vector<OrientedBox>& boxes) {
     return groups(boxes.size(), [&](std::size_t a, std::size_t b) {
-        return hiding_pair(boxes[a], boxes[b]).meet;
+        return occlusion_pair(boxes[a], boxes[b]).intersect;
     });
 }
 
-std::size_t largest(const Knots& knots) {
+std::size_t largest(const Groups& overlap_groups) {
     std::size_t most = 0;
-    for (const auto& knot : knots) {
-        most = std::max(most, knot.size());
+    for (const auto& overlap_group : overlap_groups) {
+        most = std::max(most, overlap_group.size());
     }
     return most;
 }
 
 /// Pairs of boxes of which the one painted first hides part of the other.
-int wrong_pairs(const std::vector<HullBox>& boxes, const SceneOrder& order) {
+int wrong_pairs(const std::vector<OrientedBox>& boxes, const SceneOrder& order) {
     int wrong = 0;
-    const auto knots = order.knots();
-    for (std::size_t first = 0; first < knots.size(); ++first) {
-        for (const Knot& later : knots.subspan(first + 1)) {
-            for (const std::uint32_t a : order.members(knots[first])) {
+    const auto overlap_groups = order.overlap_groups();
+    for (std::size_t first = 0; first < overlap_groups.size(); ++first) {
+        for (const OverlapGroup& later : overlap_groups.subspan(first + 1)) {
+            for (const std::uint32_t a : order.members(overlap_groups[first])) {
                 for (const std::uint32_t b : order.members(later)) {
-                    wrong += hiding_pair(boxes[a], boxes[b]).a_hides_b ? 1 : 0;
+                    wrong += occlusion_pair(boxes[a], boxes[b]).a_occludes_b ? 1 : 0;
                 }
             }
         }
@@ -114,7 +114,7 @@ TEST_CASE("boxes apart come farthest first") {
     const glm::dvec3 half(1.0);
     CHECK(
         arranged({box_at({0, 10, 0}, half), box_at({0, 50, 0}, half), box_at({0, -30, 0}, half)}) ==
-        Knots{{1}, {2}, {0}});
+        Groups{{1}, {2}, {0}});
     CHECK(arranged({}).empty());
 }
 
@@ -122,22 +122,22 @@ TEST_CASE("a large near box comes last though its middle is farther") {
     // Middles 45 m and 40 m away; the large one's side is 5 m from the eye, beside the small one.
     CHECK(
         arranged({box_at({0, 45, 0}, {1, 40, 1}), box_at({5, 40, 0}, {1, 1, 1})}) ==
-        Knots{{1}, {0}});
+        Groups{{1}, {0}});
 }
 
 TEST_CASE("boxes whose spheres meet follow the plane between them") {
     // A long box lies right behind a small plate; by its power it would be painted last.
-    const HullBox plate = box_at({0, 10, 0}, {1, 0.1, 1});
-    const HullBox beam = box_at({0, 10.8, 0}, {20, 0.5, 0.5});
-    CHECK(arranged({plate, beam}) == Knots{{1}, {0}});
-    CHECK(arranged({beam, plate}) == Knots{{0}, {1}});
+    const OrientedBox plate = box_at({0, 10, 0}, {1, 0.1, 1});
+    const OrientedBox beam = box_at({0, 10.8, 0}, {20, 0.5, 0.5});
+    CHECK(arranged({plate, beam}) == Groups{{1}, {0}});
+    CHECK(arranged({beam, plate}) == Groups{{0}, {1}});
 }
 
 TEST_CASE("boxes that meet become one knot and draw in what meets the two together") {
     const glm::dvec3 half(2.0);
     CHECK(
         arranged({box_at({0, 10, 0}, half), box_at({40, 10, 0}, half), box_at({3, 13, 0}, half)}) ==
-        Knots{{1}, {0, 2}});
+        Groups{{1}, {0, 2}});
 }
 
 TEST_CASE("three bars each before the next become one knot, a chain of them does not") {
@@ -145,39 +145,39 @@ TEST_CASE("three bars each before the next become one knot, a chain of them does
     const auto bar = [](double turn_rad, double lean_rad) {
         const glm::dquat turn = glm::angleAxis(turn_rad, glm::dvec3(0, 1, 0));
         const glm::dquat lean = glm::angleAxis(lean_rad, glm::dvec3(0, 0, 1));
-        return HullBox{
+        return OrientedBox{
             glm::dvec3(0, 100, 0) + turn * glm::dvec3(0, 0, 4),
             glm::mat3_cast(turn * lean),
             {10, 0.3, 0.5}};
     };
     const double third = 2.0943951023931953;
-    CHECK(arranged({bar(0.0, 0.3), bar(third, 0.3), bar(2.0 * third, 0.3)}) == Knots{{0, 1, 2}});
+    CHECK(arranged({bar(0.0, 0.3), bar(third, 0.3), bar(2.0 * third, 0.3)}) == Groups{{0, 1, 2}});
     CHECK(arranged({bar(0.0, 0.3), bar(third, 0.3)}).size() == 2);
 }
 
 TEST_CASE("a box between two that meet is none of their knot") {
     // The corner between the two holds a third box, inside the box around both.
-    const Knots knots = arranged(
+    const Groups overlap_groups = arranged(
         {box_at({0, 40, 0}, {10, 1, 1}),
          box_at({-10, 50, 0}, {1, 10, 1}),
          box_at({5, 50, 0}, {1, 1, 1})});
-    CHECK(knots == Knots{{2}, {0, 1}});
+    CHECK(overlap_groups == Groups{{2}, {0, 1}});
 }
 
 TEST_CASE("what two that meet hide and are hidden by joins them") {
-    const Knots knots = arranged(
+    const Groups overlap_groups = arranged(
         {box_at({0, 40, 0}, {10, 1, 1}),
          box_at({-10, 50, 0}, {1, 10, 1}),
          box_at({-5, 60, 0}, {15, 1, 1}),
          box_at({0, 50, 0}, {1, 1, 1})});
-    CHECK(knots == Knots{{0, 1, 2, 3}});
+    CHECK(overlap_groups == Groups{{0, 1, 2, 3}});
 }
 
 TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
     PlaceDice dice(3);
     SceneOrder order;
     for (int scene = 0; scene < 100; ++scene) {
-        std::vector<HullBox> boxes;
+        std::vector<OrientedBox> boxes;
         for (int i = 0; i < 12; ++i) {
             boxes.push_back(
                 {dice.in_box(glm::dvec3(60)) + glm::dvec3(0, 80, 0),
@@ -192,7 +192,7 @@ TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
 
 TEST_CASE("125 boxes close together in any attitudes make only the knots that they must") {
     PlaceDice dice(1);
-    std::vector<HullBox> boxes;
+    std::vector<OrientedBox> boxes;
     for (int i = 0; i < 125; ++i) {
         boxes.push_back(
             {20.0 * glm::dvec3(i % 5, i / 5 % 5, i / 25) + glm::dvec3(90, 70, -80),
@@ -202,8 +202,8 @@ TEST_CASE("125 boxes close together in any attitudes make only the knots that th
     SceneOrder order;
     order.arrange(boxes);
     CHECK(wrong_pairs(boxes, order) == 0);
-    const Knots knots = members_of_each(order);
-    CHECK(knots == rings_of(boxes));
+    const Groups overlap_groups = members_of_each(order);
+    CHECK(overlap_groups == rings_of(boxes));
     CHECK(largest(meeting_groups(boxes)) > 1);
-    CHECK(largest(knots) <= 2 * largest(meeting_groups(boxes)));
+    CHECK(largest(overlap_groups) <= 2 * largest(meeting_groups(boxes)));
 }

@@ -228,7 +228,7 @@ TEST_CASE("whoever measures is called once a frame, before the ground is meshed"
     planning::Planner planner(scene, settings);
     const std::array there{state_at({0, 0, 100})};
     int calls = 0;
-    planner.plan({.camera = camera_at(0), .states = there, .when_refined = [&] { ++calls; }});
+    planner.plan({.camera = camera_at(0), .states = there, .on_refined = [&] { ++calls; }});
     CHECK(calls == 1);
     planner.plan({camera_at(1), there});
     CHECK(calls == 1);

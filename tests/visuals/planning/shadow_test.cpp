@@ -78,7 +78,7 @@ bool is_shadow(const FramePlan& plan, std::uint32_t index) {
 /// Whether a sun ray from a point meets the box of an aircraft: -1 surely not, 1 surely, 0 close.
 int in_the_way(
     const sim::AircraftState& state, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
-    const auto meets = [&](double grown_m) {
+    const auto intersects = [&](double grown_m) {
         const glm::dquat to_body = glm::inverse(state.body_to_world);
         const glm::dvec3 half_m = glm::dvec3(8.0, 2.0, 1.0) + grown_m;
         const glm::dvec3 from = to_body * (point_m - state.position_m);
@@ -93,7 +93,7 @@ int in_the_way(
         }
         return entry < leave;
     };
-    return meets(-0.01) ? 1 : (meets(0.01) ? 0 : -1);
+    return intersects(-0.01) ? 1 : (intersects(0.01) ? 0 : -1);
 }
 
 /// The step that draws shadows on ground that was drawn by depth; null where there is none.
@@ -189,7 +189,7 @@ TEST_CASE("with a depth buffer shadows come apart from the ground") {
     const FramePlan& plan = frame.plan;
     const PaintStep* const step = step_on_ground(plan);
     REQUIRE(step != nullptr);
-    CHECK(step->what == PaintStep::What::GroundAgain);
+    CHECK(step->content == PaintStep::Content::GroundRepaint);
     CHECK(step->count / 3 == static_cast<std::uint32_t>(frame.counts.shadow_triangles));
     CHECK(frame.counts.shadow_triangles > 10);
     CHECK(std::ranges::none_of(

@@ -15,9 +15,9 @@ namespace scene = octant::visuals::scene;
 
 namespace {
 
-std::vector<int> given(std::vector<planning::SmoothShare> aircraft, int smooth) {
+std::vector<int> given(std::vector<planning::SmoothCandidate> aircraft, int smooth) {
     std::vector<int> result(aircraft.size(), -1);
-    planning::share_out_smooth(aircraft, smooth, result);
+    planning::distribute_smooth(aircraft, smooth, result);
     return result;
 }
 
@@ -38,11 +38,11 @@ struct Box {
         int bits = 0;
     };
 
-    Shown shown(const planning::SmoothWish& wish = {}) {
+    Shown shown(const planning::SmoothTarget& smooth_target = {}) {
         planning::Planner planner(scene, settings);
         const std::array there{state_at({20, 0, 50})};
         const auto [plan, counts] =
-            planner.plan({.camera = camera, .states = there, .smooth = wish});
+            planner.plan({.camera = camera, .states = there, .smooth = smooth_target});
         return {counts.smooth_polygons, std::popcount(plan.smooth.at(0) & 0x3fU)};
     }
 };
@@ -69,7 +69,7 @@ TEST_CASE("smooth polygons are shared out by weight, and what one cannot take ot
 TEST_CASE("what is shared out is what was asked for, or all there is") {
     PlaceDice dice(4);
     for (int trial = 0; trial < 500; ++trial) {
-        std::vector<planning::SmoothShare> aircraft;
+        std::vector<planning::SmoothCandidate> aircraft;
         int all = 0;
         for (int i = 0; i < 5; ++i) {
             aircraft.push_back({static_cast<int>(dice.between(0, 200)), dice.between(0, 3)});
@@ -111,17 +111,17 @@ TEST_CASE("a frame's share goes before the settings' own, a number before both")
 TEST_CASE(
     "models show their shading and their levels by tints, but for refined ones their levels") {
     Box box;
-    const auto tints = [&](scene::ModelLook look) {
+    const auto tints = [&](scene::ModelDisplay look) {
         box.settings.shading.show_model = look;
         planning::Planner planner(box.scene, box.settings);
         const std::array there{state_at({20, 0, 50})};
         return planner.plan({box.camera, there}).plan.aircraft.at(0).tints;
     };
-    CHECK(tints(scene::ModelLook::None).smooth == 0);
-    CHECK(tints(scene::ModelLook::None).flat == 0);
-    CHECK(tints(scene::ModelLook::Shading).smooth == scene::shading_tints.smooth);
-    CHECK(tints(scene::ModelLook::Shading).flat == scene::shading_tints.flat);
-    CHECK(tints(scene::ModelLook::Levels).flat == scene::level_colour(0.0, 1.0));
+    CHECK(tints(scene::ModelDisplay::None).smooth == 0);
+    CHECK(tints(scene::ModelDisplay::None).flat == 0);
+    CHECK(tints(scene::ModelDisplay::Shading).smooth == scene::shading_tints.smooth);
+    CHECK(tints(scene::ModelDisplay::Shading).flat == scene::shading_tints.flat);
+    CHECK(tints(scene::ModelDisplay::Levels).flat == scene::level_colour(0.0, 1.0));
 }
 
 TEST_CASE("the paper's rule shades less smoothly the farther away") {

@@ -14,7 +14,7 @@ using namespace octant::tests;
 namespace planning = octant::visuals::planning;
 namespace scene = octant::visuals::scene;
 using scene::DepthUse;
-using What = scene::PaintStep::What;
+using Content = scene::PaintStep::Content;
 
 namespace {
 
@@ -43,8 +43,8 @@ struct Flight {
     }
 };
 
-int count(const scene::FramePlan& plan, What what) {
-    return static_cast<int>(std::ranges::count(plan.steps, what, &scene::PaintStep::what));
+int count(const scene::FramePlan& plan, Content content) {
+    return static_cast<int>(std::ranges::count(plan.steps, content, &scene::PaintStep::content));
 }
 
 /// Steps that use depth so.
@@ -61,7 +61,7 @@ TEST_CASE("an aircraft is a mesh near the eye and polygons far from it, and no d
     const std::array near{state_at({30, 0, 50})};
     const planning::PlannedFrame solid = planner.plan({flight.camera, near});
     CHECK(count(solid.plan, DepthUse::Nearest) == 1);
-    CHECK(count(solid.plan, What::ClearDepth) == 1);
+    CHECK(count(solid.plan, Content::ClearDepth) == 1);
     CHECK(solid.counts.aircraft_level == 0);
     CHECK(solid.counts.aircraft_polygons == 4);
     const std::array far{state_at({190, 0, 50})};
@@ -105,16 +105,16 @@ TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet 
     const std::array both{state_at({30, 0, 0.3}), state_at({31, 0, 0.3})};
     const planning::PlannedFrame frame = planner.plan({flight.camera, both});
     const scene::FramePlan& plan = frame.plan;
-    CHECK(count(plan, What::ClearDepth) == 1);
+    CHECK(count(plan, Content::ClearDepth) == 1);
     CHECK(count(plan, DepthUse::DepthOnly) == 1);
     CHECK(count(plan, DepthUse::Nearest) == 1);
-    CHECK(frame.counts.knots == 1);
-    const auto clear = std::ranges::find(plan.steps, What::ClearDepth, &scene::PaintStep::what);
+    CHECK(frame.counts.overlap_groups == 1);
+    const auto clear = std::ranges::find(plan.steps, Content::ClearDepth, &scene::PaintStep::content);
     REQUIRE(plan.steps.end() - clear >= 3);
     CHECK(clear[1].depth == DepthUse::DepthOnly);
-    CHECK(clear[1].what == What::GroundAgain);
+    CHECK(clear[1].content == Content::GroundRepaint);
     CHECK(clear[2].depth == DepthUse::Nearest);
-    CHECK(clear[2].what == What::Aircraft);
+    CHECK(clear[2].content == Content::Aircraft);
     CHECK(clear[2].count == 2);
 }
 

@@ -151,22 +151,22 @@ TEST_CASE("past the land around a map the plain begins where that land ends") {
 TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
     const glm::vec3 black(0.0F);
     Haze haze{{1.0F, 1.0F, 1.0F}, 10000.0F};
-    const glm::vec3 level = seen_through(haze, {0.0, 10000.0, 0.0}, black);
+    const glm::vec3 level = through_haze(haze, {0.0, 10000.0, 0.0}, black);
     CHECK(level.x == Approx(1.0 - std::exp(-1.0)));
     haze.falloff_per_m = 1.0F / 2000.0F;
-    CHECK(seen_through(haze, {0.0, 10000.0, 0.0}, black).x == Approx(level.x));
+    CHECK(through_haze(haze, {0.0, 10000.0, 0.0}, black).x == Approx(level.x));
     // 8 km up and 6 km along: the mean of exp(-h / 2000) over 8,000 m of height.
     const double mean = (1.0 - std::exp(-4.0)) / 4.0;
     CHECK(
-        seen_through(haze, {6000.0, 0.0, 8000.0}, black).x ==
+        through_haze(haze, {6000.0, 0.0, 8000.0}, black).x ==
         Approx(1.0 - std::exp(-mean)).epsilon(1e-4));
-    CHECK(seen_through(haze, {6000.0, 0.0, -800.0}, black).x > level.x * 0.6F);
+    CHECK(through_haze(haze, {6000.0, 0.0, -800.0}, black).x > level.x * 0.6F);
     haze.falloff_per_m = 0.0F;
     haze.horizontal_to_sun = {1.0F, 0.0F};
-    haze.sunward = {1.0F, 0.5F, 0.0F};
-    CHECK(seen_through(haze, {1e7, 0.0, 0.0}, black).y == Approx(0.5));
-    CHECK(seen_through(haze, {-1e7, 0.0, 0.0}, black).y == Approx(1.0));
-    CHECK(seen_through(haze, {1e7, 1e7, 0.0}, black).y == Approx(0.75));
+    haze.sunward_colour = {1.0F, 0.5F, 0.0F};
+    CHECK(through_haze(haze, {1e7, 0.0, 0.0}, black).y == Approx(0.5));
+    CHECK(through_haze(haze, {-1e7, 0.0, 0.0}, black).y == Approx(1.0));
+    CHECK(through_haze(haze, {1e7, 1e7, 0.0}, black).y == Approx(0.75));
 }
 
 TEST_CASE("ground that faces the sun is brighter than ground that faces away") {

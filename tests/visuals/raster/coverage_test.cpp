@@ -15,7 +15,7 @@ namespace {
 constexpr glm::ivec2 size_px{128, 64}; // powers of two: corners come out where they are put
 
 /// Corners at 1/256 pixel, some far outside the picture, some on pixel middles.
-glm::vec2 any_place(RandomGenerator& dice) {
+glm::vec2 any_position(RandomGenerator& dice) {
     const auto along = [&](int most) {
         const bool on_middle = below(dice, 4) == 0;
         const int from = static_cast<int>(below(dice, static_cast<std::uint64_t>(most + 60))) - 30;
@@ -32,7 +32,7 @@ std::vector<FlatTriangle> any_triangles(std::uint64_t seed, int count) {
     for (int i = 0; i < count; ++i) {
         FlatTriangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle.at_px[k] = any_place(dice);
+            triangle.at_px[k] = any_position(dice);
             triangle.depth_m[k] = 4.0F;
         }
         if (below(dice, 3) == 0) { // a sliver

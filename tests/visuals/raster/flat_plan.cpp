@@ -28,7 +28,7 @@ void FlatPlan::paint(
         }
     }
     const auto count = static_cast<std::uint32_t>(indices_.size()) - first;
-    plan_.steps.push_back({scene::PaintStep::What::Ground, first, count, clip, depth});
+    plan_.steps.push_back({scene::PaintStep::Content::Ground, first, count, clip, depth});
 }
 
 scene::FramePlan& FlatPlan::plan() {
@@ -36,13 +36,13 @@ scene::FramePlan& FlatPlan::plan() {
     return plan_;
 }
 
-scene::Grain strong_grain() {
-    const scene::Cover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
-    const scene::Cover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
+scene::DetailTexture strong_detail() {
+    const scene::LandCover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
+    const scene::LandCover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
     return {
         {glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
         {0.3F, 0.8F, 0.1F, 0.6F},
-        std::make_shared<const scene::CoverContrast>(std::array{dark, bright, dark, bright})};
+        std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright})};
 }
 
 scene::Picture drawn(

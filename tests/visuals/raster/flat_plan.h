@@ -37,7 +37,7 @@ public:
     void paint(
         const std::vector<FlatTriangle>& triangles,
         scene::DepthUse depth = scene::DepthUse::None,
-        std::uint32_t clip = scene::PaintStep::whole);
+        std::uint32_t clip = scene::PaintStep::no_clip);
 
     scene::FramePlan& plan();
 
@@ -49,7 +49,7 @@ private:
 };
 
 /// A fine pattern of covers that differ much, for any alpha.
-scene::Grain strong_grain();
+scene::DetailTexture strong_detail();
 
 /// The plan's picture.
 scene::Picture drawn(

@@ -45,7 +45,7 @@ struct LeaningNormals {
         plan.parts = {glm::mat4(1.0F)};
         plan.smooth = {1U};
         plan.aircraft.push_back({.model = 0, .first_index = 0, .index_count = 6});
-        plan.steps.push_back({scene::PaintStep::What::Aircraft, 0, 1});
+        plan.steps.push_back({scene::PaintStep::Content::Aircraft, 0, 1});
     }
 
     scene::Picture picture(int samples, int threads = 1) const {
@@ -99,11 +99,11 @@ TEST_CASE("light in each pixel is the same by depth and on any number of threads
     CHECK(square.picture(16, 3).rgba == one.rgba);
     square.plan.depth_boxes = {{glm::ivec2(0), size_px}};
     square.plan.steps = {
-        {scene::PaintStep::What::ClearDepth, 0, 1},
-        {scene::PaintStep::What::Aircraft,
+        {scene::PaintStep::Content::ClearDepth, 0, 1},
+        {scene::PaintStep::Content::Aircraft,
          0,
          1,
-         scene::PaintStep::whole,
+         scene::PaintStep::no_clip,
          scene::DepthUse::Nearest}};
     CHECK(square.picture(16).rgba == one.rgba);
     CHECK(square.picture(1).rgba.size() == one.rgba.size());

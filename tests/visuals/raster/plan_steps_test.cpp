@@ -35,7 +35,7 @@ rectangle(glm::vec2 least, glm::vec2 most, std::uint32_t colour, float depth_m) 
 void clear_depth(FlatPlan& plan) {
     plan.plan().depth_boxes.push_back({glm::ivec2(0), size_px});
     plan.plan().steps.push_back(
-        {PaintStep::What::ClearDepth,
+        {PaintStep::Content::ClearDepth,
          static_cast<std::uint32_t>(plan.plan().depth_boxes.size() - 1),
          1});
 }
@@ -50,7 +50,7 @@ void light_evenly(scene::FramePlan& frame, std::uint32_t smooth) {
 /// Draws three indices of a model alone.
 void paint_triangle(scene::FramePlan& frame, std::uint32_t first_index) {
     frame.aircraft = {{.model = 0, .first_index = first_index, .index_count = 3}};
-    frame.steps.push_back({PaintStep::What::Aircraft, 0, 1});
+    frame.steps.push_back({PaintStep::Content::Aircraft, 0, 1});
 }
 
 scene::Picture
@@ -234,16 +234,16 @@ TEST_CASE(
         frame.aircraft.push_back(
             {.model = 0, .first_index = 6 * i, .index_count = 6, .first_part = i});
     }
-    using What = PaintStep::What;
+    using Content = PaintStep::Content;
     clear_depth(plan);
-    frame.steps.push_back({What::Aircraft, 0, 1, PaintStep::whole, DepthUse::Nearest});
+    frame.steps.push_back({Content::Aircraft, 0, 1, PaintStep::no_clip, DepthUse::Nearest});
     const bool shares_depth = GENERATE(true, false);
     if (shares_depth) {
-        frame.steps.push_back({What::Aircraft, 2, 1, PaintStep::whole, DepthUse::Nearest});
+        frame.steps.push_back({Content::Aircraft, 2, 1, PaintStep::no_clip, DepthUse::Nearest});
     }
-    frame.steps.push_back({What::Aircraft, 1, 1, PaintStep::whole, DepthUse::Nearest, 0.25F});
+    frame.steps.push_back({Content::Aircraft, 1, 1, PaintStep::no_clip, DepthUse::Nearest, 0.25F});
     if (!shares_depth) { // painted over all
-        frame.steps.push_back({What::Aircraft, 2, 1});
+        frame.steps.push_back({Content::Aircraft, 2, 1});
     }
     const scene::Picture picture = drawn_with(model, frame, samples);
     CAPTURE(samples, shares_depth);
@@ -270,7 +270,7 @@ TEST_CASE("neighbours of the overlay with one colour are blended as one") {
         {{8.4F, 48.8F}, half_white}};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
     plan.plan().overlay = {vertices, indices};
-    plan.plan().steps.push_back({PaintStep::What::Overlay, 0, 6});
+    plan.plan().steps.push_back({PaintStep::Content::Overlay, 0, 6});
     const scene::Picture picture = drawn(plan.plan(), size_px, 16);
     for (int along = 12; along < 45; ++along) {
         CHECK(pixel(picture, along, along) == glm::ivec3(128));

@@ -48,7 +48,7 @@ void paint_much(FlatPlan& plan) {
             triangles,
             by_depth ? scene::DepthUse::Nearest : scene::DepthUse::None,
             cut ? static_cast<std::uint32_t>(plan.plan().clips.size() - 1)
-                : scene::PaintStep::whole);
+                : scene::PaintStep::no_clip);
     }
 }
 
@@ -59,7 +59,7 @@ void put_in_haze(FlatPlan& plan) {
         .visibility_m = 60.0F,
         .falloff_per_m = 0.02F,
         .horizontal_to_sun = glm::vec2(0.6F, 0.8F),
-        .sunward = glm::vec3(0.9F, 0.8F, 0.6F)};
+        .sunward_colour = glm::vec3(0.9F, 0.8F, 0.6F)};
 }
 
 /// A texture of noise, and where it lies under the plan's triangles.
@@ -72,7 +72,7 @@ scene::GroundTexture put_on_noise(FlatPlan& plan) {
         }
         return image;
     };
-    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(0.02F, 0.03F)};
+    const scene::TextureTransform place{glm::vec2(0.5F), glm::vec2(0.02F, 0.03F)};
     plan.plan().ground_texture = {place, place};
     return {.albedo = noise(150, 90, 3), .normal = noise(40, 50, 2)};
 }
@@ -116,9 +116,9 @@ TEST_CASE("any number of threads makes the same bytes") {
     paint_much(plan);
     check_threads(plan.plan(), nullptr);
     put_in_haze(plan);
-    plan.plan().grain = strong_grain();
+    plan.plan().detail_texture = strong_detail();
     check_threads(plan.plan(), nullptr);
-    plan.plan().grain.reset();
+    plan.plan().detail_texture.reset();
     const scene::GroundTexture texture = put_on_noise(plan);
     check_threads(plan.plan(), &texture);
 }
@@ -129,9 +129,9 @@ TEST_CASE("all instruction sets make the same bytes") {
     check_sets(plan.plan(), nullptr);
     put_in_haze(plan);
     check_sets(plan.plan(), nullptr);
-    plan.plan().grain = strong_grain();
+    plan.plan().detail_texture = strong_detail();
     check_sets(plan.plan(), nullptr);
-    plan.plan().grain.reset();
+    plan.plan().detail_texture.reset();
     const scene::GroundTexture texture = put_on_noise(plan);
     check_sets(plan.plan(), &texture);
 }

@@ -42,7 +42,7 @@ scene::GroundTexture zigzag_texture() {
 }
 
 /// One over the distance of a slope that falls away from the lower left corner.
-double nearness(const glm::dvec2& at_px) {
+double inverse_depth(const glm::dvec2& at_px) {
     return 1.0 / 12.0 - 0.04 * at_px.x / small_px.x + 0.03 * at_px.y / small_px.y;
 }
 
@@ -53,7 +53,7 @@ void paint_slope(FlatPlan& plan, const glm::ivec2& cell_px) {
         FlatTriangle triangle;
         for (std::size_t i = 0; i < 3; ++i) {
             triangle.at_px[i] = glm::vec2(at_px[i]);
-            triangle.depth_m[i] = static_cast<float>(1.0 / nearness(glm::dvec2(at_px[i])));
+            triangle.depth_m[i] = static_cast<float>(1.0 / inverse_depth(glm::dvec2(at_px[i])));
         }
         triangles.push_back(triangle);
     };
@@ -78,7 +78,7 @@ double level_at(double texel) {
 }
 
 /// One over the distance of ground that reaches to the picture's upper edge.
-double nearness_of_ground(double y_px) {
+double inverse_depth_of_ground(double y_px) {
     return 0.01 + 0.09 * y_px / small_px.y;
 }
 
@@ -89,7 +89,7 @@ void paint_ground(FlatPlan& plan, int cell_px, scene::DepthUse depth) {
         FlatTriangle triangle;
         for (std::size_t i = 0; i < 3; ++i) {
             triangle.at_px[i] = glm::vec2(at_px[i]);
-            triangle.depth_m[i] = static_cast<float>(1.0 / nearness_of_ground(at_px[i].y));
+            triangle.depth_m[i] = static_cast<float>(1.0 / inverse_depth_of_ground(at_px[i].y));
         }
         triangles.push_back(triangle);
     };
@@ -103,7 +103,7 @@ void paint_ground(FlatPlan& plan, int cell_px, scene::DepthUse depth) {
     plan.paint(triangles, depth);
     plan.plan().ambient = glm::vec3(1.0F);
     plan.plan().sunlight = glm::vec3(0.0F);
-    const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(ground_per_m)};
+    const scene::TextureTransform place{glm::vec2(0.5F), glm::vec2(ground_per_m)};
     plan.plan().ground_texture = {place, place};
 }
 
@@ -115,7 +115,7 @@ double red_of_ground(int x, int y) {
         const glm::dvec2 at_px(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
         const double across = at_px.x / small_px.x * 2.0 - 1.0;
         const double texel =
-            (0.5 + across / nearness_of_ground(at_px.y) * double{ground_per_m}) * texels - 0.5;
+            (0.5 + across / inverse_depth_of_ground(at_px.y) * double{ground_per_m}) * texels - 0.5;
         sum += level_at(std::clamp(texel, 0.0, texels - 1.0));
     }
     return sum / (side * side);
@@ -182,7 +182,7 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
         FlatPlan plan(small_px);
         paint_slope(plan, cell_px);
         constexpr float per_m = 0.0078125F;
-        const scene::TexturePlace place{glm::vec2(0.5F), glm::vec2(per_m)};
+        const scene::TextureTransform place{glm::vec2(0.5F), glm::vec2(per_m)};
         plan.plan().ground_texture = {place, place};
         const scene::Picture picture = drawn(plan.plan(), small_px, 16, 1, &texture);
         double worst = 0.0;
@@ -190,7 +190,7 @@ TEST_CASE("places in a texture are right to a sixteenth of a texel in small tria
             for (int x = 0; x < small_px.x; ++x) {
                 const glm::dvec2 at_px(x + 0.5, y + 0.5);
                 const glm::dvec2 share = at_px / glm::dvec2(small_px) * 2.0 - 1.0;
-                const glm::dvec2 at_m = glm::dvec2(share.x, -share.y) / nearness(at_px);
+                const glm::dvec2 at_m = glm::dvec2(share.x, -share.y) / inverse_depth(at_px);
                 const glm::dvec2 texel = (0.5 + at_m * double{per_m}) * double{texels} - 0.5;
                 const glm::ivec3 seen = pixel(picture, x, y);
                 worst = std::max(worst, std::abs(seen.x - level_at(texel.x)));

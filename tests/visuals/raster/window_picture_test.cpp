@@ -69,9 +69,9 @@ void add_pane(scene::FramePlan& plan) {
     plan.aircraft = {{.model = 0, .first_index = 0, .index_count = 6}};
     plan.depth_boxes = {{glm::ivec2(0), window_px}};
     using scene::PaintStep;
-    plan.steps.push_back({PaintStep::What::ClearDepth, 0, 1});
+    plan.steps.push_back({PaintStep::Content::ClearDepth, 0, 1});
     plan.steps.push_back(
-        {PaintStep::What::Aircraft, 0, 1, PaintStep::whole, scene::DepthUse::Nearest, 0.25F});
+        {PaintStep::Content::Aircraft, 0, 1, PaintStep::no_clip, scene::DepthUse::Nearest, 0.25F});
 }
 
 } // namespace
@@ -101,19 +101,19 @@ TEST_CASE("a picture in a window's memory is the one that is read, blue first") 
     add_pane(plan.plan());
     scene::Picture read;
     draw();
-    CHECK_FALSE(renderer.is_in_window());
+    CHECK_FALSE(renderer.is_drawn_to_window());
     renderer.finish_and_read(read);
     CHECK(read.rgba != without_pane.rgba);
 
-    renderer.aim_at_window(window_px);
+    renderer.set_window_target(window_px);
     draw();
-    CHECK(renderer.is_in_window());
+    CHECK(renderer.is_drawn_to_window());
     CHECK(window->pixels == with_red_and_blue_swapped(read));
     renderer.copy_to_window(glm::ivec2(300, 140));
     CHECK(window->shown_px == glm::ivec2(300, 140));
 
     scene::Picture again;
-    renderer.aim_at_window(glm::ivec2(0));
+    renderer.set_window_target(glm::ivec2(0));
     draw();
     renderer.finish_and_read(again);
     CHECK(again.rgba == read.rgba);

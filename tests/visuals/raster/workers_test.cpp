@@ -31,14 +31,14 @@ TEST_CASE("each task of each run is done once, before the run returns") {
 }
 
 TEST_CASE("work beside loops is done once, by a helper, and loops do not wait for it") {
-    CHECK_FALSE(Workers(1).begin_beside([] {}));
+    CHECK_FALSE(Workers(1).begin_on_idle_thread([] {}));
     const auto cores = static_cast<int>(std::thread::hardware_concurrency());
     std::atomic<int> done = 0;
     {
         Workers workers(std::max(cores, 2));
         for (int round = 1; round <= 200; ++round) {
             std::binary_semaphore may_end(0);
-            REQUIRE(workers.begin_beside([&] {
+            REQUIRE(workers.begin_on_idle_thread([&] {
                 may_end.acquire();
                 ++done;
                 done.notify_all();
@@ -51,7 +51,7 @@ TEST_CASE("work beside loops is done once, by a helper, and loops do not wait fo
             done.wait(round - 1);
         }
         for (int i = 0; i < 5; ++i) {
-            workers.begin_beside([&] { ++done; });
+            workers.begin_on_idle_thread([&] { ++done; });
         }
     }
     CHECK(done == 205);

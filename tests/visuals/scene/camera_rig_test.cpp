@@ -25,7 +25,7 @@ sim::AircraftState level_flight(double heading_rad) {
 Camera seen(View view, const sim::AircraftState& state, const GroundHeight& ground = flat_ground) {
     ViewSettings settings;
     settings.kind = view;
-    return camera_of(settings, state, advanced({}, state), fighter, {tower, {}, {}}, ground);
+    return camera_of(settings, state, next_rig_state({}, state), fighter, {tower, {}, {}}, ground);
 }
 
 Camera turned(
@@ -43,7 +43,7 @@ Camera turned(
     return camera_of(
         settings,
         state,
-        advanced({}, state),
+        next_rig_state({}, state),
         fighter,
         {tower, {0.0, 0.0, 50.0}, {0.0, 500.0, 60.0}},
         ground);
@@ -64,12 +64,12 @@ TEST_CASE("the chase camera stands behind and above and looks ahead") {
 }
 
 TEST_CASE("the chase camera lags behind a turn and catches up") {
-    RigMemory memory = advanced({}, level_flight(0.0));
-    memory = advanced(memory, level_flight(1.0));
+    RigState memory = next_rig_state({}, level_flight(0.0));
+    memory = next_rig_state(memory, level_flight(1.0));
     const glm::dvec3 ahead = direction_from_heading(1.0);
     CHECK(glm::dot(memory.lagging_forward, ahead) < 0.6);
     for (int step = 0; step < 480; ++step) {
-        memory = advanced(memory, level_flight(1.0));
+        memory = next_rig_state(memory, level_flight(1.0));
     }
     CHECK(glm::dot(memory.lagging_forward, ahead) > 0.999);
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double radius_m = 10.0;
 
-const GroundHeight even_ground = [](double, double) { return std::optional<double>(0.0); };
+const GroundHeight affine_ground = [](double, double) { return std::optional<double>(0.0); };
 const GroundHeight no_ground = [](double, double) { return std::optional<double>(); };
 
 /// Hills of 240 m over a map of 16 km.
@@ -70,7 +70,7 @@ TEST_CASE("from the tower a flight over hills is large, in sight, and before rel
         const Camera camera = tower_camera(chosen, state.position_m, radius_m);
         const glm::dvec3 to_m = state.position_m - chosen.eye_m;
         const double skyline = skyline_rad(chosen, std::atan2(to_m.x, to_m.y));
-        const double off_rad = std::abs(elevation_rad(ahead_of(camera)) - skyline);
+        const double off_rad = std::abs(elevation_rad(view_direction(camera)) - skyline);
         const double share = share_of(camera, state.position_m);
         good += in_sight(chosen.eye_m, state.position_m, rolling_m) && share > 0.139 &&
                         share < 0.7 && off_rad < 0.5 * camera.vertical_fov_rad
@@ -86,10 +86,10 @@ TEST_CASE("a tower on the wrong side of a wall scores nothing, and none is put t
         return std::optional<double>(std::abs(x_m - 100.0) < 30.0 ? 900.0 : 0.0);
     };
     const auto flight = northward(1500.0, 300.0, -2000.0, 2000.0);
-    const TowerWish wish{flight, radius_m, 20.0, {0.0, 0.0}};
-    CHECK(tower_score({-500.0, 0.0, 25.0}, wish, wall) == 0.0);
-    CHECK(tower_score({700.0, 0.0, 25.0}, wish, wall) > 0.2);
-    CHECK(tower_for(wish, wall).eye_m.x > 100.0);
+    const TowerRequest request{flight, radius_m, 20.0, {0.0, 0.0}};
+    CHECK(tower_score({-500.0, 0.0, 25.0}, request, wall) == 0.0);
+    CHECK(tower_score({700.0, 0.0, 25.0}, request, wall) > 0.2);
+    CHECK(tower_for(request, wall).eye_m.x > 100.0);
 }
 
 TEST_CASE("ground behind the aircraft that shows single samples scores less") {
@@ -118,7 +118,7 @@ TEST_CASE("an aircraft that crosses high before nothing but sky is held in the m
     const Tower chosen{{0.0, 0.0, 20.0}, {}, 0.01};
     const glm::dvec3 high_m(0.0, 300.0, 900.0);
     const Camera camera = tower_camera(chosen, high_m, radius_m);
-    CHECK(glm::dot(ahead_of(camera), glm::normalize(high_m - camera.eye_m)) == Approx(1.0));
+    CHECK(glm::dot(view_direction(camera), glm::normalize(high_m - camera.eye_m)) == Approx(1.0));
     CHECK(share_of(camera, high_m) == Approx(0.5).epsilon(1e-3));
 }
 
@@ -130,19 +130,19 @@ TEST_CASE("the tower's look and zoom move without jumps from picture to picture"
         const Camera now = tower_camera(chosen, {300.0, y_m, 420.0}, radius_m);
         const double zoom = now.vertical_fov_rad / before.vertical_fov_rad;
         REQUIRE(std::abs(std::log(zoom)) < 0.06);
-        REQUIRE(glm::dot(ahead_of(now), ahead_of(before)) > std::cos(0.05));
+        REQUIRE(glm::dot(view_direction(now), view_direction(before)) > std::cos(0.05));
         before = now;
     }
 }
 
 TEST_CASE("where there is no ground beside the flight the tower stands where it is told") {
-    CHECK(tower_score({0.0, 0.0, 20.0}, TowerWish(), even_ground) == 0.0);
+    CHECK(tower_score({0.0, 0.0, 20.0}, TowerRequest(), affine_ground) == 0.0);
     const auto flight = northward(0.0, 300.0, -1000.0, 1000.0);
     const Tower chosen = tower_for({flight, radius_m, 0.0, {70.0, 90.0}}, no_ground);
     CHECK(chosen.eye_m == glm::dvec3(70.0, 90.0, 25.0));
     sim::AircraftState still;
     still.position_m = {0.0, 0.0, 300.0};
-    const Tower waiting = tower_for({{&still, 1}, radius_m, 0.0, {0.0, 0.0}}, even_ground);
+    const Tower waiting = tower_for({{&still, 1}, radius_m, 0.0, {0.0, 0.0}}, affine_ground);
     const double off_m = glm::distance(waiting.eye_m, still.position_m);
     CHECK(off_m > 100.0);
     CHECK(off_m < 3000.0);
@@ -150,9 +150,9 @@ TEST_CASE("where there is no ground beside the flight the tower stands where it 
 
 TEST_CASE("the same flight has the same tower") {
     const auto flight = northward(300.0, 420.0, -3000.0, 3000.0);
-    const TowerWish wish{flight, radius_m, 20.0, {0.0, 0.0}};
-    const Tower one = tower_for(wish, rolling_m);
-    const Tower other = tower_for(wish, rolling_m);
+    const TowerRequest request{flight, radius_m, 20.0, {0.0, 0.0}};
+    const Tower one = tower_for(request, rolling_m);
+    const Tower other = tower_for(request, rolling_m);
     CHECK(one.eye_m == other.eye_m);
     CHECK(one.skyline_rad == other.skyline_rad);
     CHECK(one.min_fov_rad == other.min_fov_rad);

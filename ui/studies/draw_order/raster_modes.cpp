@@ -35,7 +35,7 @@ raster_session(const settings::RunSettings& settings, const RasterMode& mode) {
     own.surface.hidden_surface = mode.hidden_surface;
     own.view.samples = mode.samples;
     auto renderer = flight::make_raster_renderer(own);
-    renderer->walk(mode.walk);
+    renderer->set_paint_direction(mode.paint_direction);
     return std::make_unique<flight::Session>(own, flight::PictureContent::World, std::move(renderer));
 }
 

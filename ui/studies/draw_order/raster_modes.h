@@ -16,7 +16,7 @@ namespace octant::ui::studies::draw_order {
 struct RasterMode {
     const char* name;
     visuals::scene::HiddenSurface hidden_surface;
-    visuals::raster::Renderer::Walk walk = visuals::raster::Renderer::Walk::NearToFar;
+    visuals::raster::Renderer::PaintDirection paint_direction = visuals::raster::Renderer::PaintDirection::NearToFar;
     int samples = 1;
 };
 
@@ -26,13 +26,13 @@ inline constexpr std::array raster_modes{
     RasterMode{
         "octant, far to near",
         visuals::scene::HiddenSurface::Octant,
-        visuals::raster::Renderer::Walk::FarToNear},
+        visuals::raster::Renderer::PaintDirection::FarToNear},
     RasterMode{"back faces only", visuals::scene::HiddenSurface::BackFace},
     RasterMode{"depth buffer", visuals::scene::HiddenSurface::DepthBuffer},
     RasterMode{
         "octant, 16 samples",
         visuals::scene::HiddenSurface::Octant,
-        visuals::raster::Renderer::Walk::NearToFar,
+        visuals::raster::Renderer::PaintDirection::NearToFar,
         16}};
 inline constexpr std::size_t raster_depth_buffer = 3; ///< index into raster_modes
 

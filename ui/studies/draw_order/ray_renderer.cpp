@@ -90,7 +90,7 @@ RayRenderer::RayRenderer(const glm::ivec2& size_px)
     : size_px_(size_px) {
     info_.description = "rays";
     info_.device = "processor";
-    info_.on_processor = true;
+    info_.is_software = true;
     resize(size_px, 1);
 }
 
@@ -120,7 +120,7 @@ void RayRenderer::draw(const scene::FramePlan& plan) {
     add_ground(plan);
     for (const scene::PaintStep& step : plan.steps) {
         for (std::uint32_t i = step.first;
-             step.what == scene::PaintStep::What::Aircraft && i < step.first + step.count;
+             step.content == scene::PaintStep::Content::Aircraft && i < step.first + step.count;
              ++i) {
             add_aircraft(plan, plan.aircraft[i]);
         }
@@ -200,7 +200,7 @@ void RayRenderer::add(const std::array<glm::vec3, 3>& corners_m, std::uint32_t n
         const auto i = static_cast<std::size_t>(k);
         target.inwards[i] = rows[k] / std::max(glm::length(glm::dvec2(rows[k])), 1e-300);
         target.inverse_depth += rows[k];
-        target.max_by_w = std::max(target.max_by_w, 1.0 / std::max(corners[k].z, near_m_));
+        target.max_over_w = std::max(target.max_over_w, 1.0 / std::max(corners[k].z, near_m_));
         target.corners_px[i] = glm::dvec2(corners[k]) / corners[k].z;
     }
     target.is_placed =
@@ -270,7 +270,7 @@ RayRenderer::wrong_pixel_at(const glm::ivec2& pixel, std::uint32_t number, doubl
         } else if (target.distance_px(middle) <= reach_px) {
             const double inverse_depth =
                 glm::dot(target.inverse_depth, at) + reach_px * glm::length(glm::dvec2(target.inverse_depth));
-            shown_by_w = std::max(shown_by_w, std::min(inverse_depth, target.max_by_w));
+            shown_by_w = std::max(shown_by_w, std::min(inverse_depth, target.max_over_w));
         }
     }
     if (shown_by_w < 0.0) {

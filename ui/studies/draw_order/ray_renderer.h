@@ -75,7 +75,7 @@ private:
     struct Target {
         std::array<glm::dvec3, 3> inwards; ///< how far inside each edge, pixels
         glm::dvec3 inverse_depth{0.0};              ///< one over the depth along the line of sight, 1/m
-        double max_by_w = 0.0;            ///< within the triangle
+        double max_over_w = 0.0;            ///< within the triangle
         std::array<glm::dvec2, 3> corners_px{};
         bool is_placed = false; ///< all corners lie before the near plane: corners_px count
         glm::ivec2 least{0};    ///< pixels that it may cover, and one more on each side

@@ -14,9 +14,9 @@ public:
 
     int draw_calls() const final { return 0; }
 
-    void aim_at_window(const glm::ivec2&) final {}
+    void set_window_target(const glm::ivec2&) final {}
 
-    bool is_in_window() const final { return false; }
+    bool is_drawn_to_window() const final { return false; }
 
     void copy_to_window(const glm::ivec2&) final {}
 };

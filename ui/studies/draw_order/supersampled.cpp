@@ -16,7 +16,7 @@ shifted_plan(const scene::FramePlan& plan, const glm::dvec2& by_px, const glm::i
         clip.y -= by.y * clip.w;
     }
     std::erase_if(result.steps, [](const scene::PaintStep& step) {
-        return step.what == scene::PaintStep::What::Overlay;
+        return step.content == scene::PaintStep::Content::Overlay;
     });
     return result;
 }

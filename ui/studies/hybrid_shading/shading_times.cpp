@@ -41,25 +41,25 @@ constexpr std::array shading_modes{
     ShadingMode{"Phong", scene::AircraftShading::Phong}};
 constexpr std::size_t flat_way = 0; ///< index into ways
 
-using Walk = visuals::raster::Renderer::Walk;
+using PaintDirection = visuals::raster::Renderer::PaintDirection;
 
 struct RendererMode {
     const char* name;
     settings::RendererKind renderer;
     int samples = 1;
-    Walk walk = Walk::NearToFar;
+    PaintDirection paint_direction = PaintDirection::NearToFar;
     scene::HiddenSurface hidden_surface = scene::HiddenSurface::Octant;
 };
 
 constexpr std::array renderer_modes{
     RendererMode{"OpenGL", settings::RendererKind::Gl},
-    RendererMode{"raster, far to near", settings::RendererKind::Raster, 1, Walk::FarToNear},
+    RendererMode{"raster, far to near", settings::RendererKind::Raster, 1, PaintDirection::FarToNear},
     RendererMode{"raster, near to far", settings::RendererKind::Raster},
     RendererMode{
         "raster, depth buffer",
         settings::RendererKind::Raster,
         1,
-        Walk::NearToFar,
+        PaintDirection::NearToFar,
         scene::HiddenSurface::DepthBuffer},
     RendererMode{"raster, 16 samples", settings::RendererKind::Raster, 16}};
 constexpr std::size_t near_to_far_drawer = 2; ///< indices into drawers
@@ -91,7 +91,7 @@ session_of(const std::string& aircraft, const ShadingMode& way, const RendererMo
         return std::make_unique<flight::Session>(settings);
     }
     auto renderer = flight::make_raster_renderer(settings);
-    renderer->walk(drawer.walk);
+    renderer->set_paint_direction(drawer.paint_direction);
     return std::make_unique<flight::Session>(settings, flight::PictureContent::World, std::move(renderer));
 }
 

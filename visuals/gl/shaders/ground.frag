@@ -12,12 +12,12 @@ in float left;
 layout(location = 0) out vec4 pixel;
 
 #include "cut.glsl"
-#include "grain.glsl"
+#include "detail_texture.glsl"
 
 void main() {
     // Before any cut: how large a pixel is comes from its neighbours.
     vec3 across = dFdx(place_m);
     vec3 down = dFdy(place_m);
     cut();
-    pixel = vec4(colour * (1.0 + left * grain_at(place_m, across, down, covers)), 1.0);
+    pixel = vec4(colour * (1.0 + left * detail_at(place_m, across, down, covers)), 1.0);
 }

@@ -56,7 +56,7 @@ void draw(RayRenderer& rays, const std::vector<Piece>& pieces) {
     plan.view_to_clip = scene::view_to_clip(camera, 1.0);
     plan.parts = {glm::mat4(1.0F)};
     plan.aircraft = {{.index_count = static_cast<std::uint32_t>(model.indices.size())}};
-    plan.steps = {{scene::PaintStep::What::Aircraft, 0, 1}};
+    plan.steps = {{scene::PaintStep::Content::Aircraft, 0, 1}};
     rays.draw(plan);
 }
 

@@ -1,0 +1,350 @@
+#include "tests/visuals/raster/flat_plan.h"
+#include "visuals/raster/tile.h"
+#include "visuals/scene/detail_pattern.h"
+
+#include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+namespace {
+
+constexpr glm::ivec2 picture_px{256, 192};
+constexpr std::uint32_t half_and_half = 0x60808080U; ///< between the first two covers
+constexpr std::uint32_t second_cover = 0x80808080U;
+constexpr std::uint32_t water = 0x00808080U;
+constexpr std::array at_eye{
+    glm::vec2(0.3F, 0.8F), glm::vec2(0.55F, 0.1F), glm::vec2(0.7F, 0.4F), glm::vec2(0.2F, 0.9F)};
+constexpr std::array eye_height_tiles{0.15F, 0.65F, 0.35F, 0.85F};
+
+std::shared_ptr<const scene::LandCoverContrast> dark_and_bright() {
+    const scene::LandCover dark{glm::vec3(0.2F), 0.05F};
+    const scene::LandCover bright{glm::vec3(0.6F), 0.05F};
+    return std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright});
+}
+
+/// A slope: one over its distance in the picture's upper left corner, its changes to the others.
+struct Slope {
+    double at_corner;
+    double across;
+    double down;
+    int columns = picture_px.x; ///< of the picture that are judged
+    int drawn_columns = picture_px.x;
+    bool is_upright = false; ///< so steep that it shows the pattern upright
+
+    double inverse_depth(const glm::dvec2& at_px) const {
+        return at_corner + across * at_px.x / picture_px.x + down * at_px.y / picture_px.y;
+    }
+};
+
+/// Falls away from the lower left corner, seen from above.
+constexpr Slope gentle{1.0 / 30.0, -0.016, 0.012};
+/// Its normal leans towards the west by two and a half times as much as it reaches up.
+constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, picture_px.x / 2 + 32, true};
+
+/// The slope, cut into triangles of so many pixels.
+void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope& slope = gentle) {
+    std::vector<FlatTriangle> triangles;
+    const auto add = [&](const std::array<glm::ivec2, 3>& at_px) {
+        FlatTriangle triangle;
+        triangle.colour.fill(colour);
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.at_px[i] = glm::vec2(at_px[i]);
+            triangle.depth_m[i] = static_cast<float>(1.0 / slope.inverse_depth(glm::dvec2(at_px[i])));
+        }
+        triangles.push_back(triangle);
+    };
+    for (int y = 0; y < picture_px.y; y += cell_px) {
+        for (int x = 0; x < slope.drawn_columns; x += cell_px) {
+            const glm::ivec2 end_px(x + cell_px, y + cell_px);
+            add({glm::ivec2(x, y), {end_px.x, y}, {x, end_px.y}});
+            add({glm::ivec2(end_px.x, y), end_px, {x, end_px.y}});
+        }
+    }
+    plan.paint(triangles);
+}
+
+void set_detail_texture(FlatPlan& plan) {
+    plan.plan().detail_texture = scene::DetailTexture{at_eye, eye_height_tiles, dark_and_bright()};
+}
+
+/// Where a pixel's middle sees the slope, metres from the eye.
+glm::dvec3 seen_from_eye_m(const glm::dvec2& at_px, const Slope& slope) {
+    const double depth_m = 1.0 / slope.inverse_depth(at_px);
+    const glm::dvec2 share = at_px / glm::dvec2(picture_px) * 2.0 - 1.0;
+    return {share.x * depth_m, -share.y * depth_m, -depth_m};
+}
+
+/// Where that lies in the pattern at a scale, in texels of its finest level.
+glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale, bool is_upright) {
+    using scene::DetailPattern;
+    const auto at = static_cast<std::size_t>(scale);
+    const bool is_odd = scale % 2 != 0;
+    const double sign = is_odd ? -1.0 : 1.0;
+    const double east =
+        from_eye_m.x + sign * static_cast<double>(DetailPattern::shift_per_height.x) * from_eye_m.z;
+    const double north =
+        from_eye_m.y + sign * static_cast<double>(DetailPattern::shift_per_height.y) * from_eye_m.z;
+    const double texels_per_m = 8.0 / std::pow(16.0, scale);
+    glm::dvec2 turned = is_odd ? glm::dvec2(north, -east) : glm::dvec2(east, north);
+    glm::dvec2 eye(at_eye[at]);
+    if (is_upright) {
+        (is_odd ? turned.y : turned.x) = sign * from_eye_m.z;
+        (is_odd ? eye.y : eye.x) = sign * static_cast<double>(eye_height_tiles[at]);
+    }
+    return turned * texels_per_m + eye * static_cast<double>(DetailPattern::side_texels);
+}
+
+/// The pattern in a level between four texels around a place in texels of the finest one, -1 to 1.
+double pattern_at(double in_level, const glm::dvec2& texels) {
+    const auto& level = scene::detail_mip_levels()[static_cast<std::size_t>(in_level)];
+    const glm::dvec2 at = texels / std::exp2(in_level) - 0.5;
+    const glm::dvec2 low = glm::floor(at);
+    const auto texel = [&](int right, int up) {
+        const auto within = [&](double place) {
+            const auto whole = static_cast<std::int64_t>(place);
+            return static_cast<std::size_t>((whole % level.size + level.size) % level.size);
+        };
+        const std::size_t row = within(low.y + up);
+        return level.texels[row * static_cast<std::size_t>(level.size) + within(low.x + right)];
+    };
+    const glm::dvec2 part = at - low;
+    const double south = texel(0, 0) * (1.0 - part.x) + texel(1, 0) * part.x;
+    const double north = texel(0, 1) * (1.0 - part.x) + texel(1, 1) * part.x;
+    return (south * (1.0 - part.y) + north * part.y) / 128.0 - 1.0;
+}
+
+/// Between which values the pattern at a pixel lies, up to half a level finer and coarser than the
+/// size of what it sees asks for.
+struct Range {
+    double least = 1.0;
+    double most = -1.0;
+};
+
+Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
+    const auto seen_from = [&](double columns, double rows) {
+        return seen_from_eye_m(at_px + glm::dvec2(columns, rows), slope);
+    };
+    const glm::dvec3 here = seen_from(0.0, 0.0);
+    const double wide_m =
+        std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
+    Range range;
+    for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
+        const double level = std::clamp(std::log2(8.0 * wide_m) + off, 0.0, 11.99);
+        const int scale = static_cast<int>(level / 4.0);
+        const double through = level / 4.0 - scale;
+        for (const double beside : {-1.0, 0.0, 1.0}) { // between two pixels it is even
+            const glm::dvec3 seen = seen_from(beside, 0.0);
+            const glm::dvec2 fine = texels_at(seen, scale, slope.is_upright);
+            const double coarse = pattern_at(0.0, texels_at(seen, scale + 1, slope.is_upright));
+            for (const double rounded : {std::floor(4.0 * through), std::ceil(4.0 * through)}) {
+                const double value = pattern_at(rounded, fine) * (1.0 - through * through) +
+                                     coarse * (1.0 - (1.0 - through) * (1.0 - through));
+                range = {std::min(range.least, value), std::max(range.most, value)};
+            }
+        }
+    }
+    return range;
+}
+
+/// How many pixels of a slope must be dark or bright, and how many of them are not.
+struct Chosen {
+    int dark = 0;
+    int bright = 0;
+    int wrong = 0;
+};
+
+Chosen chosen_in(const scene::Picture& picture, const Slope& slope) {
+    const double border = 0.35 * scene::DetailPattern::deviation;
+    Chosen chosen;
+    for (int y = 0; y < picture_px.y; ++y) {
+        for (int x = 0; x < slope.columns; ++x) {
+            const int level = pixel(picture, x, y).y;
+            const Range range = pattern_around(glm::dvec2(x, y) + 0.5, slope);
+            const bool is_bright = range.least > border;
+            const bool is_dark = range.most < -border;
+            chosen.bright += is_bright ? 1 : 0;
+            chosen.dark += is_dark ? 1 : 0;
+            chosen.wrong += (is_bright && level < 140) || (is_dark && level > 116) ? 1 : 0;
+        }
+    }
+    return chosen;
+}
+
+/// Mean of the red bytes.
+double mean_level(const scene::Picture& picture) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+        sum += picture.rgba[i];
+    }
+    return 4.0 * sum / static_cast<double>(picture.rgba.size());
+}
+
+} // namespace
+
+TEST_CASE("each pixel has the cover that the fine pattern chooses at its place in the world") {
+    for (const Slope& slope : {gentle, steep}) {
+        for (const int cell_px : {8, 32}) {
+            FlatPlan plan(picture_px);
+            paint_slope(plan, cell_px, half_and_half, slope);
+            set_detail_texture(plan);
+            for (const int samples : {1, 16}) {
+                const Chosen chosen = chosen_in(drawn(plan.plan(), picture_px, samples), slope);
+                const int pixels = slope.columns * picture_px.y;
+                CAPTURE(slope.is_upright, cell_px, samples);
+                CHECK(chosen.wrong < pixels / 500);
+                CHECK(chosen.dark > pixels / 10);
+                CHECK(chosen.bright > pixels / 10);
+            }
+        }
+    }
+}
+
+TEST_CASE("the fine pattern leaves the mean colour as it is, whatever the ground is mixed of") {
+    constexpr int places = 64; // a picture is too small to show every feature of the pattern
+    for (const std::uint32_t covers : {0x48U, 0x60U, 0x78U, 0xa0U, 0xc0U, 0xe0U}) {
+        FlatPlan plan(picture_px);
+        paint_slope(plan, 16, covers << 24U | 0x808080U);
+        set_detail_texture(plan);
+        double mean = 0.0;
+        for (int place = 0; place < places; ++place) {
+            for (glm::vec2& eye : plan.plan().detail_texture->at_eye) {
+                eye = glm::fract(eye + glm::vec2(0.37F, 0.21F));
+            }
+            mean += mean_level(drawn(plan.plan(), picture_px, 16)) / places;
+        }
+        CAPTURE(covers);
+        CHECK(mean == Approx(128.0).margin(3.0));
+    }
+}
+
+TEST_CASE("in dense haze the fine pattern is gone") {
+    FlatPlan plan(picture_px);
+    paint_slope(plan, 16, half_and_half);
+    set_detail_texture(plan);
+    plan.plan().haze = {.colour = glm::vec3(0.5F), .visibility_m = 2.0F};
+    const scene::Picture picture = drawn(plan.plan(), picture_px, 16);
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+        REQUIRE(std::abs(int{picture.rgba[i]} - 128) <= 2);
+    }
+}
+
+TEST_CASE("along a level horizon, where pixels are half sky, there is none of the fine pattern") {
+    FlatPlan plan(picture_px);
+    FlatTriangle ground;
+    ground.at_px = {glm::vec2(-40.0F, 40.5F), glm::vec2(300.0F, 40.5F), glm::vec2(120.0F, 500.0F)};
+    ground.colour.fill(half_and_half);
+    plan.paint({ground});
+    const scene::Picture without = drawn(plan.plan(), picture_px, 16);
+    set_detail_texture(plan);
+    const scene::Picture with = drawn(plan.plan(), picture_px, 16);
+    int changed = 0;
+    for (int x = 0; x < picture_px.x; ++x) {
+        REQUIRE(pixel(without, x, 40).x == 64);
+        CHECK(pixel(with, x, 40).x == 64);
+        changed += pixel(with, x, 43).x != pixel(without, x, 43).x ? 1 : 0;
+    }
+    CHECK(changed > picture_px.x / 2);
+}
+
+TEST_CASE("the fine pattern moves with the ground and does not shimmer") {
+    // A wall before the eye, which moves aside by a quarter of a pixel from picture to picture.
+    const float px_m = 2.0F * 40.0F / picture_px.x;
+    const auto moved = [&](float px) {
+        FlatPlan plan(picture_px);
+        FlatTriangle wall;
+        wall.at_px = {
+            glm::vec2(-400.0F, -10.0F), glm::vec2(700.0F, -10.0F), glm::vec2(128.0F, 900.0F)};
+        wall.depth_m.fill(40.0F);
+        wall.colour.fill(half_and_half);
+        plan.paint({wall});
+        set_detail_texture(plan);
+        for (std::size_t scale = 0; scale < at_eye.size(); ++scale) {
+            const float tiles = px * px_m / (64.0F * std::exp2(4.0F * static_cast<float>(scale)));
+            glm::vec2& eye = plan.plan().detail_texture->at_eye[scale];
+            (scale % 2 == 0 ? eye.x : eye.y) += scale % 2 == 0 ? tiles : -tiles;
+        }
+        return drawn(plan.plan(), picture_px, 16);
+    };
+    const scene::Picture first = moved(0.0F);
+    const scene::Picture half = moved(0.5F);
+    const scene::Picture whole = moved(1.0F);
+    double by_half = 0.0;
+    double by_neighbour = 0.0;
+    for (int y = 0; y < picture_px.y; ++y) {
+        for (int x = 0; x + 1 < picture_px.x; ++x) {
+            by_half += std::abs(pixel(half, x, y).x - pixel(first, x, y).x);
+            by_neighbour += std::abs(pixel(first, x + 1, y).x - pixel(first, x, y).x);
+        }
+    }
+    CHECK(by_neighbour > 2.0 * picture_px.x * picture_px.y);
+    CHECK(by_half < 0.8 * by_neighbour);
+    // Two pixels on, what was looked up at every second pixel is the same again.
+    const scene::Picture twice = moved(2.0F);
+    double off = 0.0;
+    for (int y = 0; y < picture_px.y; ++y) {
+        for (int x = 0; x + 2 < picture_px.x; ++x) {
+            off += std::abs(pixel(twice, x, y).x - pixel(first, x + 2, y).x);
+        }
+    }
+    CHECK(off < 0.05 * by_neighbour);
+    CHECK((whole.rgba != first.rgba));
+}
+
+TEST_CASE("water shows none of the fine pattern") {
+    FlatPlan plan(picture_px);
+    paint_slope(plan, 16, water);
+    const scene::Picture without = drawn(plan.plan(), picture_px, 16);
+    set_detail_texture(plan);
+    CHECK((drawn(plan.plan(), picture_px, 16).rgba == without.rgba));
+}
+
+TEST_CASE("the fine pattern is the same however finely the ground is cut") {
+    FlatPlan small(picture_px);
+    FlatPlan large(picture_px);
+    paint_slope(small, 8, second_cover);
+    paint_slope(large, 64, second_cover);
+    set_detail_texture(small);
+    set_detail_texture(large);
+    const scene::Picture a = drawn(small.plan(), picture_px, 16);
+    const scene::Picture b = drawn(large.plan(), picture_px, 16);
+    int differ = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+        differ += std::abs(int{a.rgba[i]} - int{b.rgba[i]}) > 4 ? 1 : 0;
+    }
+    CHECK(differ < picture_px.x * picture_px.y / 500);
+}
+
+TEST_CASE("the fine pattern goes on from tile to tile as within one") {
+    FlatPlan plan(picture_px);
+    paint_slope(plan, 16, second_cover);
+    set_detail_texture(plan);
+    const scene::Picture picture = drawn(plan.plan(), picture_px, 16);
+    // From the last column of a tile to the first of the next, and between others like it.
+    const auto mean_change = [&](int first_column) {
+        int sum = 0;
+        int count = 0;
+        for (int x = first_column; x + 1 < picture_px.x; x += tile_width) {
+            for (int y = 0; y < picture_px.y; ++y) {
+                sum += std::abs(pixel(picture, x + 1, y).x - pixel(picture, x, y).x);
+                ++count;
+            }
+        }
+        return static_cast<double>(sum) / count;
+    };
+    const double within = 0.5 * (mean_change(tile_width - 3) + mean_change(tile_width / 2 - 1));
+    CHECK(mean_change(tile_width - 1) < 1.3 * within);
+    CHECK(mean_change(tile_width - 2) > 0.7 * within);
+}
+
+} // namespace octant::visuals::raster

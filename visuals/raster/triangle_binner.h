@@ -1,0 +1,81 @@
+#pragma once
+
+#include "visuals/raster/frame_draws.h"
+#include "visuals/raster/projection.h"
+#include "visuals/raster/tile.h"
+#include "visuals/raster/triangle_setup.h"
+#include "visuals/raster/workers.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace octant::visuals::raster {
+
+/// The triangles of one picture, sorted into tiles. Keeps its memory from picture to picture.
+///
+/// A plan becomes slices: triangles of one step with one list of corners. Corners are placed by all
+/// threads, then slices in batches of about two thousand triangles are set up and binned, each
+/// batch by itself; since batches follow each other in painting order, so do the triangles of a
+/// tile, on however many threads.
+class TriangleBinner {
+public:
+    TriangleBinner(const SamplePattern& samples, Workers& workers)
+        : samples_(samples)
+        , workers_(workers) {}
+
+    /// The plan's memory is not read any more after this.
+    void prepare(const FrameInput& input);
+
+    /// Samples of the pictures that follow.
+    void use(const SamplePattern& samples) { samples_ = samples; }
+
+    glm::ivec2 tiles() const { return tiles_; }
+
+    const Light& light() const { return light_; }
+
+    /// Of a plan with grain.
+    const DetailRays& detail_rays() const { return detail_rays_; }
+
+    /// Triangles that may cover a tile, in painting order; valid until `list` is used again.
+    std::span<const TileTriangle> triangles_of(int tile, std::vector<TileTriangle>& list) const;
+
+    /// The same of what lies over the picture.
+    std::span<const TileTriangle> overlay_of(int tile, std::vector<TileTriangle>& list) const;
+
+private:
+    /// Slices first .. end - 1, and what became of them.
+    struct Batch {
+        std::size_t first = 0;
+        std::size_t end = 0;
+        TriangleList list;
+        std::vector<std::uint32_t> tile_first; ///< for each tile, and one more
+        std::vector<std::uint32_t> by_tile;    ///< indices of triangles
+    };
+
+    void make_batches();
+    void project_vertices(const FrameInput& input);
+    void set_up(const FrameInput& input, Batch& batch, TriangleSetup& setup);
+    void set_up_overlay(const FrameInput& input);
+    void bin(Batch& batch) const;
+    void append(const Batch& batch, int tile, std::vector<TileTriangle>& list) const;
+
+    SamplePattern samples_;
+    Workers& workers_;
+    Projection projection_;
+    Light light_;
+    DetailRays detail_rays_;
+    glm::ivec2 tiles_{0};
+    FrameDraws slices_;
+    std::vector<ScreenVertex> vertices_;
+    std::vector<ClipPosition> clip_;
+    std::vector<FlatColour> flat_;
+    std::vector<LitVertex> lit_; ///< as vertices_, where pixels are lit; else empty
+    std::vector<std::unique_ptr<Batch>> batches_;
+    std::size_t batch_count_ = 0;
+    Batch overlay_;
+};
+
+} // namespace octant::visuals::raster

@@ -1,0 +1,117 @@
+#include "visuals/scene/land_cover_contrast.h"
+
+#include "visuals/scene/detail_pattern.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace octant::visuals::scene {
+
+namespace {
+
+/// Standard deviations of the pattern over which one cover gives way to the other.
+constexpr double border_width = 0.6;
+/// Of the difference in hue: means are seldom of the very colours that covers are said to have.
+constexpr double hue_share = 0.45;
+constexpr double min_mean = 1e-3;
+constexpr double max_share = 511.0 / 512.0;
+
+/// The pattern in the middle of an entry, in its standard deviations.
+double deviations_at(int pattern) {
+    return ((pattern + 0.5) * 2.0 / LandCoverContrast::pattern_step_count - 1.0) / DetailPattern::deviation;
+}
+
+/// The share of a normal distribution below a place, in its standard deviations.
+double share_below(double deviations) {
+    return 0.5 * std::erfc(-deviations * std::sqrt(0.5));
+}
+
+/// The place below which so much of a normal distribution lies, found by halving.
+double place_of_share(double share) {
+    double low = -4.0;
+    double high = 4.0;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (share_below(middle) < share ? low : high) = middle;
+    }
+    return low;
+}
+
+/// Two covers, and the place in the pattern from which on the second one is seen.
+struct Mixture {
+    LandCover first;
+    LandCover second;
+    double border;
+};
+
+Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::covers>& covers) {
+    const int last = LandCoverContrast::mixture_count - 1;
+    const double place = kind == last ? LandCoverContrast::covers : kind * 4.0 / LandCoverContrast::mixture_count;
+    const int below = std::min(static_cast<int>(place), LandCoverContrast::covers - 1);
+    const LandCover& second = covers[static_cast<std::size_t>(below)];
+    const LandCover first =
+        below == 0 ? LandCover{second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
+    return {first, second, place_of_share(1.0 - (place - below))};
+}
+
+/// What a pixel shows of a mixture.
+glm::dvec3 shown_of(const Mixture& mixture, double deviations) {
+    const double second = glm::clamp((deviations - mixture.border) / border_width + 0.5, 0.0, 1.0);
+    const auto shown = [&](const LandCover& cover) {
+        return glm::dvec3(cover.colour) * (1.0 + static_cast<double>(cover.mottling) * deviations);
+    };
+    return glm::mix(shown(mixture.first), shown(mixture.second), second);
+}
+
+using Shares = std::array<glm::dvec3, LandCoverContrast::pattern_step_count>;
+
+/// By what shares of itself the mean of a mixture changes, pattern by pattern.
+Shares shares_of_mixture(const Mixture& mixture) {
+    Shares shares{};
+    glm::dvec3 mean(0.0);
+    double whole = 0.0;
+    for (int i = 0; i < LandCoverContrast::pattern_step_count; ++i) {
+        const double at = deviations_at(i);
+        const double weight = std::exp(-0.5 * at * at);
+        glm::dvec3& shown = shares[static_cast<std::size_t>(i)];
+        shown = shown_of(mixture, at);
+        mean += weight * shown;
+        whole += weight;
+    }
+    mean = glm::max(mean / whole, glm::dvec3(min_mean));
+    double most = max_share;
+    for (glm::dvec3& share : shares) {
+        share = share / mean - 1.0;
+        const glm::dvec3 grey((share.x + share.y + share.z) / 3.0);
+        share = glm::mix(grey, share, hue_share);
+        most = std::max({most, share.x, share.y, share.z});
+    }
+    // Less contrast rather than another mean.
+    for (glm::dvec3& share : shares) {
+        share *= max_share / most;
+    }
+    return shares;
+}
+
+std::uint32_t packed_shares(const glm::dvec3& shares) {
+    const auto bits = [](double share) {
+        return static_cast<std::uint32_t>(std::lround(std::max(share, -1.0) * 512.0)) & 0x3ffU;
+    };
+    return bits(shares.x) << 22U | bits(shares.y) << 12U | bits(shares.z) << 2U;
+}
+
+} // namespace
+
+LandCoverContrast::LandCoverContrast(const std::array<LandCover, covers>& of) {
+    table_.reserve(std::size_t{mixture_count} * pattern_step_count);
+    for (int kind = 0; kind < mixture_count; ++kind) {
+        for (const glm::dvec3& shares : shares_of_mixture(mixture_of(kind, of))) {
+            table_.push_back(packed_shares(shares));
+        }
+    }
+}
+
+} // namespace octant::visuals::scene
