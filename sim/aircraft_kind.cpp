@@ -1,5 +1,4 @@
 #include "sim/aircraft_kind.h"
-
 #include "sim/base/error.h"
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace octant::models::heights {
 namespace {
 
 constexpr int sweeps_a_level = 24;
-constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
+constexpr float void_height = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<std::size_t> voids_of(const HeightGrid& grid) {
     std::vector<std::size_t> voids;
@@ -40,7 +40,7 @@ float block_mean(const HeightGrid& grid, int column, int row) {
             }
         }
     }
-    return known == 0 ? no_height : static_cast<float>(sum / known);
+    return known == 0 ? void_height : static_cast<float>(sum / known);
 }
 
 HeightGrid halved(const HeightGrid& grid) {

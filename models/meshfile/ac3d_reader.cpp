@@ -1,21 +1,178 @@
-#include "models/meshfile/ac3d_materials.h"
-#include "models/meshfile/ac3d_object.h"
-#include "models/meshfile/mesh_formats.h"
+#include "models/invalid_index.h"
 #include "models/meshfile/affine_transform.h"
+#include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_formats.h"
+#include "models/meshfile/read_options.h"
 #include "models/meshfile/word_scanner.h"
 #include "models/polygons/obj_line_reader.h"
+#include "models/triangle_mesh.h"
 #include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::models::meshfile {
 
 namespace {
+
+/// What the options say of an object of an AC3D file and of all that hangs on it.
+struct Ac3dObject {
+    bool is_excluded = false;
+    bool is_placeholder = false; ///< left out as what is no surface (ReadOptions::placeholders)
+    std::uint32_t group = invalid_index;
+    AffineTransform moved; ///< of places in the file
+};
+
+/// Of an object of this name that hangs on another.
+Ac3dObject
+object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options);
+
+/// Whether an object's name says that it is shown in place of blades while they turn, of a lamp's
+/// light, or of a shadow on the ground.
+bool is_stand_in(std::string name) {
+    std::ranges::transform(
+        name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
+    const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
+    const bool turns_fast = has("disc") || has("disk") || has("blur") || has("fast");
+    const bool is_of_light = has("light") && (has("cone") || has("volume") || has("beam"));
+    return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
+}
+
+Ac3dObject
+object_settings(const std::string& name, const Ac3dObject& holder, const ReadOptions& options) {
+    Ac3dObject object = holder;
+    object.is_placeholder = !holder.is_excluded && !options.placeholders && is_stand_in(name);
+    object.is_excluded = holder.is_excluded || object.is_placeholder || options.excluded.contains(name);
+    const auto group = std::ranges::find_if(
+        options.groups, [&](const auto& names) { return names.contains(name); });
+    if (holder.group == invalid_index && group != options.groups.end()) {
+        object.group = static_cast<std::uint32_t>(group - options.groups.begin());
+    }
+    if (const auto move = options.moved.find(name); move != options.moved.end()) {
+        object.moved = holder.moved.of(move->second);
+    }
+    return object;
+}
+
+/// The materials of an AC3D file, which surfaces name by number.
+class Ac3dMaterials {
+public:
+    /// Reads what follows `word`, which should be MATERIAL or MAT, from `words`. Throws Error.
+    void take(std::string_view word, WordScanner& words);
+
+    std::size_t count() const { return materials_.size(); }
+
+    /// The mesh's number of a material, below count(), or of none (invalid_index), with a picture's file
+    /// or without (empty). Materials come into the mesh in the order of their first polygon.
+    std::uint32_t used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh);
+
+private:
+    struct FileMaterial {
+        Material material;
+        float opacity = 1.0F;
+        std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
+    };
+
+    void take_line(WordScanner& words);
+    void read_block(WordScanner& words);
+
+    std::vector<FileMaterial> materials_;
+};
+
+float colour_part(std::string_view word, const WordScanner& words) {
+    const auto value = finite_number(word);
+    if (!value || *value < 0.0 || *value > 1.0) {
+        words.refuse("a part of a colour of 0 to 1", in_quotes(word));
+    }
+    return static_cast<float>(*value);
+}
+
+/// Of a transparency as the file has it; words that are no numbers are opaque.
+float opacity_of(std::string_view trans) {
+    return 1.0F - static_cast<float>(std::clamp(finite_number(trans).value_or(0.0), 0.0, 1.0));
+}
+
+/// Takes a name, in quotes or not, off the front of a line that `words` has just read.
+std::string read_ac3d_name(std::string_view& line, const WordScanner& words) {
+    const bool quoted = line.starts_with('"');
+    const std::size_t end = line.find(quoted ? '"' : ' ', quoted ? 1 : 0);
+    if (quoted && end == std::string_view::npos) {
+        words.refuse("a name in quotes", in_quotes(line));
+    }
+    const std::size_t last = std::min(end, line.size());
+    std::string name(line.substr(quoted ? 1 : 0, last - (quoted ? 1 : 0)));
+    line.remove_prefix(std::min(last + 1, line.size()));
+    return name;
+}
+
+void Ac3dMaterials::take(std::string_view word, WordScanner& words) {
+    if (word == "MATERIAL") {
+        take_line(words);
+    } else if (word == "MAT") {
+        read_block(words);
+    } else {
+        words.refuse("MATERIAL or OBJECT", in_quotes(word));
+    }
+}
+
+/// Reads the rest of a line MATERIAL "name" rgb R G B ...
+void Ac3dMaterials::take_line(WordScanner& words) {
+    std::string_view rest = words.rest_of_line();
+    Material material{.name = read_ac3d_name(rest, words)};
+    const auto parts = split_words(rest);
+    if (parts.size() < 4 || parts[0] != "rgb") {
+        words.refuse("rgb and three numbers", in_quotes(rest));
+    }
+    for (int part = 0; part < 3; ++part) {
+        material.colour[part] = colour_part(parts[static_cast<std::size_t>(part) + 1], words);
+    }
+    const auto trans = std::ranges::find(parts, "trans");
+    const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
+    materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
+}
+
+/// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
+void Ac3dMaterials::read_block(WordScanner& words) {
+    std::string_view rest = words.rest_of_line();
+    Material material{.name = read_ac3d_name(rest, words)};
+    float opacity = 1.0F;
+    for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
+        for (int part = 0; word == "rgb" && part < 3; ++part) {
+            material.colour[part] = colour_part(words.word("a part of a colour"), words);
+        }
+        const auto rest_words = split_words(words.rest_of_line());
+        if (word == "trans" && !rest_words.empty()) {
+            opacity = opacity_of(rest_words[0]);
+        }
+    }
+    materials_.push_back({std::move(material), opacity, {}});
+}
+
+std::uint32_t
+Ac3dMaterials::used(std::uint32_t number, const std::string& picture, MeshBuilder& mesh) {
+    if (number == invalid_index) {
+        return invalid_index;
+    }
+    FileMaterial& material = materials_[number];
+    const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
+    if (is_new) {
+        material.material.picture = picture;
+        at->second = mesh.add_material(material.material, material.opacity);
+    }
+    return at->second;
+}
 
 constexpr std::size_t largest_ac3d_bytes = std::size_t{1} << 30U;
 constexpr int max_ac3d_depth = 100;

@@ -1,14 +1,20 @@
-#include "models/srgb.h"
+#include "models/material.h"
+#include "models/meshfile/affine_transform.h"
+#include "models/meshfile/baked_pictures.h"
 #include "models/meshfile/gltf_data.h"
-#include "models/meshfile/gltf_pictures.h"
-#include "models/meshfile/gltf_scene.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
-#include "models/meshfile/affine_transform.h"
+#include "models/meshfile/word_scanner.h"
+#include "models/srgb.h"
 #include "sim/base/error.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
@@ -16,10 +22,198 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace octant::models::meshfile {
 
 namespace {
+
+/// A mesh of a glTF file, by its number, where a node shows it.
+struct PlacedMesh {
+    std::size_t mesh = 0;
+    AffineTransform placement;
+};
+
+constexpr int max_gltf_node_depth = 200;
+
+class SceneWalk {
+public:
+    explicit SceneWalk(const GltfData& data)
+        : data_(data)
+        , met_(data.count_of("nodes"), false) {}
+
+    std::vector<PlacedMesh> walk() {
+        for (const std::size_t root : roots()) {
+            take_node(root, {}, 0);
+        }
+        for (std::size_t mesh = 0; met_.empty() && mesh < data_.count_of("meshes"); ++mesh) {
+            placed_.push_back({mesh, {}});
+        }
+        return std::move(placed_);
+    }
+
+private:
+    std::vector<std::size_t> roots() const {
+        const std::size_t scenes = data_.count_of("scenes");
+        const std::size_t scene = data_.index(data_.root(), "scene", scenes, "file").value_or(0);
+        if (scenes > 0) {
+            return node_list(
+                data_.entry("scenes", scene), "nodes", fmt::format("scenes[{}]", scene));
+        }
+        std::vector<bool> is_child(met_.size(), false);
+        for (std::size_t node = 0; node < met_.size(); ++node) {
+            for (const std::size_t child : children(node)) {
+                is_child[child] = true;
+            }
+        }
+        std::vector<std::size_t> found;
+        for (std::size_t node = 0; node < met_.size(); ++node) {
+            if (!is_child[node]) {
+                found.push_back(node);
+            }
+        }
+        return found;
+    }
+
+    std::vector<std::size_t>
+    node_list(const Json& object, const char* name, const std::string& where) const {
+        std::vector<std::size_t> found;
+        for (const Json& node : data_.list(object, name, where)) {
+            if (!node.is_number_unsigned() || node.get<std::uint64_t>() >= met_.size()) {
+                data_.refuse(
+                    where + "." + name,
+                    fmt::format("nodes below {}", met_.size()),
+                    in_quotes(node.dump(-1, ' ', true, Json::error_handler_t::replace)));
+            }
+            found.push_back(node.get<std::size_t>());
+        }
+        return found;
+    }
+
+    std::vector<std::size_t> children(std::size_t node) const {
+        return node_list(data_.entry("nodes", node), "children", fmt::format("nodes[{}]", node));
+    }
+
+    void take_node(std::size_t index, const AffineTransform& parent, int depth) {
+        const std::string where = fmt::format("nodes[{}]", index);
+        if (met_[index]) {
+            data_.refuse(where, "a node with one parent", "one that is met again");
+        }
+        if (depth > max_gltf_node_depth) {
+            data_.refuse(
+                where, fmt::format("nodes at most {} deep", max_gltf_node_depth), "a deeper one");
+        }
+        met_[index] = true;
+        const Json& node = data_.entry("nodes", index);
+        const AffineTransform placement = parent.of(own(node, where));
+        if (const auto mesh = data_.index(node, "mesh", data_.count_of("meshes"), where)) {
+            placed_.push_back({*mesh, placement});
+        }
+        for (const std::size_t child : children(index)) {
+            take_node(child, placement, depth + 1);
+        }
+    }
+
+    AffineTransform own(const Json& node, const std::string& where) const {
+        AffineTransform made;
+        if (node.contains("matrix")) {
+            const auto m = data_.numbers(node, "matrix", std::vector<double>(16), where);
+            made.turn = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
+            made.shift_m = {m[12], m[13], m[14]};
+            return made;
+        }
+        const auto shift = data_.numbers(node, "translation", {0.0, 0.0, 0.0}, where);
+        const auto q = data_.numbers(node, "rotation", {0.0, 0.0, 0.0, 1.0}, where);
+        const auto scale = data_.numbers(node, "scale", {1.0, 1.0, 1.0}, where);
+        const glm::dvec3 v(q[0], q[1], q[2]);
+        const double length2 = glm::dot(v, v) + q[3] * q[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 image(0.0);
+            image[axis] = 1.0;
+            if (length2 > 0.0) {
+                image += 2.0 / length2 * glm::cross(v, glm::cross(v, image) + q[3] * image);
+            }
+            made.turn[axis] = image * scale[static_cast<std::size_t>(axis)];
+        }
+        made.shift_m = {shift[0], shift[1], shift[2]};
+        return made;
+    }
+
+    const GltfData& data_;
+    std::vector<bool> met_; ///< nodes
+    std::vector<PlacedMesh> placed_;
+};
+
+/// What the default scene shows, else the first one, else the nodes that are nobody's child, else
+/// (a file without nodes) all meshes as they are. Throws Error for nodes that are met twice.
+std::vector<PlacedMesh> placed_meshes(const GltfData& data) {
+    return SceneWalk(data).walk();
+}
+
+/// The accessor of a primitive's texture coordinates: those of its material's base colour picture,
+/// the first ones where there is none; nothing where the primitive has none.
+std::optional<std::size_t>
+texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes);
+
+/// A member that is an object; null where it is not there.
+const Json* object_in(const Json& json, const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_object() ? &*found : nullptr;
+}
+
+/// A material's baseColorTexture; null where it has none.
+const Json* base_texture(GltfData& data, std::size_t material) {
+    const Json* rough = object_in(data.entry("materials", material), "pbrMetallicRoughness");
+    return rough != nullptr ? object_in(*rough, "baseColorTexture") : nullptr;
+}
+
+std::optional<std::size_t> image_of(GltfData& data, std::size_t material) {
+    const std::string where = fmt::format("materials[{}]", material);
+    const Json* base = base_texture(data, material);
+    const auto texture = base == nullptr
+                             ? std::nullopt
+                             : data.index(*base, "index", data.count_of("textures"), where);
+    return texture ? data.index(
+                         data.entry("textures", *texture), "source", data.count_of("images"), where)
+                   : std::nullopt;
+}
+
+/// The number of a material's base colour picture among `pictures`, read once. What cannot be read
+/// is noted and left out.
+std::uint32_t baked_picture(GltfData& data, std::size_t material, BakedPictures& pictures) {
+    const auto image = image_of(data, material);
+    return image ? pictures.picture(fmt::format("images[{}]", *image), data.image_bytes(*image))
+                 : BakedPictures::none;
+}
+
+/// Names a material's base colour picture in `made`: the file, or the bytes in the file at `path`.
+void take_picture(
+    GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made) {
+    const auto image = image_of(data, material);
+    if (!image) {
+        return;
+    }
+    const Json uri = data.entry("images", *image).value("uri", Json());
+    if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
+        made.picture = picture_file(path, uri.get<std::string>()).string();
+        return;
+    }
+    made.picture = fmt::format("picture-{}", *image);
+    made.picture_bytes = std::make_shared<const std::string>(data.image_bytes(*image));
+}
+
+std::optional<std::size_t>
+texture_accessor(GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
+    constexpr std::size_t max_sets = 8;
+    const Json* base = material ? base_texture(data, *material) : nullptr;
+    const std::size_t set =
+        base == nullptr ? 0 : data.index(*base, "texCoord", max_sets, "materials").value_or(0);
+    return data.index(
+        attributes,
+        fmt::format("TEXCOORD_{}", set).c_str(),
+        data.count_of("accessors"),
+        "attributes");
+}
 
 constexpr std::size_t max_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
 constexpr std::array<std::string_view, 3> packed_extensions{

@@ -1,5 +1,4 @@
 #include "flightpaths/fly_script.h"
-#include "flightpaths/ground_follow.h"
 #include "flightpaths/placement.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"

@@ -1,25 +1,37 @@
+#include "models/polygons/file_axes.h"
 #include "models/polygons/obj_writer.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
 #include "sim/base/output_file.h"
-#include "ui/base/results_text.h"
+#include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/commands/certificates.h"
+#include "ui/base/results_text.h"
+#include "ui/base/stopwatch.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/draw_order_options.h"
-#include "ui/commands/percent_progress.h"
+#include "ui/commands/option.h"
+#include "ui/commands/value_option.h"
 #include "ui/settings/settings_text.h"
 #include "ui/world/order_model.h"
-#include "visuals/draworder/with_min_distance.h"
+#include "visuals/certificate/order_certificate.h"
+#include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/octant_path.h"
+#include "visuals/draworder/ordered_model.h"
+#include "visuals/draworder/with_min_distance.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/orderfile/order_check.h"
 #include "visuals/orderfile/order_table.h"
 #include "visuals/orderfile/order_text.h"
 #include "visuals/separation/separation.h"
+#include "visuals/verify/certificate_reader.h"
+#include "visuals/verify/verify.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +39,275 @@
 #include <vector>
 
 namespace octant::ui::commands {
+
+namespace {
+
+/// Shows progress in percent, once the work has taken a second. Measures its time.
+class PercentProgress {
+public:
+    PercentProgress(const std::string& what, bool quiet, const std::string& unit = "%")
+        : progress_(what, 100, quiet, unit) {}
+
+    void show(double share) {
+        if (watch_.ms() > 1000.0) {
+            progress_.show(static_cast<int>(100.0 * share));
+        }
+    }
+
+    /// Ends the display; the milliseconds since the beginning.
+    double finish() {
+        const double ms = watch_.ms();
+        progress_.finish();
+        return ms;
+    }
+
+private:
+    base::Stopwatch watch_;
+    base::Progress progress_;
+};
+
+constexpr int default_rays = 200000; ///< of a check
+
+struct DrawOrderOptions {
+    std::string model;
+    std::string axes = "right,up,back";
+    visuals::draworder::OrderOptions order;
+    std::optional<std::string> cache; ///< folder of kept orders
+    bool table = false;
+    std::string export_file;
+    std::string export_model;
+    std::string certificate; ///< the file to which the proof is written
+    std::string verify;      ///< a proof to check; then nothing else is done
+    bool check = false;
+    std::string check_file;  ///< the order to check; empty: the one that was computed
+    std::optional<int> rays; ///< how many the order is tried by; 0: no trial
+    bool json = false;
+    bool quiet = false;
+};
+
+using visuals::draworder::OrderMethod;
+
+/// Throws Error where one file would be written over another, or over the model.
+void check_not_overwriting(const DrawOrderOptions& options) {
+    const std::array<std::pair<const char*, std::string>, 3> written{
+        {{"--export", options.export_file},
+         {"--export-model", options.export_model},
+         {"--certificate", options.certificate}}};
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        const auto& [name, file] = written[i];
+        for (std::size_t other = i + 1; other < written.size(); ++other) {
+            if (is_same_file(file, written[other].second)) {
+                throw Error(fmt::format(
+                    "{}: expected another file than {}, got '{}' for both",
+                    name,
+                    written[other].first,
+                    printable(file)));
+            }
+        }
+        if (is_same_file(file, options.model) && path_exists(options.model)) {
+            throw Error(fmt::format(
+                "{}: expected another file than the model, got '{}'", name, printable(file)));
+        }
+    }
+}
+
+/// Throws Error for options that do not go together.
+void check_exclusive(const DrawOrderOptions& options) {
+    if (options.model.empty() == options.verify.empty()) {
+        throw Error(
+            options.model.empty()
+                ? "expected a model, or --verify with a certificate, got neither"
+                : "--verify: expected no model beside a certificate, which holds its own, got '" +
+                      printable(options.model) + "'");
+    }
+    if (options.certificate.empty()) {
+        return;
+    }
+    if (!options.check_file.empty()) {
+        throw Error(
+            "--certificate: expected orders that this command finds, got those of --check '" +
+            printable(options.check_file) + "'");
+    }
+    if (options.order.method == OrderMethod::Paper) {
+        throw Error(
+            "--certificate: expected --method tree, bsp or cells, which are right for all eyes or "
+            "all from a distance on, got --method paper");
+    }
+}
+
+void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
+    table.insert(
+        table.end(),
+        {text_option(
+             "model",
+             "NAME|FILE",
+             fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")),
+             options.model),
+         text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
+         value_option(
+             {"method",
+              "KIND",
+              "paper (8 octants as printed), cells (octants divided further, exact from a distance "
+              "on), tree (planes over eye space, exact everywhere) or bsp (polygons divided)"},
+             options.order.method),
+         value_option(
+             {"order-seconds",
+              "SECONDS",
+              "cells, tree: about so long is searched; then polygons are divided as by bsp",
+              0.001,
+              3600},
+             options.order.seconds),
+         text_option(
+             "--order-cache",
+             "DIR",
+             "keep the orders in this folder, and read them where the same model is ordered again",
+             options.cache),
+         value_option(
+             {"min-distance", "RADII", "cells: exact for eyes |x|+|y|+|z| away, in radii", 1, 1000},
+             options.order.min_distance_radii)});
+}
+
+void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
+    table.insert(
+        table.end(),
+        {flag("--table", "show every cell and its list, P1 the first polygon", options.table),
+         text_option("--export", "FILE", "write the orders as text", options.export_file),
+         text_option(
+             "--export-model",
+             "FILE.obj",
+             "write the polygons, split where they had to be, that the orders speak of",
+             options.export_model),
+         text_option(
+             "--certificate",
+             "FILE",
+             "write for each pair of polygons what proves that it is painted right; not of paper",
+             options.certificate),
+         text_option(
+             "--verify",
+             "FILE",
+             "check a certificate without rounding, in place of all else",
+             options.verify),
+         {.name = "--check",
+          .form = "[FILE]",
+          .meaning = "certify and try with rays: the orders of FILE for this model, without FILE "
+                     "those just found",
+          .arity = Arity::Optional,
+          .read =
+              [&options](const Words& words) {
+                  options.check = true;
+                  options.check_file = words.front();
+              }},
+         with_shown_default(
+             fmt::format("{}", default_rays),
+             value_option(
+                 {"rays", "N", "try with so many rays, also without --check; 0 = none", 0, 1e9},
+                 options.rays)),
+         flag("--json", "results as JSON", options.json),
+         flag("--quiet", "no progress, no notes", options.quiet)});
+}
+
+void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
+    add_order_options(table, options);
+    add_result_options(table, options);
+}
+
+/// Throws Error for options that do not go together, and where one file would be written over
+/// another or over the model.
+void check_draw_order_options(const DrawOrderOptions& options) {
+    check_exclusive(options);
+    if (!options.verify.empty()) {
+        return;
+    }
+    check_not_overwriting(options);
+    if (!options.export_model.empty() && !options.export_model.ends_with(".obj")) {
+        throw Error(fmt::format(
+            "--export-model: expected a file name that ends in .obj, got '{}'",
+            printable(options.export_model)));
+    }
+}
+
+/// An order that holds for every eye, or for those that its choices leave
+/// (visuals/draworder/with_min_distance.h), with the model that it speaks of.
+struct CertifiedOrder {
+    const models::polygons::PolygonModel& model;
+    const visuals::draworder::DrawOrder& order;
+    const models::polygons::FileAxes& axes;
+};
+
+namespace proofs = visuals::verify;
+
+std::string certificate_text(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
+    PercentProgress percents("seeking proofs", quiet);
+    const auto certificate = visuals::certificate::order_certificate(
+        proved.model, proved.order, proved.axes, [&](std::size_t done, std::size_t all) {
+            percents.show(static_cast<double>(done) / static_cast<double>(all));
+        });
+    results["certificate_ms"] = percents.finish();
+    results["certificate_unproved"] = certificate.unproved;
+    return certificate.text;
+}
+
+/// Checks a certificate without rounding and adds to the figures; whether it proves all.
+bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& percents, base::JsonValue& results) {
+    const std::string file = certificate.path.string();
+    const auto verdict = proofs::verify(certificate, [&](std::size_t done, std::size_t all) {
+        percents.show(static_cast<double>(done) / static_cast<double>(all));
+    });
+    results["tolerance_sizes"] = verdict.tolerance_sizes;
+    results["pairs"] = verdict.pairs;
+    results["pairs_by_partings"] = verdict.by_node_planes;
+    results["claims_by_polygons"] = verdict.claims.by_polygons;
+    results["claims_by_sums"] = verdict.claims.by_sums;
+    results["claims_never_seen"] = verdict.claims.never_both_visible;
+    results["unlisted"] = verdict.unlisted;
+    results["unproved"] = verdict.unproved;
+    results["every_eye"] = verdict.covers_every_eye;
+    if (certificate.first_unproved) {
+        results["first_unproved"] = fmt::format("{}:{}", file, *certificate.first_unproved);
+    }
+    if (verdict.failure) {
+        results["refused"] =
+            fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what);
+    }
+    results["verify_ms"] = percents.finish();
+    results["proved"] = verdict.proved();
+    return verdict.proved();
+}
+
+/// Writes the certificate of an order, and adds to the figures what it leaves unproved.
+void write_certificate(
+    const std::string& file, const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
+    if (proved.model.polygons.empty()) {
+        throw Error("--certificate: expected polygons that can be seen, got none");
+    }
+    write_file(file, certificate_text(proved, quiet, results));
+    base::print_note(quiet, "certificate: " + file);
+}
+
+/// Seeks the proofs of an order and checks them without rounding, without a file; adds to the
+/// figures. False where something is not proved.
+bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
+    if (proved.model.polygons.empty()) {
+        return true;
+    }
+    const std::string text = certificate_text(proved, quiet, results);
+    PercentProgress percents("verifying", quiet);
+    return all_proofs_hold(proofs::certificate_of(text, "certificate"), percents, results);
+}
+
+/// Reads a certificate, checks it without rounding and adds to the figures; whether it proves all.
+/// Throws Error for a file that is no certificate.
+bool verify_certificate(const std::string& file, bool quiet, base::JsonValue& results) {
+    PercentProgress percents("verifying", quiet);
+    const auto certificate = proofs::read_certificate(file);
+    results["certificate"] = file;
+    results["polygons"] = certificate.polygons.size();
+    results["nodes"] = certificate.nodes.size();
+    results["lists"] = certificate.lists.size();
+    return all_proofs_hold(certificate, percents, results);
+}
+
+} // namespace
 
 namespace separation = visuals::separation;
 namespace draworder = visuals::draworder;

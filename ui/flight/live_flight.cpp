@@ -1,17 +1,320 @@
 #include "ui/flight/live_flight.h"
-
+#include "sim/base/axes.h"
+#include "sim/base/transverse_mercator.h"
 #include "sim/hidden_height.h"
-#include "ui/flight/cigi_atmosphere.h"
+#include "sim/sun_position.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace octant::ui::flight {
+
+namespace {
+
+constexpr double max_difference_m = 5.0;
+constexpr std::size_t max_offsets = 1024;
+
+constexpr std::array<std::pair<LiveHeightMode, std::string_view>, 3> names{
+    {{LiveHeightMode::Msl, "msl"}, {LiveHeightMode::Agl, "agl"}, {LiveHeightMode::Offset, "offset"}}};
+
+} // namespace
+
+std::optional<LiveHeightMode> live_height_mode_from(std::string_view name) {
+    for (const auto& [height, known] : names) {
+        if (known == name) {
+            return height;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string_view name_of(LiveHeightMode height) {
+    return names.at(static_cast<std::size_t>(height)).second;
+}
+
+LiveGeoreference::LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height)
+    : world_(world)
+    , height_mode_is_given_(height.has_value())
+    , height_(height.value_or(world.ground_frame ? LiveHeightMode::Msl : LiveHeightMode::Offset)) {}
+
+std::optional<double> LiveGeoreference::ground_m(const glm::dvec2& at_m) const {
+    return world_.scene.ground->height_at(at_m.x, at_m.y);
+}
+
+/// A vehicle at the height of the place where it started most likely stands there.
+void LiveGeoreference::compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m) {
+    constexpr double at_home_m = 1.0;
+    const bool is_home = fix.above_home_m && std::abs(*fix.above_home_m) < at_home_m;
+    const auto theirs_m = fix.above_ground_m ? fix.above_ground_m
+                          : is_home          ? fix.above_home_m
+                                             : std::nullopt;
+    if (ours_m && theirs_m) {
+        our_ground_m_ = *ours_m;
+        their_ground_m_ = fix.altitude_m - *theirs_m;
+        grounds_differ_ = std::abs(our_ground_m_ - their_ground_m_) > max_difference_m;
+    }
+    agl_unknown_ = height_ == LiveHeightMode::Agl && !fix.above_ground_m;
+}
+
+/// FlightGear, while it loads, says that it stands on the ground where it will fly: until a vehicle
+/// has moved a little its newest fix counts. One that has jumped begins anew.
+double LiveGeoreference::offset_m(
+    const sim::links::VehicleKey& key,
+    const sim::links::Fix& fix,
+    const glm::dvec2& at_m,
+    double ours_m) {
+    constexpr int settled = 3;
+    constexpr double moved_m = 0.5;
+    constexpr double jumped_m = 5000.0;
+    if (offsets_.size() >= max_offsets && !offsets_.contains(key)) {
+        offsets_.erase(offsets_.begin());
+    }
+    const auto [known, is_new] = offsets_.try_emplace(key, Offset{.last_at_m = at_m});
+    Offset& offset = known->second;
+    const double way_m = glm::distance(at_m, offset.last_at_m);
+    offset.moves = way_m > jumped_m ? 0 : offset.moves + (way_m > moved_m ? 1 : 0);
+    offset.last_at_m = at_m;
+    if (offset.moves <= settled) {
+        const double above_m = fix.above_home_m.value_or(fix.altitude_m);
+        const double theirs_m = fix.altitude_m - fix.above_ground_m.value_or(above_m);
+        offset.added_m = ours_m - theirs_m;
+    }
+    return offset.added_m;
+}
+
+double LiveGeoreference::height_of(
+    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
+    const std::optional<double> ours_m = ground_m(at_m);
+    off_the_map_ = !ours_m;
+    compare_grounds(fix, ours_m);
+    // A host of CIGI asks for the heights of our ground and means them.
+    const bool means_ours = key.protocol == sim::links::Protocol::Cigi && !height_mode_is_given_;
+    switch (means_ours ? LiveHeightMode::Msl : height_) {
+    case LiveHeightMode::Msl:
+        break;
+    case LiveHeightMode::Agl:
+        if (ours_m && fix.above_ground_m) {
+            return *ours_m + *fix.above_ground_m;
+        }
+        break;
+    case LiveHeightMode::Offset:
+        return fix.altitude_m + offset_m(key, fix, at_m, ours_m.value_or(0.0));
+    }
+    return fix.altitude_m;
+}
+
+void LiveGeoreference::georeference_generated_ground(const GeoPosition& first) {
+    assigned_frame_.emplace(GeoPosition{}); // As we send from ground without a place.
+    if (!ground_m(assigned_frame_->local_from_geo(first))) {
+        // So that the first fix comes to lie at the flight's place.
+        assigned_frame_.emplace(TransverseMercator(first).geo_from_local(-world_.flight.place_m));
+    }
+}
+
+glm::dvec3 LiveGeoreference::over_ground(
+    const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m) {
+    const double height_m = height_of(key, fix, at_m);
+    under_ground_m_ = ground_m(at_m).value_or(height_m) - height_m;
+    return {at_m, height_m};
+}
+
+sim::links::WorldPosition
+LiveGeoreference::world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix) {
+    if (fix.local_m) {
+        return {.at_m = over_ground(key, fix, world_.flight.place_m + *fix.local_m)};
+    }
+    const GeoPosition place{fix.latitude_deg, fix.longitude_deg};
+    if (frame() == nullptr) {
+        georeference_generated_ground(place);
+    }
+    const FramePosition local = frame()->place_of(place);
+    return {
+        .at_m = over_ground(key, fix, local.east_north_m), .north_bearing_rad = local.north_bearing_rad};
+}
+
+std::vector<std::string> LiveGeoreference::lines() const {
+    std::vector<std::string> lines;
+    if (assigned_frame_) {
+        lines.push_back(fmt::format(
+            "made ground, placed at the first position {:.5f}, {:.5f}",
+            assigned_frame_->origin().latitude_deg,
+            assigned_frame_->origin().longitude_deg));
+    }
+    if (const Ellipsoid below = ellipsoid_below(origin()); !below.is_earth()) {
+        lines.push_back(
+            fmt::format("latitudes and longitudes are taken as places on {}", name_of_body(below)));
+    }
+    if (off_the_map_) {
+        lines.emplace_back("off the map");
+    }
+    if (grounds_differ_ && height_ == LiveHeightMode::Msl) {
+        lines.push_back(fmt::format(
+            "grounds differ by {:.1f} m: theirs {:.1f} m, ours {:.1f} m; --height agl or offset",
+            our_ground_m_ - their_ground_m_,
+            their_ground_m_,
+            our_ground_m_));
+    }
+    constexpr double told_m = 5.0; // what stands may lie a little lower
+    if (under_ground_m_ > told_m) {
+        lines.push_back(fmt::format("{:.1f} m under our ground", under_ground_m_));
+    }
+    if (agl_unknown_) {
+        lines.emplace_back(
+            "--height agl: the sender tells no height above ground, so that above the sea counts");
+    }
+    return lines;
+}
+
+namespace {
+
+constexpr double step_m = 2.0;
+constexpr double max_steps = 10000.0;
+constexpr double found_m = 0.01;
+constexpr int max_split_depth = 64;
+
+} // namespace
+
+const EarthFrame& WorldCigiGround::frame() const {
+    return frame_or_at_zero(place_.frame());
+}
+
+glm::dvec3 WorldCigiGround::world_position(const glm::dvec3& place) const {
+    return {frame().local_from_geo({place.x, place.y}), place.z};
+}
+
+glm::dvec3 WorldCigiGround::geodetic_position(const glm::dvec3& at_m) const {
+    const GeoPosition geo = frame().geo_from_local(glm::dvec2(at_m.x, at_m.y));
+    return {geo.latitude_deg, geo.longitude_deg, at_m.z};
+}
+
+std::optional<double> WorldCigiGround::height_m(const glm::dvec3& at_m) const {
+    return place_.frame() != nullptr ? world_.scene.ground->height_at(at_m.x, at_m.y)
+                                     : std::nullopt;
+}
+
+std::optional<sim::links::CigiSurfacePoint> WorldCigiGround::below(const glm::dvec3& place) const {
+    const FramePosition local = frame().place_of({place.x, place.y});
+    const glm::dvec3 at_m(local.east_north_m, place.z);
+    const auto ground_m = height_m(at_m);
+    if (!ground_m) {
+        return std::nullopt;
+    }
+    constexpr double aside_m = 0.5;
+    const auto slope = [&](const glm::dvec3& along) {
+        const double ahead_m = height_m(at_m + along).value_or(*ground_m);
+        const double behind_m = height_m(at_m - along).value_or(*ground_m);
+        return (ahead_m - behind_m) / (2.0 * aside_m);
+    };
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(
+        -slope(glm::dvec3(aside_m, 0.0, 0.0)), -slope(glm::dvec3(0.0, aside_m, 0.0)), 1.0));
+    return sim::links::CigiSurfacePoint{
+        glm::dvec3(place.x, place.y, *ground_m),
+        wrapped_to_two_pi(std::atan2(normal.x, normal.y) - local.north_bearing_rad),
+        std::asin(std::clamp(normal.z, -1.0, 1.0))};
+}
+
+std::optional<sim::links::CigiGround::TerrainHit>
+WorldCigiGround::first_hit(const glm::dvec3& from, const glm::dvec3& to) const {
+    const glm::dvec3 from_m = world_position(from);
+    const glm::dvec3 to_m = world_position(to);
+    const double length_m = glm::length(to_m - from_m);
+    const double steps = std::clamp(std::ceil(length_m / step_m), 1.0, max_steps);
+    const auto is_under = [&](double share) {
+        const glm::dvec3 at_m = glm::mix(from_m, to_m, share);
+        const auto ground_m = height_m(at_m);
+        return ground_m && at_m.z < *ground_m;
+    };
+    double open = 0.0;
+    for (double step = 1.0; step <= steps; step += 1.0) {
+        double met = step / steps;
+        if (!is_under(met)) {
+            open = met;
+            continue;
+        }
+        // Bounded: of points very far away no two may be found_m apart.
+        for (int i = 0; i < max_split_depth && (met - open) * length_m > found_m; ++i) {
+            const double middle = 0.5 * (open + met);
+            (is_under(middle) ? met : open) = middle;
+        }
+        const auto surface = below(geodetic_position(glm::mix(from_m, to_m, met)));
+        return surface ? std::optional(TerrainHit{met * length_m, *surface}) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
+double WorldCigiGround::distance_m(const glm::dvec3& from, const glm::dvec3& to) const {
+    return glm::length(world_position(to) - world_position(from));
+}
+
+glm::dvec3 WorldCigiGround::moved(const glm::dvec3& place, const glm::dvec3& ned_m) const {
+    const FramePosition local = frame().place_of({place.x, place.y});
+    const glm::dvec2 moved_m = rotated_clockwise({ned_m.y, ned_m.x}, local.north_bearing_rad);
+    return geodetic_position({local.east_north_m + moved_m, place.z - ned_m.z});
+}
+
+namespace links = sim::links;
+
+namespace {
+
+/// The sun's own time at a longitude; nothing where the date is none.
+std::optional<std::string> solar_time(const links::CigiCelestial& universal, double longitude_deg) {
+    namespace chrono = std::chrono;
+    constexpr unsigned century = 100;
+    constexpr unsigned ten_thousand = 10000;
+    const chrono::year_month_day date(
+        chrono::year(static_cast<int>(universal.date % ten_thousand)),
+        chrono::month(universal.date / (century * ten_thousand)),
+        chrono::day(universal.date / ten_thousand % century));
+    constexpr double minutes_a_degree = 4.0;
+    if (!date.ok()) {
+        return std::nullopt;
+    }
+    const auto time =
+        chrono::sys_days(date) + chrono::hours(universal.hour) +
+        chrono::minutes(universal.minute + std::lround(minutes_a_degree * longitude_deg));
+    const auto day = chrono::floor<chrono::days>(time);
+    const chrono::year_month_day there(day);
+    const auto minute = (time - day).count();
+    std::string text = fmt::format(
+        "{:04}-{:02}-{:02}T{:02}:{:02}",
+        static_cast<int>(there.year()),
+        static_cast<unsigned>(there.month()),
+        static_cast<unsigned>(there.day()),
+        minute / 60,
+        minute % 60);
+    return sim::solar_time_from_text(text) ? std::optional(std::move(text)) : std::nullopt;
+}
+
+} // namespace
+
+visuals::scene::AirSettings air_from_cigi(
+    visuals::scene::AirSettings defaults,
+    const std::optional<links::CigiAtmosphere>& atmosphere,
+    const std::optional<links::CigiCelestial>& celestial,
+    const std::optional<GeoPosition>& place) {
+    if (atmosphere) {
+        constexpr double min_m = 50.0;
+        constexpr double max_m = 5e5;
+        defaults.visibility_m = std::clamp(atmosphere->visibility_m, min_m, max_m);
+    }
+    if (celestial && celestial->is_valid) {
+        const double longitude_deg = place ? place->longitude_deg : 0.0;
+        if (auto time = solar_time(*celestial, longitude_deg)) {
+            defaults.time = std::move(time);
+        }
+    }
+    return defaults;
+}
 
 namespace scene = visuals::scene;
 

@@ -1,13 +1,18 @@
 #pragma once
 
 #include "sim/base/earth_frame.h"
+#include "sim/base/geo_position.h"
+#include "sim/base/transverse_mercator.h"
+#include "sim/links/cigi_image_generator.h"
+#include "sim/links/cigi_packets.h"
+#include "sim/links/fix.h"
 #include "sim/links/live_traffic.h"
-#include "ui/flight/cigi_ground.h"
-#include "ui/flight/live_georeference.h"
 #include "ui/flight/state_source.h"
 #include "ui/report/frame_record.h"
 #include "ui/world/world.h"
 #include "visuals/scene/settings.h"
+
+#include <glm/vec2.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +24,122 @@
 #include <vector>
 
 namespace octant::ui::flight {
+
+/// Whose heights count where senders bring a ground of their own.
+enum class LiveHeightMode {
+    /// Theirs above the sea.
+    Msl,
+    /// Theirs above ground, over ours.
+    Agl,
+    /// Theirs above the sea, moved so that it begins as high above our ground.
+    Offset
+};
+
+inline constexpr std::string_view live_height_mode_names = "msl, agl or offset";
+
+/// The mode of a name, nothing for another one; and back.
+std::optional<LiveHeightMode> live_height_mode_from(std::string_view name);
+std::string_view name_of(LiveHeightMode height);
+
+/// Where fixes lie over the ground of a run. On ground with a place of its own they lie there; else
+/// the first fix is laid over the flight's place and the others around it; but fixes that would lie
+/// on the map if its middle were 0 N, 0 E mean that, as another octant does on such a ground.
+class LiveGeoreference {
+public:
+    /// The world must outlive this. Without a height it is Msl over ground that knows its place,
+    /// else Offset; hosts of CIGI always mean Msl then.
+    LiveGeoreference(const world::World& world, std::optional<LiveHeightMode> height);
+
+    sim::links::WorldPosition
+    world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
+
+    /// How the world lies on the earth; null until that is known.
+    const EarthFrame* frame() const { return assigned_frame_ ? &*assigned_frame_ : world_.ground_frame.get(); }
+
+    /// Where the world's origin lies on the earth; nothing until that is known.
+    std::optional<GeoPosition> origin() const {
+        return frame() == nullptr ? std::nullopt : std::optional(frame()->origin());
+    }
+
+    LiveHeightMode height() const { return height_; }
+
+    /// What a person should be told, a line each; those of the newest fix.
+    std::vector<std::string> lines() const;
+
+private:
+    /// How far a vehicle is moved up.
+    struct Offset {
+        glm::dvec2 last_at_m{0.0};
+        /// Fixes that it had moved in.
+        int moves = 0;
+        double added_m = 0.0;
+    };
+
+    std::optional<double> ground_m(const glm::dvec2& at_m) const;
+    void georeference_generated_ground(const GeoPosition& first);
+    void compare_grounds(const sim::links::Fix& fix, std::optional<double> ours_m);
+    double offset_m(
+        const sim::links::VehicleKey& key,
+        const sim::links::Fix& fix,
+        const glm::dvec2& at_m,
+        double ours_m);
+    glm::dvec3 over_ground(
+        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
+    double height_of(
+        const sim::links::VehicleKey& key, const sim::links::Fix& fix, const glm::dvec2& at_m);
+
+    const world::World& world_;
+    bool height_mode_is_given_;
+    LiveHeightMode height_;
+    /// Of ground without a place of its own.
+    std::optional<TransverseMercator> assigned_frame_;
+    std::map<sim::links::VehicleKey, Offset> offsets_;
+    bool off_the_map_ = false;
+    /// How far the newest fix is under our ground.
+    double under_ground_m_ = 0.0;
+    /// The heights of their ground and of ours at the newest fix.
+    double their_ground_m_ = 0.0;
+    double our_ground_m_ = 0.0;
+    bool grounds_differ_ = false;
+    /// Whether heights above ground are asked for that the newest fix has not.
+    bool agl_unknown_ = false;
+};
+
+/// What CIGI hosts ask of the ground of a run, by the place that it has on the earth. Until that is
+/// known nothing is inside the database. World and place must outlive this.
+class WorldCigiGround final : public sim::links::CigiGround {
+public:
+    WorldCigiGround(const world::World& world, const LiveGeoreference& place)
+        : world_(world)
+        , place_(place) {}
+
+    std::optional<sim::links::CigiSurfacePoint> below(const glm::dvec3& place) const override;
+
+    /// Looked for in steps of at most 2 m, or of a ten-thousandth of the line, then halved.
+    std::optional<TerrainHit> first_hit(const glm::dvec3& from, const glm::dvec3& to) const override;
+
+    double distance_m(const glm::dvec3& from, const glm::dvec3& to) const override;
+
+    glm::dvec3 moved(const glm::dvec3& place, const glm::dvec3& ned_m) const override;
+
+private:
+    const EarthFrame& frame() const;
+    glm::dvec3 world_position(const glm::dvec3& place) const;
+    glm::dvec3 geodetic_position(const glm::dvec3& at_m) const;
+    std::optional<double> height_m(const glm::dvec3& at_m) const;
+
+    const world::World& world_;
+    const LiveGeoreference& place_;
+};
+
+/// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that
+/// longitude by its universal time; what it has not told as in `defaults`. Without a place its time is
+/// taken as the sun's own.
+visuals::scene::AirSettings air_from_cigi(
+    visuals::scene::AirSettings defaults,
+    const std::optional<sim::links::CigiAtmosphere>& atmosphere,
+    const std::optional<sim::links::CigiCelestial>& celestial,
+    const std::optional<GeoPosition>& place);
 
 /// Which of several pictures side by side this one is: left and right are turned by its own width.
 enum class LiveChannel { Front, Left, Right };

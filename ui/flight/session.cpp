@@ -1,16 +1,381 @@
 #include "ui/flight/session.h"
-
+#include "sim/base/error.h"
 #include "ui/base/off_cpu_timer.h"
 #include "ui/flight/make_renderer.h"
 #include "ui/report/statistics.h"
 #include "ui/world/sun_at_time.h"
+#include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_texture_maker.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace octant::ui::flight {
+
+// Load management: the ground's triangle budget follows the frame time.
+//
+// Source: the load management of image generators (overload control by smoothed frame time with a
+// dead band); no paper is followed.
+//
+// - The stress is smoothed by a first-order filter. Outside the dead band the budget glides to
+//   where the smoothed stress is in the band's middle, twice as fast as the filter but in small
+//   steps that geomorphs hide, and stays there: band and course together are the hysteresis.
+// - A new budget takes the filter's memory with it as if the whole frame were ground: without that
+//   the budget would overshoot by what it changes within the filter's time constant. What else a
+//   frame holds makes a course slower, or end early and be followed by another, never swing back.
+
+namespace {
+
+using Trend = StressState::Trend;
+
+double middle_of_band(const StressSettings& settings) {
+    return 0.5 * (settings.min_stress + settings.max_stress);
+}
+
+double time_constant_frames(const StressSettings& settings) {
+    return std::max(1000.0 * settings.filter_s / settings.target_frame_ms, settings.filter_frames);
+}
+
+double filtered(double before, const StressSettings& settings, double stress) {
+    return before + (1.0 - std::exp(-1.0 / time_constant_frames(settings))) * (stress - before);
+}
+
+Trend next_trend(Trend trend, const StressSettings& settings, double stress, bool budget_used) {
+    const double above_middle = stress - middle_of_band(settings);
+    const bool goes_on = std::abs(above_middle) > settings.settled_stress;
+    if (stress > settings.max_stress ||
+        (trend == Trend::Falling && goes_on && above_middle > 0.0)) {
+        return Trend::Falling;
+    }
+    const bool has_room = stress < settings.min_stress ||
+                          (trend == Trend::Rising && goes_on && above_middle < 0.0);
+    return has_room && budget_used ? Trend::Rising : Trend::Held;
+}
+
+/// What the target is multiplied with.
+double change_of_target(const StressSettings& settings, double stress) {
+    const double share_of_way = 1.0 - std::exp(-2.0 / time_constant_frames(settings));
+    return std::clamp(
+        1.0 + share_of_way * (middle_of_band(settings) / stress - 1.0),
+        1.0 - settings.max_fall,
+        1.0 + settings.max_rise);
+}
+
+} // namespace
+
+int StressState::triangles() const {
+    return static_cast<int>(std::lround(target));
+}
+
+StressSettings stress_settings(const visuals::scene::Settings& settings, double rate_hz) {
+    const int budget = visuals::scene::triangle_target(settings);
+    StressSettings settings_of_run;
+    settings_of_run.target_frame_ms = 1000.0 / rate_hz;
+    settings_of_run.min_triangles = std::max(budget / 8, 1);
+    constexpr int most = std::numeric_limits<int>::max();
+    settings_of_run.max_triangles = budget > most / 4 ? most : 4 * budget;
+    return settings_of_run;
+}
+
+StressState initial_state(double triangles, const StressSettings& settings) {
+    StressState state;
+    state.target = std::clamp<double>(triangles, settings.min_triangles, settings.max_triangles);
+    state.expected_stress = middle_of_band(settings);
+    return state;
+}
+
+StressState with_target(const StressState& state, int triangles) {
+    StressState other = state;
+    other.target = triangles;
+    other.expected_stress = state.expected_stress * other.target / state.target;
+    return other;
+}
+
+StressState
+next_state(const StressState& state, const StressSettings& settings, const FrameCost& cost) {
+    assert(settings.target_frame_ms > 0.0 && settings.min_triangles >= 1 && settings.max_triangles >= settings.min_triangles);
+    assert(settings.min_stress > 0.0 && settings.max_stress >= settings.min_stress);
+    assert(settings.max_counted_stress > settings.max_stress && settings.filter_frames >= 1.0);
+    assert(cost.frame_ms >= 0.0);
+    const double share_used = cost.frame_ms / settings.target_frame_ms;
+    const double stress = filtered(
+        state.expected_stress, settings, std::min(share_used, settings.max_counted_stress));
+    const bool used = cost.triangles >= settings.used_share * state.target;
+    StressState next;
+    next.stress = filtered(state.stress.value_or(share_used), settings, share_used);
+    next.trend = next_trend(state.trend, settings, stress, used);
+    const double factor = next.trend == Trend::Held ? 1.0 : change_of_target(settings, stress);
+    next.target = std::clamp<double>(state.target * factor, settings.min_triangles, settings.max_triangles);
+    next.expected_stress = stress * next.target / state.target;
+    return next;
+}
+
+namespace scene = visuals::scene;
+namespace shading = visuals::shading;
+
+void QualityController::begin(const scene::Settings& settings, double rate_hz) {
+    adapt_ = settings.adapt;
+    rate_hz_ = rate_hz;
+    configured_triangles_ = scene::triangle_target(settings);
+    stress_settings_ = stress_settings(settings, rate_hz);
+    stress_ = initial_state(configured_triangles_, stress_settings_);
+    shading_.reset();
+}
+
+int QualityController::triangle_target(int frame) {
+    if (!replayed_targets_.empty()) {
+        const auto number = static_cast<std::size_t>(frame);
+        assert(number < replayed_targets_.size());
+        stress_ = with_target(stress_, replayed_targets_[number].triangle_target);
+        return stress_.triangles();
+    }
+    return adapt_.terrain ? stress_.triangles() : configured_triangles_;
+}
+
+std::optional<int> QualityController::smooth_target(int frame) const {
+    if (!replayed_targets_.empty()) {
+        const auto number = static_cast<std::size_t>(frame);
+        assert(number < replayed_targets_.size());
+        const int replayed = replayed_targets_[number].smooth_target;
+        return replayed < 0 ? std::nullopt : std::optional(replayed);
+    }
+    if (!adapt_.shading) {
+        return std::nullopt;
+    }
+    return shading_ ? shading_->smooth : 0;
+}
+
+double QualityController::add_frame(const FrameMeasurement& outcome) {
+    add_shading_frame(outcome);
+    if (!adapt_.terrain) {
+        return outcome.frame_ms * rate_hz_ / 1000.0;
+    }
+    if (!outcome.warm_up) {
+        stress_ =
+            next_state(stress_, stress_settings_, {outcome.frame_ms, outcome.terrain_triangles});
+    }
+    return stress_.stress.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+void QualityController::add_shading_frame(const FrameMeasurement& outcome) {
+    if (!adapt_.shading || outcome.warm_up || outcome.smoothable_polygons == 0) {
+        return;
+    }
+    if (!shading_) {
+        shading_ = shading::initial_shading_state(outcome.smoothable_polygons);
+        return;
+    }
+    shading::ShadingControllerSettings control;
+    control.target_frame_ms = 1000.0 / rate_hz_;
+    shading_ = shading::update_shading(
+        *shading_,
+        control,
+        {outcome.frame_ms,
+         outcome.smoothable_polygons - outcome.smooth_polygons,
+         outcome.smooth_polygons},
+        outcome.smoothable_polygons);
+}
+
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
+namespace scene = visuals::scene;
+
+void FrameRenderer::load_models(PictureContent content) {
+    if (content == PictureContent::PolygonIds) {
+        ids_.emplace(scene_);
+        renderer_.load_models(ids_->models());
+        return;
+    }
+    std::vector<scene::ModelBuffers> buffers;
+    for (const auto& model : scene_.models) {
+        buffers.push_back(model->buffers);
+    }
+    renderer_.load_models(buffers);
+}
+
+void FrameRenderer::begin(const scene::Camera& first) {
+    update_inset();
+    planner_.emplace(scene_, settings_);
+    planner_->reset_detail(first);
+}
+
+void FrameRenderer::end() {
+    plan_ = nullptr;
+    planner_.reset();
+    inset_.reset();
+}
+
+planning::PlanRequest FrameRenderer::request(const FrameState& now, std::optional<int> smooth) const {
+    return {
+        .camera = now.camera,
+        .states = now.states,
+        .triangle_target = now.triangle_target,
+        .smooth = {.polygons = smooth, .share = std::nullopt},
+        .on_refined = nullptr,
+        .overlay_lines = overlay_lines_,
+        .articulated_parts = now.articulated_parts};
+}
+
+planning::PlanCounts FrameRenderer::plan(
+    const FrameState& now, std::optional<int> smooth, std::function<void()> on_refined) {
+    planning::PlanRequest wanted = request(now, smooth);
+    wanted.on_refined = std::move(on_refined);
+    const planning::PlannedFrame frame = planner_->plan(wanted);
+    plan_ = ids_ ? &ids_->of(frame.plan) : &frame.plan;
+    std::optional<double> share; // of the picture's polygons, and so of the inset's
+    if (smooth && frame.counts.smoothable_polygons > 0) {
+        share = std::min(static_cast<double>(*smooth) / frame.counts.smoothable_polygons, 1.0);
+    }
+    inset_plan_ = inset_ ? &inset_->plan(now.inset_camera, now.states, now.articulated_parts, share) : nullptr;
+    return frame.counts;
+}
+
+void FrameRenderer::advance_without_drawing(const FrameState& now, std::optional<int> smooth) {
+    planner_->advance_without_drawing(request(now, smooth));
+    if (inset_) {
+        inset_->advance_without_drawing(now.inset_camera, now.states, now.articulated_parts);
+    }
+}
+
+void FrameRenderer::mesh_async(const FrameState& next) {
+    const auto on_idle_thread = [this](std::function<void()> work) {
+        return renderer_.begin_on_idle_thread(std::move(work));
+    };
+    planner_->begin_next_mesh(next.camera, next.triangle_target, on_idle_thread);
+    if (inset_) {
+        inset_->begin_next_mesh(next.inset_camera, on_idle_thread);
+    }
+}
+
+void FrameRenderer::draw_plans() {
+    renderer_.draw(*plan_);
+    if (inset_plan_ != nullptr) {
+        renderer_.draw_inset(*inset_plan_, inset_->rectangle());
+    }
+}
+
+void FrameRenderer::draw() {
+    draw_plans();
+    renderer_.finish();
+}
+
+void FrameRenderer::show() {
+    picture_is_read_ = !presenter_ || reads_before_presenting_;
+    if (!presenter_) {
+        renderer_.finish_and_read(picture_);
+        return;
+    }
+    if (reads_before_presenting_) {
+        renderer_.finish_and_copy(picture_);
+    }
+    presenter_(renderer_);
+}
+
+void FrameRenderer::read(const FrameState& now, std::optional<int> smooth) {
+    if (picture_is_read_) {
+        return;
+    }
+    if (renderer_.is_drawn_to_window()) {
+        if (plan_ == nullptr) {
+            plan(now, smooth, nullptr);
+        }
+        renderer_.set_window_target(glm::ivec2(0));
+        draw_plans();
+    }
+    renderer_.finish_and_read(picture_);
+    picture_is_read_ = true;
+}
+
+void FrameRenderer::wait_for_first_view() {
+    planner_->wait();
+}
+
+void FrameRenderer::wait() {
+    wait_for_first_view();
+    if (inset_) {
+        inset_->wait();
+    }
+}
+
+void FrameRenderer::prepare_renderer(
+    const scene::ViewSettings& view, const scene::GroundTexture* texture) {
+    renderer_.resize(view.size_px, view.samples);
+    if (texture == nullptr) {
+        return;
+    }
+    try {
+        renderer_.load_ground_texture(*texture);
+    } catch (const Error&) {
+        restore_window_size();
+        throw;
+    }
+}
+
+/// Gives the renderer its size back and draws the last picture once more. A driver that has no
+/// memory any more for what it held before ends it all.
+void FrameRenderer::restore_window_size() {
+    try {
+        renderer_.resize(settings_.view.size_px, settings_.view.samples);
+    } catch (const Error& fault) {
+        throw std::runtime_error(fault.what());
+    }
+    if (plan_ != nullptr) {
+        draw_plans();
+    }
+}
+
+void FrameRenderer::apply_settings(bool other_control, const scene::Camera& now) {
+    plan_ = nullptr;
+    update_ground(other_control, now);
+    update_inset();
+}
+
+void FrameRenderer::update_ground(bool other_control, const scene::Camera& now) {
+    std::unique_ptr<landscape::GroundMesher> mesher = planner_->take_mesher();
+    const landscape::GroundMesher* const before = mesher.get();
+    mesher = landscape::reuse_or_make_mesher(
+        std::move(mesher),
+        *scene_.ground,
+        landscape::mesh_settings(settings_, scene_.ground_texture != nullptr));
+    const bool settles = other_control || mesher.get() != before;
+    planner_.reset();
+    planner_.emplace(scene_, settings_, std::move(mesher));
+    if (settles) {
+        planner_->reset_detail(now);
+    }
+}
+
+void FrameRenderer::update_inset() {
+    if (!settings_.view.inset) {
+        inset_.reset();
+    } else if (inset_) {
+        inset_->apply_settings(settings_);
+    } else {
+        inset_ = std::make_unique<InsetView>(settings_, scene_);
+    }
+}
+
+void FrameRenderer::set_sun(const scene::Camera& now) {
+    plan_ = nullptr;
+    if (!planner_->set_sun()) {
+        planner_->reset_detail(now);
+    }
+    if (inset_) {
+        inset_->set_sun(settings_);
+    }
+}
+
+void FrameRenderer::apply_look() {
+    if (inset_) {
+        inset_->apply_look(settings_);
+    }
+}
 
 namespace landscape = visuals::landscape;
 namespace planning = visuals::planning;

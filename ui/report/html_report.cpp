@@ -1,25 +1,583 @@
 #include "ui/report/html_report.h"
-
 #include "sim/base/file_status.h"
+#include "ui/report/comparison.h"
 #include "ui/report/contact_sheet.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_style.h"
-#include "ui/report/slow_frames.h"
-#include "ui/report/page_plot.h"
+#include "ui/report/html_text.h"
+#include "ui/report/loaded_recording.h"
 #include "ui/report/page_script.h"
-#include "ui/report/comparison_page.h"
+#include "ui/report/run_file.h"
+#include "ui/report/slow_frames.h"
 #include "ui/report/slow_pictures.h"
+#include "ui/report/statistics.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::report {
 
 namespace {
+
+std::string number(double value) {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("null");
+}
+
+std::string number(const std::optional<double>& value) {
+    return value ? number(*value) : std::string("null");
+}
+
+std::string list(std::span<const double> values) {
+    std::string text = "[";
+    for (const double value : values) {
+        text += text.size() > 1 ? "," : "";
+        text += std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("null");
+    }
+    return text + "]";
+}
+
+/// A JSON text that ends no script element.
+std::string json_string(std::string_view text) {
+    std::string json = "\"";
+    for (const char letter : text) {
+        const auto byte = static_cast<unsigned char>(letter);
+        if (letter == '"' || letter == '\\' || letter == '<' || letter == '&' || byte < 0x20) {
+            json += fmt::format("\\u{:04x}", byte);
+        } else {
+            json += letter;
+        }
+    }
+    return json + "\"";
+}
+
+/// Pairs of a name and a number.
+template <class Items, class Number>
+std::string pairs(const Items& items, Number number_of) {
+    std::string text = "[";
+    for (const auto& item : items) {
+        text += fmt::format(
+            "{}[{},{}]",
+            text.size() > 1 ? "," : "",
+            json_string(item.name),
+            number(number_of(item)));
+    }
+    return text + "]";
+}
+
+std::string series_json(const PlotSeries& series) {
+    using Style = PlotSeries::Style;
+    const char* const style = series.style == Style::Area   ? "area"
+                              : series.style == Style::Bars ? "bars"
+                                                            : "line";
+    std::string json = fmt::format(
+        R"({{"n":{},"c":{},"s":"{}","x":{},"y":{})",
+        json_string(series.name),
+        json_string(series.colour),
+        style,
+        list(series.x),
+        list(series.y));
+    if (series.style == Style::Area) {
+        json += ",\"l\":" + list(series.y_low);
+    }
+    return json + "}";
+}
+
+std::string plot_json(const Plot& plot) {
+    std::string json = fmt::format(
+        R"({{"x":{},"y":{},"x0":{},"x1":{},"y0":{},"y1":{},"log":{},"bar":{},)",
+        json_string(plot.x_label),
+        json_string(plot.y_label),
+        number(plot.x_min),
+        number(plot.x_max),
+        number(plot.y_min),
+        number(plot.y_max),
+        plot.y_logarithmic,
+        number(plot.bar_width));
+    json += "\"levels\":" + pairs(plot.levels, [](const PlotReferenceLine& level) { return level.y; });
+    json += ",\"marks\":" + pairs(plot.marks, [](const PlotMark& mark) { return mark.x; });
+    json += ",\"series\":[";
+    for (const PlotSeries& series : plot.series) {
+        json += &series == &plot.series.front() ? "" : ",";
+        json += series_json(series);
+    }
+    return json + "]}";
+}
+
+std::string key_html(const Plot& plot) {
+    std::string html;
+    for (const PlotSeries& series : plot.series) {
+        if (!series.name.empty() && !series.x.empty()) {
+            html += fmt::format(
+                "<span><i style=\"background:{}\"></i>{}</span>",
+                escaped(series.colour),
+                escaped(series.name));
+        }
+    }
+    return html.empty() ? html : "<div class=\"key\">" + html + "</div>";
+}
+
+} // namespace
+
+std::string page_plot(const Plot& plot, PlotWidth place) {
+    const bool small = place == PlotWidth::Small;
+    const int height_px = place == PlotWidth::FullWidth ? 320 : (small ? 130 : 260);
+    return fmt::format(
+        "<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
+        "<script type=\"application/json\">{}</script></div>\n",
+        place == PlotWidth::FullWidth ? " wide" : (small ? " small" : ""),
+        height_px,
+        escaped(plot.title),
+        small ? std::string() : key_html(plot),
+        plot_json(plot));
+}
+
+namespace {
+
+/// Of curves in one plot, as HTML has them.
+constexpr std::array run_colours{
+    "#3b82f6",
+    "#f59e0b",
+    "#10b981",
+    "#ef4444",
+    "#8b5cf6",
+    "#14b8a6",
+    "#ec4899",
+    "#84cc16",
+    "#6366f1",
+    "#a16207"};
+
+/// Names of settings in which some of these recordings differ, in their order. `among`: at least
+/// one number of a recording.
+std::vector<std::string>
+differing_settings(Recordings recordings, const std::vector<std::size_t>& among);
+
+/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
+std::string label_of(Recordings recordings, const LoadedRecording& recording) {
+    const auto same = [&](const auto& each) { return each.name == recording.name; };
+    const bool unique = std::ranges::count_if(recordings, same) == 1;
+    return unique ? recording.name : recording.display_name;
+}
+
+/// The value of a name; empty where there is none.
+std::string value_of(const NamedValues& rows, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(rows, [&](const auto& row) { return row.first == name; });
+    return found == rows.end() ? std::string() : found->second;
+}
+
+std::vector<std::string>
+differing_settings(Recordings recordings, const std::vector<std::size_t>& among) {
+    std::vector<std::string> names;
+    const NamedValues& first = recordings[among.front()].run.settings;
+    for (const auto& row : first) {
+        const auto& name = row.first;
+        const auto& value = row.second;
+        const bool differs = std::ranges::any_of(among, [&](std::size_t i) {
+            return value_of(recordings[i].run.settings, name) != value;
+        });
+        if (differs) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
+/// A file's name without its folder, as table cells have room for; any other text as it is.
+std::string short_value(const std::string& value) {
+    if (value == unset_value) {
+        return "not set";
+    }
+    const bool is_path = value.find('/') != std::string::npos;
+    return is_path ? std::filesystem::path(value).filename().string() : value;
+}
+
+/// A cell of a table, as HTML.
+std::string number_cell(double value, int decimals) {
+    return fmt::format("<td class=\"number\">{:.{}f}</td>", value, decimals);
+}
+
+/// The figure of that key, which there must be.
+const Statistic& statistic_named(std::string_view key) {
+    return *std::ranges::find(all_statistics(), key, &Statistic::key);
+}
+
+/// Where the axis of frame times ends, of all these recordings, milliseconds.
+double shared_ceiling_ms(Recordings recordings, const std::vector<std::size_t>& runs) {
+    double ceiling_ms = 0.0;
+    for (const std::size_t i : runs) {
+        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics));
+    }
+    return ceiling_ms;
+}
+
+using Indices = std::vector<std::size_t>;
+
+/// "order-method tree, samples 4", by the settings in which variants differ.
+std::string variant_label(const LoadedRecording& recording, const std::vector<std::string>& names) {
+    std::string label;
+    for (const std::string& name : names) {
+        label += fmt::format(
+            "{}{} {}",
+            label.empty() ? "" : ", ",
+            name,
+            short_value(value_of(recording.run.settings, name)));
+    }
+    return label.empty() ? "all the same" : label;
+}
+
+std::vector<double>
+values_of(Recordings recordings, const Indices& runs, double (*value)(const Statistics&)) {
+    std::vector<double> values;
+    for (const std::size_t i : runs) {
+        if (recordings[i].statistics.frames > 0) {
+            values.push_back(value(recordings[i].statistics));
+        }
+    }
+    return values;
+}
+
+/// Whether other programs had a part in the runs' frame times, or other flights on shared cores.
+bool is_noisy(Recordings recordings, const Indices& runs) {
+    return std::ranges::any_of(
+        runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
+}
+
+/// How a variant is set against the first one: where both were quiet, a sure change is better or
+/// worse; where one was noisy, it may be the machine's.
+enum class Reference { Itself, Quiet, Noisy };
+
+/// Median of a variant's runs, and how it compares with the first variant's.
+std::string
+compared_cells(const std::vector<double>& before, const std::vector<double>& now, Reference reference) {
+    if (now.empty() || before.empty()) {
+        return "<td class=\"number\">none</td><td></td>";
+    }
+    std::string html = number_cell(median_of(now), 3);
+    if (reference == Reference::Itself) {
+        return html + "<td class=\"soft\">compared with this one</td>";
+    }
+    const RelativeChange change = relative_change(before, now);
+    const bool is_decided = change.is_significant() && reference == Reference::Quiet;
+    const char* const mark = !is_decided ? "" : (change.share < 0.0 ? "better" : "worse");
+    std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
+    if (change.has_interval) {
+        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.low, 100.0 * change.high);
+    }
+    return html + fmt::format("<td class=\"{}\">{}</td>", mark, text);
+}
+
+std::string comparison_table(Recordings recordings, const std::vector<Indices>& variants) {
+    Indices all;
+    for (const Indices& variant : variants) {
+        all.insert(all.end(), variant.begin(), variant.end());
+    }
+    const std::vector<std::string> names = differing_settings(recordings, all);
+    std::string html =
+        "<div class=\"scroll\"><table>\n<thead><tr><th>variant</th><th class=\"number\">runs</th>"
+        "<th class=\"number\">P50, ms</th><th>change</th><th class=\"number\">P99, ms</th>"
+        "<th>change</th></tr></thead>\n<tbody>\n";
+    bool noisy = false;
+    for (const Indices& variant : variants) {
+        const bool is_first = &variant == &variants.front();
+        const bool is_loud =
+            is_noisy(recordings, variants.front()) || is_noisy(recordings, variant);
+        const Reference reference =
+            is_first ? Reference::Itself : (is_loud ? Reference::Noisy : Reference::Quiet);
+        noisy = noisy || reference == Reference::Noisy;
+        html += fmt::format(
+            "<tr><td>{}</td><td class=\"number\">{}</td>",
+            escaped(variant_label(recordings[variant.front()], names)),
+            variant.size());
+        for (const char* key : {"p50_ms", "p99_ms"}) {
+            const auto value = statistic_named(key).value;
+            html += compared_cells(
+                values_of(recordings, variants.front(), value),
+                values_of(recordings, variant, value),
+                reference);
+        }
+        html += "</tr>\n";
+    }
+    html += "</tbody></table></div>\n<p class=\"note\">Medians over the runs of a variant. In "
+            "brackets the 95 % interval of the change by the bootstrap over runs, where both "
+            "variants have three runs or more; green or red only where it leaves zero out.";
+    if (noisy) {
+        html += " Beside noisy runs nothing is called better or worse: other programs, or flights "
+                "on the same cores, had a part in their times.";
+    }
+    return html + "</p>\n";
+}
+
+std::string title_of_group(const LoadedRecording& recording) {
+    return recording.run.title.empty() ? recording.name : recording.run.title;
+}
+
+/// The frame times of a flight's runs over its simulated time, in one plot: as many of each variant
+/// as there is room for.
+std::string
+overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
+    constexpr std::size_t max_curves = 12;
+    Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
+    const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / variants.size());
+    std::size_t runs = 0;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        runs += variants[v].size();
+        const std::size_t max_here = std::min(max_of_each, max_curves - plot.series.size());
+        for (std::size_t k = 0; k < std::min(variants[v].size(), max_here); ++k) {
+            const LoadedRecording& recording = recordings[variants[v][k]];
+            PlotSeries curve = recording.flight.frame_ms.series(400);
+            curve.name = label_of(recordings, recording);
+            curve.colour = run_colours[v % run_colours.size()];
+            plot.series.push_back(std::move(curve));
+        }
+    }
+    plot.levels = {{"16.67 ms", overrun_16_ms}};
+    plot.marks = recordings[variants.front().front()].run.legs;
+    const std::string html = page_plot(plot, PlotWidth::FullWidth);
+    if (plot.series.size() == runs) {
+        return html;
+    }
+    return html + fmt::format("<p class=\"note\">{} of {} runs.</p>\n", plot.series.size(), runs);
+}
+
+/// Recordings of the same flight on the same kind of machine beside each other, as HTML: a table of
+/// their variants where settings differ, and their frame times in one plot. Says so where no two
+/// belong together.
+std::string compared_flights_html(Recordings recordings) {
+    constexpr std::size_t max_groups = 24;
+    std::string html;
+    std::size_t shown = 0;
+    std::size_t compared = 0;
+    for (const Indices& group : comparable_groups(recordings)) {
+        if (group.size() < 2) {
+            continue;
+        }
+        ++compared;
+        if (shown == max_groups) {
+            continue;
+        }
+        ++shown;
+        const std::vector<Indices> variants = variants_of(recordings, group);
+        html += "<div class=\"card\">\n<h3>" + escaped(title_of_group(recordings[group.front()])) +
+                "</h3>\n";
+        if (variants.size() > 1) {
+            html += comparison_table(recordings, variants);
+        }
+        html += overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)) + "</div>\n";
+    }
+    if (html.empty()) {
+        return "<p class=\"note\">No two of these recordings are of the same flight on the same "
+               "kind of machine, so none are compared.</p>\n";
+    }
+    if (shown < compared) {
+        html += fmt::format(
+            "<p class=\"note\">The first {} of {} flights that were flown more than once.</p>\n",
+            shown,
+            compared);
+    }
+    return "<h2>The same flight, compared</h2>\n" + html;
+}
+
+namespace fs = std::filesystem;
+
+std::vector<std::size_t> all_of(Recordings recordings) {
+    std::vector<std::size_t> all(recordings.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = i;
+    }
+    return all;
+}
+
+std::string
+link_of(Recordings recordings, const LoadedRecording& recording, const fs::path& page_folder) {
+    const std::string label = escaped(label_of(recordings, recording));
+    std::error_code ignored;
+    const fs::path page = recording.folder / "report.html";
+    const bool is_unpacked = recording.display_name != recording.folder.string(); // and goes with us
+    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) {
+        return label;
+    }
+    const fs::path way = fs::absolute(page).lexically_normal().lexically_relative(
+        fs::absolute(page_folder).lexically_normal());
+    return fmt::format("<a href=\"{}\">{}</a>", url_text(way.generic_string()), label);
+}
+
+std::string noise_text_of(const LoadedRecording& recording) {
+    std::string text;
+    const auto add = [&](bool holds, const char* word) {
+        text += holds ? (text.empty() ? "" : ", ") + std::string(word) : "";
+    };
+    add(recording.ended_early, "ended early");
+    add(!recording.run.stopped.empty(), "stopped");
+    add(!recording.disagreement.empty(), "rows and summary disagree");
+    add(!recording.run.noise.empty(), "noisy");
+    add(recording.statistics.frames == 0, "no frames");
+    return text;
+}
+
+/// Keys of figures and what they are called where there is little room.
+constexpr std::array<std::pair<const char*, const char*>, 6> shown_statistics{
+    {{"frames", "frames"},
+     {"p50_ms", "P50, ms"},
+     {"p99_ms", "P99, ms"},
+     {"max_ms", "longest, ms"},
+     {"low_1pct_fps", "1 % low, 1/s"},
+     {"overruns_16ms", "above 16.67 ms"}}};
+
+/// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
+std::string batch_context_text(Recordings recordings) {
+    std::map<std::string, int> counts;
+    for (const LoadedRecording& recording : recordings) {
+        const std::string batch_context = value_of(recording.run.facts, batch_context_fact);
+        counts[batch_context] += batch_context.empty() ? 0 : 1;
+    }
+    std::string text;
+    for (const auto& [batch_context, count] : counts) {
+        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, escaped(batch_context));
+    }
+    return text;
+}
+
+std::string runs_table(Recordings recordings, const fs::path& page_folder) {
+    constexpr std::size_t max_settings = 6;
+    std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
+    const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
+    names.resize(names.size() - left_out);
+    std::string html = "<div class=\"scroll\"><table class=\"sortable runs\">\n<thead><tr>"
+                       "<th>flight</th>";
+    for (const std::string& name : names) {
+        html += "<th>" + escaped(name) + "</th>";
+    }
+    for (const auto& [key, name] : shown_statistics) {
+        html += fmt::format("<th class=\"number\">{}</th>", name);
+    }
+    html += "<th>states</th><th>pictures</th><th>condition</th></tr></thead>\n<tbody>\n";
+    for (const LoadedRecording& recording : recordings) {
+        html += "<tr><td>" + link_of(recordings, recording, page_folder) + "</td>";
+        for (const std::string& name : names) {
+            html += "<td>" + escaped(short_value(value_of(recording.run.settings, name))) + "</td>";
+        }
+        for (const auto& [key, name] : shown_statistics) {
+            const Statistic& statistic = statistic_named(key);
+            html += number_cell(statistic.value(recording.statistics), std::min(statistic.decimals, 2));
+        }
+        const std::string condition = noise_text_of(recording);
+        html += fmt::format(
+            "<td><code>{}</code></td><td><code>{}</code></td><td class=\"{}\">{}</td></tr>\n",
+            escaped(recording.run.state_hash.substr(0, 8)),
+            escaped(recording.run.picture_hash.substr(0, 8)),
+            condition.empty() ? "" : "worse",
+            condition.empty() ? "good" : condition);
+    }
+    html += "</tbody></table></div>\n<p class=\"note\">A click on a column's head sorts by it. "
+            "States and pictures are the first eight digits of their hashes." +
+            batch_context_text(recordings);
+    if (left_out > 0) {
+        html +=
+            fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
+    }
+    return "<div class=\"card\">\n" + html + "</p></div>\n";
+}
+
+std::string plot_per_recording(Recordings recordings) {
+    const double ceiling_ms = shared_ceiling_ms(recordings, all_of(recordings));
+    const std::size_t pieces = recordings.size() > 40 ? 60 : 150;
+    double begin_s = 0.0;
+    double end_s = 0.0;
+    for (const LoadedRecording& recording : recordings) {
+        begin_s = std::min(begin_s, recording.flight.begin_s());
+        end_s = std::max(end_s, recording.flight.end_s());
+    }
+    std::string html = "<div class=\"small-plots\">\n";
+    for (const LoadedRecording& recording : recordings) {
+        Plot plot{
+            label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
+        plot.x_min = begin_s;
+        plot.x_max = end_s;
+        PlotSeries curve = recording.flight.frame_ms.series(pieces);
+        curve.colour = run_colours.front();
+        plot.series.push_back(std::move(curve));
+        plot.levels = {{"16.67 ms", overrun_16_ms}};
+        html += page_plot(plot, PlotWidth::Small);
+    }
+    return "<h2>Frame time of each flight, ms over seconds, on common axes</h2>\n<div "
+           "class=\"card\">" +
+           html + "</div></div>\n";
+}
+
+std::string pictures(Recordings recordings) {
+    constexpr std::size_t max_flights = 24;
+    constexpr int widest_px = 320;
+    std::vector<const LoadedRecording*> flights;
+    for (const LoadedRecording& recording : recordings) {
+        if (!recording.pictures.empty()) {
+            flights.push_back(&recording);
+        }
+    }
+    if (flights.empty()) {
+        return {};
+    }
+    std::string html = "<div class=\"sheet\">\n";
+    for (const std::size_t index : evenly_spaced(flights.size(), max_flights)) {
+        const LoadedRecording& flight = *flights[index];
+        const fs::path& middle = flight.pictures[flight.pictures.size() / 2];
+        html += picture_html(
+            middle, widest_px, label_of(recordings, flight) + ", " + middle.filename().string());
+    }
+    html += "</div>\n";
+    if (flights.size() > max_flights) {
+        html +=
+            fmt::format("<p class=\"note\">{} of {} flights.</p>\n", max_flights, flights.size());
+    }
+    return "<h2>A picture from the middle of each flight</h2>\n<div class=\"card\">" + html +
+           "</div>\n";
+}
+
+/// Settings, program and machine where all recordings have the same.
+std::string common_rows(Recordings recordings) {
+    const auto table = [&](const char* title, auto rows_of) {
+        std::string html = fmt::format(
+            "<div class=\"card\">\n<h3>{}</h3>\n<div class=\"scroll\"><table>\n<tbody>\n", title);
+        for (const auto& row : rows_of(recordings.front())) {
+            const auto& name = row.first;
+            const auto& value = row.second;
+            const bool same = std::ranges::all_of(recordings, [&](const LoadedRecording& each) {
+                return value_of(rows_of(each), name) == value;
+            });
+            if (same && value != unset_value && !value.empty()) {
+                html += fmt::format(
+                    "<tr><td>{}</td><td><code>{}</code></td></tr>\n",
+                    escaped(name),
+                    escaped(value));
+            }
+        }
+        return html + "</tbody></table></div></div>\n";
+    };
+    return "<h2>What all have in common</h2>\n" +
+           table("Settings", [](const LoadedRecording& each) { return each.run.settings; }) +
+           table(
+               "Program and machine", [](const LoadedRecording& each) { return each.run.machine; });
+}
+
+/// What a page says of several recordings together: a table with one row each, comparisons among
+/// those of the same flight, their curves in common plots, a small plot each with common axes,
+/// pictures, and the settings that all share. A recording whose own page lies in its folder is
+/// linked from `page_folder`.
+std::string several_recordings_html(Recordings recordings, const fs::path& page_folder) {
+    return runs_table(recordings, page_folder) + compared_flights_html(recordings) +
+           plot_per_recording(recordings) + pictures(recordings) + common_rows(recordings);
+}
 
 std::string title_of(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;

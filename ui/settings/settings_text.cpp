@@ -1,5 +1,4 @@
 #include "ui/settings/settings_text.h"
-
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 

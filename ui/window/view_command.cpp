@@ -1,17 +1,19 @@
 #include "ui/window/view_command.h"
-
 #include "sim/base/error.h"
-#include "ui/base/results_text.h"
 #include "ui/base/progress.h"
+#include "ui/base/results_text.h"
 #include "ui/base/stop_signals.h"
+#include "ui/base/stopwatch.h"
 #include "ui/base/user_folders.h"
-#include "ui/commands/value_option.h"
 #include "ui/commands/settings_options.h"
+#include "ui/commands/value_option.h"
+#include "ui/report/frame_times.h"
+#include "ui/report/statistics.h"
 #include "ui/window/viewer.h"
-#include "ui/window/window_bench.h"
 #include "ui/world/input_files.h"
 #include "ui/world/near_detail_warnings.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -22,6 +24,71 @@
 #include <vector>
 
 namespace octant::ui::window {
+
+namespace {
+
+/// Median and 99th percentile of the frame times of one way to show a flight.
+struct WindowTimes {
+    double median_ms = 0.0;
+    double p99_ms = 0.0;
+};
+
+/// Frame times of one flight without a window, in a window with hidden panels, and with open
+/// panels.
+struct WindowBench {
+    WindowTimes without;
+    WindowTimes hidden;
+    WindowTimes open;
+};
+
+constexpr int warm_up_frames = 20;
+
+WindowTimes times_of(const std::vector<double>& frame_ms) {
+    const report::Statistics statistics = report::statistics_of_times(frame_ms);
+    return {statistics.p50_ms, statistics.p99_ms};
+}
+
+ViewOptions without_vsync_and_realtime(ViewOptions options) {
+    options.vsync = false;
+    options.config_folder.clear();
+    return options;
+}
+
+/// Takes turns between the three ways, frame by frame, and times each whole turn, from the
+/// simulation to the picture read or shown with everything that the window does in between. Opens a
+/// window. Throws Error.
+WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
+    Viewer viewer(without_vsync_and_realtime(options));
+    settings::RunSettings settings = viewer.session().settings();
+    settings.drawing.context = settings::ContextKind::OsMesa;
+    flight::Session session(settings);
+    const int count = std::min(frames + warm_up_frames, session.frames());
+    viewer.state().playback.speed = 0.5;
+    viewer.state().open.timing = true;
+    std::vector<double> without;
+    std::vector<double> hidden;
+    std::vector<double> open;
+    base::Progress progress("window", count, quiet);
+    for (int frame = 0; frame < count; ++frame) {
+        const auto timed = [&](std::vector<double>& all, const auto& work) {
+            const base::Stopwatch watch;
+            work();
+            if (frame >= warm_up_frames) {
+                all.push_back(watch.ms());
+            }
+        };
+        timed(without, [&] { session.draw(frame); });
+        viewer.state().open.shown = false;
+        timed(hidden, [&] { viewer.run_frame(); });
+        viewer.state().open.shown = true;
+        timed(open, [&] { viewer.run_frame(); });
+        progress.show(frame + 1);
+    }
+    progress.finish();
+    return {times_of(without), times_of(hidden), times_of(open)};
+}
+
+} // namespace
 
 namespace fs = std::filesystem;
 

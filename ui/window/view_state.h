@@ -4,16 +4,73 @@
 #include "ui/window/frame_history.h"
 #include "ui/window/key_map.h"
 #include "ui/window/open_panels.h"
-#include "ui/window/real_time_factor.h"
 #include "ui/window/panel_columns.h"
-#include "ui/window/playback.h"
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace octant::ui::window {
+
+/// How much of the last two seconds a window flew. Turns that take very long count only in part, so
+/// that the flight does not jump; time is lost then.
+class RealTimeFactor {
+public:
+    /// Adds a turn that took `passed_s`, of which `flown_s` count.
+    void add(double passed_s, double flown_s);
+
+    /// Returns the share of the time that was flown, from 0 to 1; 1 before any turn.
+    double share() const;
+
+private:
+    struct Turn {
+        double passed_s = 0.0;
+        double flown_s = 0.0;
+    };
+
+    std::deque<Turn> turns_;
+    double passed_s_ = 0.0;
+    double flown_s_ = 0.0;
+};
+
+/// Below this share a person should know that the flight is slower than real time.
+inline constexpr double full_speed_share = 0.97;
+
+/// The state of playing a path: its time, speed and limits. It reads no clock; callers hand in how
+/// much wall time has passed.
+struct Playback {
+    static constexpr double slowest = 0.1;
+    static constexpr double fastest = 10.0;
+
+    double begin_s = 0.0;
+    double end_s = 0.0;
+    /// Lies between begin_s and end_s. In a flight by hand it may pass the end.
+    double time_s = 0.0;
+    /// Simulated seconds in a second of wall time.
+    double speed = 1.0;
+    bool playing = true;
+    bool loops = true;
+
+    /// How the time changed.
+    enum class TimeChange {
+        /// It went forward or stayed.
+        Advanced,
+        /// It jumped back to the beginning.
+        Restarted
+    };
+
+    /// Lets `wall_s` seconds of wall time pass. At its end the path begins anew or stops, unless
+    /// the flight is `open_ended`, as one by hand is.
+    TimeChange advance(double wall_s, bool open_ended);
+
+    /// Advances by one frame of `frame_s` simulated seconds and pauses.
+    void step_frame(double frame_s, bool open_ended);
+
+    /// Doubles the speed `steps` times, or halves it for negative `steps`, within its limits.
+    void change_speed(int steps);
+};
 
 /// What panels and keys ask for beside settings. The viewer fulfils requests before the next frame
 /// and clears them.

@@ -1,31 +1,51 @@
 #include "ui/world/aircraft_loader.h"
-
+#include "models/measure/mesh_distance.h"
+#include "models/meshfile/rotating_model.h"
 #include "models/polygons/file_axes.h"
 #include "models/polygons/mesh_polygons.h"
 #include "models/polygons/mtl_reader.h"
 #include "models/polygons/obj_line_reader.h"
 #include "models/polygons/obj_reader.h"
+#include "models/polygons/polygon_model.h"
+#include "models/repair/repair.h"
+#include "models/simplify/simplify.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/error.h"
+#include "sim/base/file_status.h"
+#include "sim/base/hash.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/stopwatch.h"
+#include "ui/base/user_folders.h"
 #include "ui/settings/order_cache_name.h"
 #include "ui/world/aircraft_axes.h"
-#include "ui/world/mesh_aircraft.h"
+#include "ui/world/library_mesh.h"
+#include "ui/world/mesh_loader.h"
 #include "ui/world/referenced_files.h"
-#include "ui/world/order_cache_folder.h"
+#include "ui/world/refine_mesh.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/ordercache/binary_file.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/cockpit_dials.h"
+#include "visuals/refine/active_mesh.h"
+#include "visuals/refine/progressive_file.h"
+#include "visuals/refine/selective_refiner.h"
 #include "visuals/shading/piece_normals.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +53,441 @@
 #include <vector>
 
 namespace octant::ui::world {
+
+namespace fs = std::filesystem;
+namespace ordercache = visuals::ordercache;
+namespace refine = visuals::refine;
+
+namespace {
+
+template <class Item>
+void add_list(Hash& hash, const std::vector<Item>& list) {
+    hash.add_word(list.size());
+    hash.add(std::as_bytes(std::span(list)));
+}
+
+/// Another number for each seed.
+std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
+    Hash hash;
+    hash.add_word(seed);
+    hash.add_word(refine_mesh_cache_version);
+    add_list(hash, mesh.vertices_m);
+    add_list(hash, mesh.colours);
+    add_list(hash, mesh.triangles);
+    add_list(hash, mesh.normals);
+    add_list(hash, mesh.corner_normals);
+    add_list(hash, mesh.triangle_materials);
+    for (const models::Material& material : mesh.materials) {
+        hash.add(std::as_bytes(std::span(&material.colour, 1)));
+    }
+    return hash.value();
+}
+
+/// The file beside a hierarchy that tells what was repaired before it was made.
+fs::path repairs_file(fs::path file) {
+    return file.replace_extension(".repairs");
+}
+
+void write_repairs(const fs::path& file, const std::vector<std::string>& repairs) {
+    ordercache::BinaryWriter out;
+    out.number(std::uint64_t{repairs.size()});
+    for (const std::string& line : repairs) {
+        out.text(line);
+    }
+    out.number(checksum_of(out.bytes()));
+    write_file(file, out.bytes());
+}
+
+/// Throws Error.
+std::vector<std::string> read_repairs(const fs::path& file) {
+    constexpr std::size_t max_bytes = std::size_t{1} << 16U;
+    const std::string bytes = read_file(file, max_bytes);
+    try {
+        ordercache::BinaryReader in(bytes);
+        std::vector<std::string> repairs(in.count(sizeof(std::uint64_t)));
+        for (std::string& line : repairs) {
+            line = in.text();
+        }
+        const std::string_view summed(bytes.data(), bytes.size() - in.bytes_left());
+        if (in.number<std::uint64_t>() != checksum_of(summed) || in.bytes_left() > 0) {
+            throw Error("expected the bytes of its checksum, got others");
+        }
+        return repairs;
+    } catch (const Error& fault) {
+        throw_error_in(file, fault.what());
+    }
+}
+
+/// Without its notes. Nothing, and a note where there is a file, when it cannot be used.
+std::optional<RefineMesh> read_cached_mesh(const fs::path& file, std::vector<std::string>& notes) {
+    if (!path_exists(file)) {
+        return std::nullopt;
+    }
+    try {
+        RefineMesh kept;
+        kept.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(file));
+        if (!kept.mesh->parts().notes.empty()) {
+            throw_error_in(file, "expected a whole file, got one that was cut off");
+        }
+        kept.repairs = read_repairs(repairs_file(file));
+        return kept;
+    } catch (const Error& fault) {
+        notes.push_back(fmt::format("order cache {}: made anew", fault.what()));
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMesh& mesh) {
+    return folder / fmt::format("{:016x}{:016x}.pm", hash_of(mesh, 1), hash_of(mesh, 2));
+}
+
+RefineMesh
+cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
+    const fs::path file = refine_mesh_cache_file(folder, mesh);
+    std::vector<std::string> notes;
+    if (auto kept = read_cached_mesh(file, notes)) {
+        kept->notes = std::move(mesh.notes);
+        note_repairs(input, *kept);
+        return std::move(*kept);
+    }
+    RefineMesh made = make_refine_mesh(input, std::move(mesh));
+    try {
+        write_repairs(repairs_file(file), made.repairs); // first: a hierarchy never lacks them
+        refine::write_progressive(file, *made.mesh);
+    } catch (const Error& fault) {
+        notes.push_back(fmt::format("order cache {}: not kept", fault.what()));
+    }
+    made.notes.insert(made.notes.end(), notes.begin(), notes.end());
+    return made;
+}
+
+namespace {
+
+using models::meshfile::RotatingPart;
+using models::polygons::Polygon;
+using models::polygons::PolygonModel;
+
+/// Triangles of all parts together, and of one at least.
+constexpr std::size_t far_faces_of_parts = 120;
+constexpr std::size_t min_far_faces = 12;
+constexpr std::size_t far_faces_of_transparent = 60;
+
+void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
+    const auto first_vertex = static_cast<std::uint32_t>(to.vertices_m.size());
+    const auto first_corner = static_cast<std::uint32_t>(to.corner_vertices.size());
+    const auto first_material = static_cast<std::uint32_t>(to.materials.size());
+    to.vertices_m.insert(to.vertices_m.end(), from.vertices_m.begin(), from.vertices_m.end());
+    to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
+    for (const std::uint32_t vertex : from.corner_vertices) {
+        to.corner_vertices.push_back(first_vertex + vertex);
+    }
+    for (Polygon polygon : from.polygons) {
+        polygon.first_corner += first_corner;
+        polygon.material += first_material;
+        polygon.part = part;
+        to.polygons.push_back(polygon);
+    }
+}
+
+/// Adds a mesh to a part, simplified to so many triangles. Returns their certified distance.
+double append_far(
+    const models::TriangleMesh& mesh, std::size_t faces, std::uint32_t part, PolygonModel& to) {
+    const models::TriangleMesh whole = models::repair::repaired(mesh).mesh;
+    if (whole.triangles.empty()) {
+        return 0.0;
+    }
+    models::simplify::SimplifyOptions options;
+    options.goal.faces = faces;
+    const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
+    append(to, models::polygons::polygons_from_mesh(far), part);
+    models::measure::DistanceOptions loosely;
+    loosely.tightness = 1.4;
+    loosely.samples = 0;
+    return models::measure::distance(whole, far, loosely).max_hausdorff_m();
+}
+
+/// Turns a mesh from its file's axes into body axes: a rotation, so that no triangle turns over.
+void rotate_mesh_to_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
+    for (glm::dvec3& vertex_m : mesh.vertices_m) {
+        vertex_m = axes.body_from_file(vertex_m);
+    }
+    for (glm::vec3& normal : mesh.normals) {
+        normal = glm::vec3(axes.body_from_file(glm::dvec3(normal)));
+    }
+}
+
+/// Turns a part with its axis from its file's axes into body axes.
+void rotate_part_to_body(RotatingPart& part, const models::polygons::FileAxes& axes) {
+    rotate_mesh_to_body(part.mesh, axes);
+    part.about.point_m = axes.body_from_file(part.about.point_m);
+    part.about.direction = axes.body_from_file(part.about.direction);
+}
+
+/// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each,
+/// in their order, and as few triangles as a part far away needs. Body axes. Returns the largest
+/// certified distance, in metres, between a part and its polygons.
+double add_far_parts(std::span<const RotatingPart> parts, PolygonModel& polygons) {
+    double error_m = 0.0;
+    for (const RotatingPart& part : parts) {
+        const auto number = static_cast<std::uint32_t>(polygons.parts.size());
+        polygons.parts.push_back(fmt::format("turning-{}", number));
+        polygons.pivots.push_back(
+            {number, part.about.point_m, part.about.direction, part.about.turns_per_s});
+        const std::size_t faces = std::max(min_far_faces, far_faces_of_parts / parts.size());
+        error_m = std::max(error_m, append_far(part.mesh, faces, number, polygons));
+    }
+    return error_m;
+}
+
+/// Adds clear surfaces to them, opaque: far away what lies behind is not seen. Returns the same.
+double add_far_transparent(const models::TriangleMesh& mesh, PolygonModel& polygons) {
+    return append_far(mesh, far_faces_of_transparent, 0, polygons);
+}
+
+} // namespace
+
+namespace meshfile = models::meshfile;
+namespace measure = models::measure;
+namespace refine = visuals::refine;
+namespace planning = visuals::planning;
+
+namespace {
+
+/// Few enough polygons for a painting order.
+constexpr std::size_t far_faces = 250;
+
+std::shared_ptr<const refine::ProgressiveMesh>
+turned(const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
+    refine::ProgressiveMeshData parts = mesh.full_data();
+    parts.origin_m = axes.body_from_file(parts.origin_m);
+    for (glm::vec3& position_m : parts.positions_m) {
+        position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));
+    }
+    for (refine::PackedNormal& normal : parts.normals) {
+        normal = refine::packed(glm::vec3(axes.body_from_file(glm::dvec3(unpacked(normal)))));
+    }
+    return std::make_shared<const refine::ProgressiveMesh>(std::move(parts));
+}
+
+/// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
+models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMesh>& hierarchy) {
+    refine::SelectiveRefiner front(hierarchy);
+    for (const std::uint32_t node : hierarchy->coarsest_first()) {
+        if (front.face_count() + 2 >= far_faces) {
+            break;
+        }
+        front.split(node);
+    }
+    return refine::active_mesh(front).mesh;
+}
+
+models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
+    models::TriangleMesh mesh;
+    for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
+        mesh.vertices_m.push_back(
+            hierarchy.parts().origin_m + glm::dvec3(hierarchy.position_m(leaf)));
+    }
+    mesh.triangles.assign(hierarchy.faces().begin(), hierarchy.faces().end());
+    return mesh;
+}
+
+/// Tells where nose and top were found.
+void add_note(MeshAircraft& aircraft, const AircraftAxes& axes, const std::filesystem::path& file) {
+    if (std::string note = axes_note(axes, file); !note.empty()) {
+        aircraft.notes.push_back(std::move(note));
+    }
+}
+
+/// A hierarchy from its file, or made of a mesh; what turns or is clear beside it goes to
+/// `aircraft`, in axes of the file.
+RefineMesh hierarchy_in(
+    const std::filesystem::path& file, const std::filesystem::path& cache, MeshAircraft& aircraft) {
+    const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
+    if (refine::is_progressive_file(file)) {
+        return read_refine_mesh(input);
+    }
+    const meshfile::ReadOptions options{.pictures = true, .backs = true};
+    meshfile::RotatingModel model;
+    if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
+        model = meshfile::read_rotating_model(file, options);
+        aircraft.turning = std::move(model.parts);
+        aircraft.clear = std::move(model.clear);
+    } else {
+        model.body = load_mesh(input.file, options);
+    }
+    return cache.empty() ? make_refine_mesh(input, std::move(model.body))
+                         : cached_refine_mesh(cache, input, std::move(model.body));
+}
+
+MeshAircraft from_hierarchy(
+    const std::filesystem::path& file,
+    const std::string& setting,
+    const std::filesystem::path& cache) {
+    const base::Stopwatch watch;
+    MeshAircraft aircraft;
+    RefineMesh input = hierarchy_in(file, cache, aircraft);
+    const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
+    aircraft.notes = std::move(input.notes);
+    add_note(aircraft, axes, file);
+    aircraft.hierarchy = turned(*input.mesh, axes.axes);
+    const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
+    measure::DistanceOptions loosely;
+    loosely.tightness = 1.4;
+    loosely.samples = 0;
+    aircraft.polygons_error_m =
+        measure::distance(finest_mesh(*aircraft.hierarchy), far, loosely).max_hausdorff_m();
+    aircraft.polygons = models::polygons::polygons_from_mesh(far);
+    for (meshfile::RotatingPart& part : aircraft.turning) {
+        rotate_part_to_body(part, axes.axes);
+    }
+    rotate_mesh_to_body(aircraft.clear.mesh, axes.axes);
+    aircraft.polygons_error_m = std::max(
+        {aircraft.polygons_error_m,
+         add_far_parts(aircraft.turning, aircraft.polygons),
+         add_far_transparent(aircraft.clear.mesh, aircraft.polygons)});
+    if (!aircraft.turning.empty()) {
+        aircraft.notes.push_back(
+            fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
+    }
+    aircraft.notes.push_back(fmt::format(
+        "{}: {} triangles made ready to be refined in {:.1f} s",
+        file.string(),
+        aircraft.hierarchy->face_count(),
+        watch.s()));
+    return aircraft;
+}
+
+/// Levels that are no better than the polygons are never drawn.
+MeshAircraft from_chain(const std::filesystem::path& file, const std::string& setting) {
+    meshfile::LevelChain chain = meshfile::read_chain(file);
+    const AircraftAxes found = aircraft_axes(setting, file, chain.levels.front().mesh);
+    const models::polygons::FileAxes& axes = found.axes;
+    MeshAircraft aircraft;
+    add_note(aircraft, found, file);
+    aircraft.polygons = chain.polygons ? std::move(*chain.polygons)
+                                       : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
+    aircraft.polygons_error_m =
+        chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
+    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
+        vertex_m = axes.body_from_file(vertex_m);
+    }
+    for (models::polygons::Pivot& pivot : aircraft.polygons.pivots) {
+        pivot.point_m = axes.body_from_file(pivot.point_m);
+        pivot.axis = axes.body_from_file(pivot.axis);
+    }
+    for (meshfile::ChainLevel& level : chain.levels) {
+        if (level.error_m < aircraft.polygons_error_m) {
+            rotate_mesh_to_body(level.mesh, axes);
+            aircraft.levels.push_back(std::move(level));
+        }
+    }
+    return aircraft;
+}
+
+} // namespace
+
+MeshAircraft read_mesh_aircraft(
+    const std::filesystem::path& file,
+    const std::string& axes,
+    const std::filesystem::path& cache) {
+    return meshfile::is_chain_file(file) ? from_chain(file, axes)
+                                         : from_hierarchy(file, axes, cache);
+}
+
+void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
+    if (aircraft.hierarchy) {
+        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        std::vector<planning::TurningPartMesh> parts;
+        for (const meshfile::RotatingPart& part : aircraft.turning) {
+            parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
+        }
+        planning::add_turning_parts(model, parts);
+        if (!aircraft.clear.mesh.triangles.empty()) {
+            planning::add_transparent(model, aircraft.clear.mesh, aircraft.clear.opacity);
+        }
+        return;
+    }
+    std::vector<planning::MeshSource> sources;
+    for (const meshfile::ChainLevel& level : aircraft.levels) {
+        sources.push_back({&level.mesh, level.error_m});
+    }
+    planning::add_levels(model, sources, aircraft.polygons_error_m);
+}
+
+namespace fs = std::filesystem;
+namespace ordercache = visuals::ordercache;
+
+namespace {
+
+/// What is known of a kept file.
+struct CacheFile {
+    fs::file_time_type written;
+    fs::path path;
+    std::uintmax_t bytes = 0;
+};
+
+/// What caches keep, and nothing else that lies there. What another run is writing is left alone.
+const std::array<fs::path, 3> cache_file_endings{".order", ".pm", ".repairs"};
+
+std::vector<CacheFile> files_of(const fs::path& folder) {
+    std::vector<CacheFile> files;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
+         entry.increment(ignored)) {
+        const fs::path kind = entry->path().extension();
+        std::error_code gone;
+        std::error_code too;
+        const bool is_rest = is_unfinished(entry->path());
+        if ((std::ranges::find(cache_file_endings, kind) == cache_file_endings.end() && !is_rest) ||
+            entry->symlink_status(gone).type() != fs::file_type::regular) {
+            continue;
+        }
+        const std::uintmax_t bytes = entry->file_size(gone);
+        const fs::file_time_type written = entry->last_write_time(too);
+        const bool is_being_written =
+            is_rest && fs::file_time_type::clock::now() - written < std::chrono::hours(1);
+        if (!gone && !too && !is_being_written) {
+            files.push_back({written, entry->path(), bytes});
+        }
+    }
+    return files;
+}
+
+} // namespace
+
+void remove_oldest(const fs::path& folder, std::uintmax_t max_bytes) {
+    std::vector<CacheFile> files = files_of(folder);
+    std::ranges::sort(files, std::greater(), &CacheFile::written);
+    std::uintmax_t sum = 0;
+    for (const CacheFile& file : files) {
+        if (file.bytes > max_bytes - sum) {
+            std::error_code ignored;
+            fs::remove(file.path, ignored);
+        } else {
+            sum += file.bytes;
+        }
+    }
+}
+
+std::optional<fs::path> order_cache_folder(const std::string& value) {
+    if (settings::is_order_cache_folder(value)) {
+        ordercache::make_cache_folder(value);
+        return value;
+    }
+    const fs::path own = base::cache_folder();
+    if (value == settings::no_order_cache || own.empty()) {
+        return std::nullopt;
+    }
+    try {
+        ordercache::make_cache_folder(own / "orders");
+        remove_oldest(own / "orders", max_bytes_of_user_cache);
+        return own / "orders";
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
 
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;

@@ -1,10 +1,16 @@
 #pragma once
 
+#include "models/meshfile/level_chain.h"
+#include "models/meshfile/rotating_model.h"
+#include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
 #include "ui/settings/settings.h"
 #include "ui/world/file_mtimes.h"
+#include "ui/world/refine_mesh.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/scene.h"
+#include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/settings.h"
 
 #include <cstdint>
@@ -15,6 +21,63 @@
 #include <vector>
 
 namespace octant::ui::world {
+
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or a .pm file another
+/// layout, or files beside it: what was kept before is then made anew.
+inline constexpr unsigned refine_mesh_cache_version = 3;
+
+/// The file of a folder in which the hierarchy of a mesh is kept, named by two hashes of all that
+/// decides it: places, triangles, colours and materials.
+std::filesystem::path
+refine_mesh_cache_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
+
+/// make_refine_mesh(), read from the folder where the same mesh was made ready before, else made
+/// and kept there. The hierarchy is the same, bit for bit, and so are the notes of what was
+/// repaired in the mesh. A file that is damaged or cut off is made anew and replaced, with a note.
+/// Processes may share a folder: files appear whole.
+RefineMesh cached_refine_mesh(
+    const std::filesystem::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh);
+
+/// An aircraft that comes as a mesh, in body axes: either levels of detail or a hierarchy, and
+/// polygons for far away.
+struct MeshAircraft {
+    /// Levels of detail, the finest first; none where there is a hierarchy.
+    std::vector<models::meshfile::ChainLevel> levels;
+    /// Null where there are levels.
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
+    /// What turns beside the hierarchy; its pivots are those of the polygons.
+    std::vector<models::meshfile::RotatingPart> turning;
+    /// Surfaces that are seen through, which the hierarchy leaves out; often none.
+    models::meshfile::TransparentSurfaces clear;
+    /// What is drawn of it far away.
+    models::polygons::PolygonModel polygons;
+    /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
+    double polygons_error_m = 0.0;
+    std::vector<std::string> notes;
+};
+
+/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file, of which a
+/// hierarchy is made here, or read where `cache`, a folder, has it of before; empty: none. `axes`:
+/// as aircraft_axes takes them. Throws Error.
+MeshAircraft read_mesh_aircraft(
+    const std::filesystem::path& file,
+    const std::string& axes,
+    const std::filesystem::path& cache = {});
+
+/// Gives the model that was made of its polygons the rest of a mesh aircraft.
+void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
+
+/// What the user's own cache may hold.
+inline constexpr std::uintmax_t max_bytes_of_user_cache = std::uintmax_t{256} << 20;
+
+/// The folder that a value of --order-cache means, made where it is missing; nothing for none. The
+/// user's own cache is done without where it cannot be made or written; a folder that is named and
+/// cannot be is an Error.
+std::optional<std::filesystem::path> order_cache_folder(const std::string& value);
+
+/// Removes the files of a folder that were written first, until the rest is no larger than that.
+/// What cannot be removed stays.
+void remove_oldest(const std::filesystem::path& folder, std::uintmax_t max_bytes);
 
 /// What aircraft are loaded of: where all of it is the same, so are they.
 struct AircraftSources {

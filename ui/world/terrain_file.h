@@ -9,8 +9,15 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace octant::ui::world {
+
+/// Built-in ground by name, "hills" or "canyon", as models::procedural::procedural_terrain makes it; nothing
+/// for another name. It is kept in the user's cache, and read from there in a twentieth of the
+/// time. A file that is damaged or of another version is replaced; a cache that cannot be made,
+/// read or written is done without.
+std::optional<models::heights::HeightField> built_in_ground(std::string_view name);
 
 /// A height field by name: hills, canyon, or maps that GDAL reads, as models::heights::map_inputs
 /// takes them. Throws Error for a name that is neither, listing the built-in ones.

@@ -8,16 +8,526 @@
 // - Polygons that lie in a node's plane stay in the node, in file order, those of either facing
 //   apart.
 #include "visuals/bsp/partial_bsp_tree.h"
-
-#include "visuals/bsp/occlusion_components.h"
-#include "visuals/bsp/splitting_plane.h"
+#include "models/polygons/separating_edge.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::bsp {
+
+namespace {
+
+constexpr std::size_t lanes_a_block = PieceTable::pieces_per_block / PieceBatch::pieces;
+
+PieceBatch empty_lanes() {
+    PieceBatch lanes;
+    const auto clear = [](PieceBatch::Lane& lane) {
+        lane.fill(std::numeric_limits<double>::quiet_NaN());
+    };
+    const auto clear_all = [&](PieceBatch::Points& points) {
+        clear(points.x);
+        clear(points.y);
+        clear(points.z);
+    };
+    clear_all(lanes.centres);
+    clear(lanes.radii);
+    std::ranges::for_each(lanes.first_corners, clear_all);
+    return lanes;
+}
+
+void put(PieceBatch::Points& points, std::size_t place, const glm::dvec3& point) {
+    points.x[place] = point.x;
+    points.y[place] = point.y;
+    points.z[place] = point.z;
+}
+
+} // namespace
+
+PieceTable::PieceTable(
+    const PolygonPieces& pieces, std::span<const std::uint32_t> items, std::size_t step) {
+    const std::size_t count = (items.size() + step - 1) / step;
+    lanes_.assign((count + PieceBatch::pieces - 1) / PieceBatch::pieces, empty_lanes());
+    has_extra_corners_.assign((count + pieces_per_block - 1) / pieces_per_block, 0);
+    extra_corners_.reserve(count);
+    for (std::size_t i = 0; i < items.size(); i += step) {
+        add(pieces, pieces[items[i]]);
+    }
+}
+
+void PieceTable::add(const PolygonPieces& pieces, const PolygonPiece& piece) {
+    PieceBatch& lanes = lanes_[count_ / PieceBatch::pieces];
+    const std::size_t place = count_ % PieceBatch::pieces;
+    put(lanes.centres, place, piece.middle);
+    lanes.radii[place] = piece.radius + tolerance;
+    const std::size_t corners = piece.corners.size();
+    for (std::size_t i = 0; i < PieceBatch::corners; ++i) {
+        const std::uint32_t corner = piece.corners[std::min(i, corners - 1)];
+        put(lanes.first_corners[i], place, pieces.at(corner));
+    }
+    const std::size_t first_more = corners_.size();
+    for (std::size_t i = PieceBatch::corners; i < corners; ++i) {
+        corners_.push_back(pieces.at(piece.corners[i]));
+    }
+    extra_corners_.push_back({first_more, corners_.size()});
+    has_extra_corners_[count_ / pieces_per_block] |= std::uint64_t{corners > PieceBatch::corners}
+                                          << (count_ % pieces_per_block);
+    ++count_;
+}
+
+std::size_t PieceTable::count_in(std::size_t block) const {
+    return std::min(count_ - block * pieces_per_block, pieces_per_block);
+}
+
+PlaneSideBits PieceTable::sides_reached(std::size_t block, const Plane& plane) const {
+    const auto lanes = std::span(lanes_).subspan(block * lanes_a_block);
+    const PieceSideBits sides =
+        sides_of(lanes.first(std::min(lanes.size(), lanes_a_block)), plane, tolerance);
+    const std::uint64_t open = ~(sides.sphere_in_front | sides.sphere_behind);
+    PlaneSideBits sides_reached{
+        sides.sphere_in_front | (sides.corner_in_front & open),
+        sides.sphere_behind | (sides.corner_behind_plane & open)};
+    std::uint64_t left = open & has_extra_corners_[block] & ~(sides_reached.before & sides_reached.behind);
+    for (; left != 0; left &= left - 1) {
+        const auto place = static_cast<std::size_t>(std::countr_zero(left));
+        const ExtraCorners& more = extra_corners_[block * pieces_per_block + place];
+        for (std::size_t k = more.first; k < more.end; ++k) {
+            const double height = distance_m(plane, corners_[k]);
+            sides_reached.before |= std::uint64_t{height > tolerance} << place;
+            sides_reached.behind |= std::uint64_t{height < -tolerance} << place;
+        }
+    }
+    return sides_reached;
+}
+
+// Where to divide polygons. As in a BSP tree by polygons' own planes; across the axes, where models
+// have gaps between their parts, the number of cuts is known for all planes at once by a sweep.
+
+namespace {
+
+/// At most so many planes of pieces are tried.
+constexpr std::size_t max_own_planes = 64;
+/// Sums over more pieces than this are estimated by some of them.
+constexpr std::size_t max_looked_at = 1'000;
+
+/// A cut costs as much as halves that differ by so many pieces. Of 2, 8, 30 and 200 this one makes
+/// the fewest pieces of parts of real aircraft and of made models.
+constexpr double polygons_a_cut = 8.0;
+
+/// A plane with its cost; less is better.
+struct Costed {
+    Plane plane;
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+/// The cost of a plane: its cuts, and how uneven the halves are.
+double cost_of(const SplitCounts& parted) {
+    const std::size_t count = parted.before + parted.behind + parted.coplanar + parted.cut;
+    const bool useless = parted.coplanar == 0 && (parted.before == 0 || parted.behind == 0);
+    if (parted.cuts_swept || (useless && parted.cut == 0) ||
+        (parted.coplanar == 0 && parted.cut + parted.before >= count && parted.behind == 0) ||
+        (parted.coplanar == 0 && parted.cut + parted.behind >= count && parted.before == 0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double uneven =
+        std::abs(static_cast<double>(parted.before) - static_cast<double>(parted.behind));
+    return static_cast<double>(parted.cut) * polygons_a_cut + uneven;
+}
+
+/// Some of many pieces.
+class Sample {
+public:
+    Sample(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
+        : step_(items.size() / max_looked_at + 1)
+        , table_(pieces, items, step_)
+        , swept_(table_.blocks(), 0) {
+        for (std::size_t i = 0; i < table_.count(); ++i) {
+            const bool is_swept = pieces[items[i * step_]].pivot.has_value();
+            swept_[i / PieceTable::pieces_per_block] |= std::uint64_t{is_swept}
+                                                      << (i % PieceTable::pieces_per_block);
+        }
+    }
+
+    /// How a plane parts all pieces, by these. Ends early where that costs more than `limit`.
+    SplitCounts split_counts(const Plane& plane, double limit) const {
+        SplitCounts parted;
+        const auto max_cuts = static_cast<std::size_t>(
+            std::min(limit / (polygons_a_cut * static_cast<double>(step_)), 1e9));
+        for (std::size_t i = 0; i < table_.blocks() && parted.cut <= max_cuts; ++i) {
+            const PlaneSideBits sides_reached = table_.sides_reached(i, plane);
+            const std::uint64_t cut = sides_reached.before & sides_reached.behind;
+            const std::size_t known = count_of(sides_reached.before | sides_reached.behind);
+            parted.cut += count_of(cut);
+            parted.before += count_of(sides_reached.before & ~cut);
+            parted.behind += count_of(sides_reached.behind & ~cut);
+            parted.coplanar += table_.count_in(i) - known;
+            parted.cuts_swept = parted.cuts_swept || (cut & swept_[i]) != 0;
+        }
+        parted.before *= step_;
+        parted.behind *= step_;
+        parted.cut *= step_;
+        return parted;
+    }
+
+private:
+    static std::size_t count_of(std::uint64_t bits) {
+        return static_cast<std::size_t>(std::popcount(bits));
+    }
+
+    std::size_t step_;
+    PieceTable table_;
+    std::vector<std::uint64_t> swept_; ///< A bit a piece: by something that turns.
+};
+
+/// The best plane of a piece.
+Costed best_own(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
+    const Sample sample(pieces, items);
+    Costed best;
+    const std::size_t tried = std::min(items.size(), max_own_planes);
+    for (std::size_t i = 0; i < tried; ++i) {
+        const auto& plane = pieces[items[i * items.size() / tried]].plane;
+        if (!plane) {
+            continue;
+        }
+        const double cost = cost_of(sample.split_counts(*plane, best.cost));
+        if (cost < best.cost) {
+            best = {*plane, cost};
+        }
+    }
+    return best;
+}
+
+/// Where pieces begin and end along an axis, ascending.
+struct Ends {
+    std::vector<double> low;
+    std::vector<double> high;
+    std::vector<double> swept_low;
+    std::vector<double> swept_high;
+};
+
+Ends ends_along(const PolygonPieces& pieces, std::span<const std::uint32_t> items, int axis) {
+    Ends ends;
+    for (const std::uint32_t item : items) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const std::uint32_t vertex : pieces[item].corners) {
+            low = std::min(low, pieces.at(vertex)[axis]);
+            high = std::max(high, pieces.at(vertex)[axis]);
+        }
+        ends.low.push_back(low);
+        ends.high.push_back(high);
+        if (pieces[item].pivot) {
+            ends.swept_low.push_back(low);
+            ends.swept_high.push_back(high);
+        }
+    }
+    for (auto* values : {&ends.low, &ends.high, &ends.swept_low, &ends.swept_high}) {
+        std::ranges::sort(*values);
+    }
+    return ends;
+}
+
+/// How many of some sorted values lie below limits that are asked for in ascending order.
+class CountBelow {
+public:
+    explicit CountBelow(const std::vector<double>& sorted)
+        : sorted_(sorted) {}
+
+    std::size_t operator()(double limit) {
+        while (below_ < sorted_.size() && sorted_[below_] < limit) {
+            ++below_;
+        }
+        return below_;
+    }
+
+private:
+    const std::vector<double>& sorted_;
+    std::size_t below_ = 0;
+};
+
+/// How planes across an axis part all pieces, from the lowest plane on.
+class Sweep {
+public:
+    explicit Sweep(const Ends& ends)
+        : count_(ends.low.size())
+        , lowlink_(ends.low)
+        , high_(ends.high)
+        , swept_low_(ends.swept_low)
+        , swept_high_(ends.swept_high) {}
+
+    SplitCounts split_at(double at) {
+        SplitCounts parted;
+        parted.before = count_ - lowlink_(at - tolerance);
+        parted.behind = high_(at + tolerance);
+        // What lies within the tolerance of the plane is in both counts.
+        const std::size_t known = parted.before + parted.behind;
+        parted.coplanar = known > count_ ? known - count_ : 0;
+        parted.before -= std::min(parted.before, parted.coplanar);
+        parted.behind -= std::min(parted.behind, parted.coplanar);
+        const std::size_t settled = parted.before + parted.behind + parted.coplanar;
+        parted.cut = count_ - std::min(count_, settled);
+        parted.cuts_swept = swept_low_(at - tolerance) != swept_high_(at + tolerance);
+        return parted;
+    }
+
+private:
+    std::size_t count_;
+    CountBelow lowlink_;
+    CountBelow high_;
+    CountBelow swept_low_;
+    CountBelow swept_high_;
+};
+
+/// The best plane across an axis.
+Costed best_across(const PolygonPieces& pieces, std::span<const std::uint32_t> items, int axis) {
+    const Ends ends = ends_along(pieces, items, axis);
+    Sweep at_low(ends);
+    Sweep at_high(ends);
+    Costed best;
+    const auto try_at = [&](double at, Sweep& sweep) {
+        const SplitCounts parted = sweep.split_at(at);
+        if (parted.before == 0 || parted.behind == 0) {
+            return;
+        }
+        const double cost = cost_of(parted);
+        if (cost < best.cost) {
+            glm::dvec3 normal(0.0);
+            normal[axis] = 1.0;
+            best = {{normal, -at}, cost};
+        }
+    };
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        try_at(ends.low[i], at_low);
+        try_at(ends.high[i], at_high);
+    }
+    return best;
+}
+
+} // namespace
+
+std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
+    Costed best = best_own(pieces, items);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Costed across = best_across(pieces, items, axis);
+        if (across.cost < best.cost) {
+            best = across;
+        }
+    }
+    return std::isfinite(best.cost) ? std::optional(best.plane) : std::nullopt;
+}
+
+// What hides what for eyes anywhere, and which pieces have an order that is right for all of them.
+
+namespace {
+
+/// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
+bool has_separating_edge(const PolygonPieces& pieces, const PolygonPiece& a, const PolygonPiece& b) {
+    const auto place = [&](std::uint32_t corner) -> const glm::dvec3& { return pieces.at(corner); };
+    return models::polygons::has_separating_edge(a.corners, a.plane->normal, b.corners, tolerance, place);
+}
+
+/// Whether the first one is a decal on the second one.
+bool is_decal_on(const PolygonPieces& pieces, std::uint32_t upper, std::uint32_t lower) {
+    const PolygonPiece& a = pieces[upper];
+    const PolygonPiece& b = pieces[lower];
+    return a.source > b.source && glm::dot(a.plane->normal, b.plane->normal) > 0.0 &&
+           !has_separating_edge(pieces, a, b) && !has_separating_edge(pieces, b, a);
+}
+
+/// Finds what hides what in a set: row a of the result holds what hides part of a (occludes()).
+class OccluderRow {
+public:
+    OccluderRow(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
+        : pieces_(pieces)
+        , items_(items)
+        , hides_(items.size())
+        , reaches_behind_(items.size())
+        , still_(hides_.words(), 0) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const PolygonPiece& piece = pieces[items[i]];
+            still_[i / 64] |= std::uint64_t{piece.plane && !piece.pivot} << (i % 64);
+        }
+    }
+
+    BitMatrix matrix() {
+        const PieceTable table(pieces_, items_);
+        for (std::size_t a = 0; a < items_.size(); ++a) {
+            if (is_still(a)) {
+                look_from(table, a);
+            }
+        }
+        reaches_behind_.transpose(); // now row a holds behind whose planes a reaches
+        for (std::size_t a = 0; a < items_.size(); ++a) {
+            for (std::size_t i = 0; i < hides_.words() && is_still(a); ++i) {
+                hides_.word(a, i) &= reaches_behind_.word(a, i) & still_[i];
+            }
+            add_others(a);
+            hides_.remove(a, a);
+        }
+        for (const auto& [upper, lower] : decals_) {
+            hides_.add(lower, upper);
+        }
+        return std::move(hides_);
+    }
+
+private:
+    /// Whether a piece has a plane that stands still.
+    bool is_still(std::size_t i) const { return ((still_[i / 64] >> (i % 64)) & 1U) != 0; }
+
+    /// Looks at the pairs of which one has no plane that stands still.
+    void add_others(std::size_t a) {
+        for (std::size_t i = 0; i < still_.size(); ++i) {
+            const std::size_t end = std::min((i + 1) * 64, items_.size());
+            const bool all_still = std::popcount(still_[i]) == static_cast<int>(end - i * 64);
+            for (std::size_t b = i * 64; b < end && !(is_still(a) && all_still); ++b) {
+                if (!(is_still(a) && is_still(b)) && occludes(pieces_, items_[b], items_[a])) {
+                    hides_.add(a, b);
+                }
+            }
+        }
+    }
+
+    /// Finds out where the others reach to the plane of a piece.
+    void look_from(const PieceTable& table, std::size_t a) {
+        for (std::size_t i = 0; i < table.blocks(); ++i) {
+            const PlaneSideBits sides_reached = table.sides_reached(i, *pieces_[items_[a]].plane);
+            hides_.word(a, i) = sides_reached.before;
+            reaches_behind_.word(a, i) = sides_reached.behind;
+            for (std::uint64_t left = still_[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
+                 left &= left - 1) {
+                const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
+                if (b != a && is_decal_on(pieces_, items_[b], items_[a])) {
+                    decals_.emplace_back(b, a);
+                }
+            }
+        }
+    }
+
+    const PolygonPieces& pieces_;
+    std::span<const std::uint32_t> items_;
+    BitMatrix hides_;          ///< At first what reaches before the plane of the row's piece.
+    BitMatrix reaches_behind_; ///< What reaches behind it.
+    std::vector<std::uint64_t> still_;
+    std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
+};
+
+/// Tarjan's search over a matrix of bits.
+class Search {
+public:
+    Search(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
+        : items_(items)
+        , hiding_(OccluderRow(pieces, items).matrix())
+        , number_(items.size(), 0)
+        , lowlink_(items.size(), 0)
+        , closed_(items.size(), false) {}
+
+    std::vector<std::vector<std::uint32_t>> components() {
+        for (std::size_t i = items_.size(); i-- > 0;) {
+            if (number_[i] == 0) {
+                search_from(i);
+            }
+        }
+        std::ranges::reverse(found_); // components are closed in the reverse of painting order
+        return std::move(found_);
+    }
+
+private:
+    struct Visit {
+        std::size_t item = 0;
+        std::size_t word = 0;
+        std::uint64_t left = 0;
+    };
+
+    void enter(std::size_t item) {
+        number_[item] = lowlink_[item] = ++next_number_;
+        open_.push_back(item);
+        visits_.push_back({item, 0, hiding_.word(item, 0)});
+    }
+
+    void search_from(std::size_t root) {
+        enter(root);
+        while (!visits_.empty()) {
+            Visit& visit = visits_.back();
+            while (visit.left == 0 && ++visit.word < hiding_.words()) {
+                visit.left = hiding_.word(visit.item, visit.word);
+            }
+            if (visit.left == 0) {
+                leave();
+                continue;
+            }
+            const auto next =
+                visit.word * 64 + static_cast<std::size_t>(std::countr_zero(visit.left));
+            visit.left &= visit.left - 1;
+            if (number_[next] == 0) {
+                enter(next);
+            } else if (!closed_[next]) {
+                lowlink_[visit.item] = std::min(lowlink_[visit.item], number_[next]);
+            }
+        }
+    }
+
+    void leave() {
+        const std::size_t item = visits_.back().item;
+        visits_.pop_back();
+        if (!visits_.empty()) {
+            const std::size_t parent = visits_.back().item;
+            lowlink_[parent] = std::min(lowlink_[parent], lowlink_[item]);
+        }
+        if (lowlink_[item] != number_[item]) {
+            return;
+        }
+        std::vector<std::uint32_t>& component = found_.emplace_back();
+        std::size_t member = 0;
+        do {
+            member = open_.back();
+            open_.pop_back();
+            closed_[member] = true;
+            component.push_back(items_[member]);
+        } while (member != item);
+        std::ranges::sort(component);
+    }
+
+    std::span<const std::uint32_t> items_;
+    BitMatrix hiding_;
+    std::vector<std::uint32_t> number_;
+    std::vector<std::uint32_t> lowlink_;
+    std::vector<bool> closed_;
+    std::vector<std::size_t> open_;
+    std::vector<Visit> visits_;
+    std::uint32_t next_number_ = 0;
+    std::vector<std::vector<std::uint32_t>> found_;
+};
+
+} // namespace
+
+bool occludes(const PolygonPieces& pieces, std::uint32_t occluder, std::uint32_t far_one) {
+    const PolygonPiece& b = pieces[occluder];
+    const PolygonPiece& a = pieces[far_one];
+    if (a.pivot && a.pivot == b.pivot) {
+        return pieces.is_rigid(occluder, far_one);
+    }
+    if (!a.plane && !b.plane) {
+        return true;
+    }
+    const PlaneSideFlags of_b = a.plane ? pieces.sides_reached(occluder, *a.plane) : PlaneSideFlags{true, true};
+    if (a.plane && b.plane && !of_b.before && !of_b.behind) {
+        return is_decal_on(pieces, occluder, far_one);
+    }
+    return of_b.before && (!b.plane || pieces.sides_reached(far_one, *b.plane).behind);
+}
+
+std::vector<std::vector<std::uint32_t>>
+occlusion_components(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
+    return Search(pieces, items).components();
+}
 
 namespace {
 

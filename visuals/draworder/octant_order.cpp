@@ -13,19 +13,161 @@
 //   are broken and counted.
 // - (33) multiplies by the transposed rotations (30)-(32); this equals the inverse of
 //   T Rx Ry Rz on column vectors, which is what eye_in_body computes from any attitude.
-
 #include "visuals/draworder/octant_order.h"
-
 #include "visuals/draworder/precedence.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <optional>
 #include <span>
 
 namespace octant::visuals::draworder {
+
+// E. K. Kim, J. A. Park, C. Song, J. H. Kim, "Hidden-Surface Removal in 3D Graphics for Real Time
+// Animation", 1989, section III.1, steps 2 to 4, equations (5)-(29).
+// Deviations:
+// - The screen coordinates are not defined in the paper. Both readings are offered; in perspective
+//   depth is proportional to 1 / distance, without which a plane would not stay a plane and
+//   aXs + bYs + cZs + d = 0 would not hold.
+// - (8) is printed ZminB > ZminB and means ZminB > ZminA.
+// - (13)-(20) are printed as conditions for a crossing; any one that holds means that the edges do
+//   NOT cross.
+// - Depths count as equal within 1e-9 of the scale, so that rounding decides nothing. A crossing
+//   where both depths are equal (a shared corner or edge) says nothing: the next one is looked at.
+// - The depths at a crossing are taken along the two edges instead of from the plane equations
+//   (21)-(29). Both edges lie in their planes, so the numbers are the same; they stay defined for
+//   a polygon that is seen edge-on.
+// Kept as printed, though it can be wrong: the depth ranges of step 2 decide also where the
+// polygons are slanted, and a polygon that lies inside the outline of another with overlapping
+// depth ranges is left free.
+
+namespace {
+
+constexpr double equal_within = 1e-9; ///< Depths and shares that differ by no more count as equal.
+
+/// The cross product on the screen.
+double cross(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// The depths of two edges where they cross on the screen.
+struct Crossing {
+    double depth_a = 0.0;
+    double depth_b = 0.0;
+};
+
+/// Whether a point is between the ends of an edge, given its share of the way along it.
+bool inside_edge(double share) {
+    return share >= -equal_within && share <= 1.0 + equal_within;
+}
+
+/// The crossing of two edges, (13)-(20). Nothing for edges that are parallel, coincident, seen
+/// end-on or that do not meet.
+std::optional<Crossing> crossing(
+    const glm::dvec3& a_from,
+    const glm::dvec3& a_to,
+    const glm::dvec3& b_from,
+    const glm::dvec3& b_to) {
+    const glm::dvec3 a = a_to - a_from;
+    const glm::dvec3 b = b_to - b_from;
+    const double area = cross(a, b);
+    if (std::abs(area) <= equal_within * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
+        return std::nullopt;
+    }
+    const double share_a = cross(b_from - a_from, b) / area;
+    const double share_b = cross(b_from - a_from, a) / area;
+    if (!inside_edge(share_a) || !inside_edge(share_b)) {
+        return std::nullopt;
+    }
+    return Crossing{a_from.z + share_a * a.z, b_from.z + share_b * b.z};
+}
+
+/// Step 2, (5)-(8): decides by the depth ranges.
+PaintFirst by_depth_range(const ScreenPolygon& a, const ScreenPolygon& b) {
+    const double most = a.most.z - b.most.z;
+    const double least = a.least.z - b.least.z;
+    if (most > equal_within && least > equal_within) {
+        return PaintFirst::B;
+    }
+    if (most < -equal_within && least < -equal_within) {
+        return PaintFirst::A;
+    }
+    return PaintFirst::Either;
+}
+
+/// Step 3, (9)-(12): whether the screen bounding boxes are disjoint.
+bool boxes_apart(const ScreenPolygon& a, const ScreenPolygon& b) {
+    return a.most.x < b.least.x || b.most.x < a.least.x || a.most.y < b.least.y ||
+           b.most.y < a.least.y;
+}
+
+/// Step 4, (13)-(29): decides by the depths at the first true crossing of two edges.
+PaintFirst by_first_crossing(const ScreenPolygon& a, const ScreenPolygon& b) {
+    for (std::size_t i = 0; i < a.corners.size(); ++i) {
+        for (std::size_t j = 0; j < b.corners.size(); ++j) {
+            const auto at = crossing(
+                a.corners[i],
+                a.corners[(i + 1) % a.corners.size()],
+                b.corners[j],
+                b.corners[(j + 1) % b.corners.size()]);
+            if (at && std::abs(at->depth_a - at->depth_b) > equal_within) {
+                return at->depth_a < at->depth_b ? PaintFirst::A : PaintFirst::B;
+            }
+        }
+    }
+    return PaintFirst::Either;
+}
+
+} // namespace
+
+ScreenView::ScreenView(const glm::dvec3& viewpoint_m, ScreenProjection screen, double scale_m)
+    : distance_m_(glm::length(viewpoint_m))
+    , scale_m_(scale_m)
+    , screen_(screen) {
+    assert(distance_m_ > 0.0 && scale_m > 0.0);
+    towards_eye_ = viewpoint_m / distance_m_;
+    const bool along_x = std::abs(towards_eye_.x) > 0.9;
+    const glm::dvec3 aside = along_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    right_ = glm::normalize(glm::cross(aside, towards_eye_));
+    up_ = glm::cross(towards_eye_, right_);
+}
+
+glm::dvec3 ScreenView::screen_from_body(const glm::dvec3& point_m) const {
+    const glm::dvec3 in_view(
+        glm::dot(point_m, right_), glm::dot(point_m, up_), glm::dot(point_m, towards_eye_));
+    if (screen_ == ScreenProjection::Parallel) {
+        return in_view / scale_m_;
+    }
+    assert(in_view.z < distance_m_);
+    return in_view * (distance_m_ / (distance_m_ - in_view.z) / scale_m_);
+}
+
+ScreenPolygon screen_polygon(
+    const models::polygons::PolygonModel& model, std::size_t polygon, const ScreenView& view) {
+    ScreenPolygon seen;
+    for (const std::uint32_t vertex : model.corners(polygon)) {
+        seen.corners.push_back(view.screen_from_body(model.vertices_m[vertex]));
+    }
+    seen.least = seen.most = seen.corners.front();
+    for (const glm::dvec3& corner : seen.corners) {
+        seen.least = glm::min(seen.least, corner);
+        seen.most = glm::max(seen.most, corner);
+    }
+    return seen;
+}
+
+PaintFirst paint_first(const ScreenPolygon& a, const ScreenPolygon& b) {
+    const PaintFirst by_depth = by_depth_range(a, b);
+    if (by_depth != PaintFirst::Either) {
+        return by_depth;
+    }
+    return boxes_apart(a, b) ? PaintFirst::Either : by_first_crossing(a, b);
+}
 
 namespace {
 

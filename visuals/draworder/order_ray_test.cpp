@@ -1,11 +1,11 @@
 // Every order is tried before it is used. Rays that pass a side of a polygon within a hair are not
 // counted: there rounding decides what is seen.
 #include "visuals/draworder/order_ray_test.h"
-
+#include "models/polygons/inside_outline.h"
 #include "sim/base/random_generator.h"
+#include "visuals/draworder/proof_walk.h"
+#include "visuals/draworder/search_budget.h"
 #include "visuals/draworder/with_min_distance.h"
-#include "visuals/draworder/order_proof.h"
-#include "visuals/draworder/ray_targets.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,11 +16,217 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace octant::visuals::draworder {
+
+namespace {
+
+/// By so much of it and by so many radii of the model is a ball larger than its target: a thousand
+/// times what rounding makes of the distance of a ray from an eye twenty radii away.
+constexpr double more_of_ball = 1e-3;
+constexpr double more_of_model = 1e-5;
+
+/// Adds what follows from the corners; false for a polygon without area.
+bool complete(RayTarget& target) {
+    const std::size_t count = target.corners.size();
+    for (const glm::dvec3& corner : target.corners) {
+        target.middle += corner / static_cast<double>(count);
+    }
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 from = target.corners[i] - target.middle;
+        sum += glm::cross(from, target.corners[(i + 1) % count] - target.middle);
+        target.radius = std::max(target.radius, glm::length(from));
+    }
+    target.normal = glm::normalize(sum);
+    return std::isfinite(target.normal.x);
+}
+
+/// Where a ray meets a target above which its eye lies.
+std::optional<RayHit>
+meet_one(const RayTarget& target, const glm::dvec3& eye, double height, const glm::dvec3& ray) {
+    const double slope = glm::dot(ray, target.normal);
+    if (slope >= 0.0) {
+        return std::nullopt;
+    }
+    const double hit_distance = -height / slope;
+    const glm::dvec3 at = eye + ray * hit_distance;
+    const glm::dvec3 aside = at - target.middle;
+    if (glm::dot(aside, aside) > target.radius * target.radius ||
+        !models::polygons::is_inside(target.corners, target.normal, at)) {
+        return std::nullopt;
+    }
+    return RayHit{
+        0,
+        hit_distance,
+        models::polygons::distance_to_sides(target.corners, at),
+        RayTargets::ray_tolerance / -slope};
+}
+
+} // namespace
+
+RayTargets::RayTargets(const models::polygons::PolygonModel& model)
+    : model_(model) {
+    glm::dvec3 least(std::numeric_limits<double>::max());
+    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    for (const std::uint32_t vertex : model.corner_vertices) {
+        least = glm::min(least, model.vertices_m[vertex]);
+        most = glm::max(most, model.vertices_m[vertex]);
+    }
+    middle_m_ = (least + most) / 2.0;
+    radius_m_ = std::max(glm::length(most - least) / 2.0, std::numeric_limits<double>::min());
+}
+
+void RayTargets::turn(double turn_rad, bool turning_parts) {
+    all_.clear();
+    ball2_.clear();
+    faced_.clear();
+    for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
+        const auto pivot = models::polygons::pivot_of(model_, i);
+        if (pivot && !turning_parts) {
+            continue;
+        }
+        RayTarget target;
+        target.polygon = i;
+        for (const std::uint32_t vertex : model_.corners(i)) {
+            glm::dvec3 at_m = model_.vertices_m[vertex];
+            if (pivot) {
+                at_m = models::polygons::turned(model_.pivots[*pivot], at_m, turn_rad);
+            }
+            target.corners.push_back((at_m - middle_m_) / radius_m_);
+        }
+        if (complete(target)) {
+            const double size = target.radius * (1.0 + more_of_ball) + more_of_model;
+            ball2_.push_back(size * size);
+            all_.push_back(std::move(target));
+        }
+    }
+}
+
+const RayTarget* RayTargets::of(std::uint32_t polygon) const {
+    const auto found = std::ranges::find(all_, polygon, &RayTarget::polygon);
+    return found != all_.end() ? &*found : nullptr;
+}
+
+void RayTargets::set_eye(const glm::dvec3& eye) {
+    eye_ = eye;
+    faced_.clear();
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        const glm::dvec3 to_middle = all_[i].middle - eye;
+        const double height = -glm::dot(to_middle, all_[i].normal);
+        if (height > 0.0) {
+            const double min_along2 = glm::dot(to_middle, to_middle) - ball2_[i];
+            faced_.push_back({i, height, to_middle, min_along2});
+        }
+    }
+}
+
+void RayTargets::intersect(const glm::dvec3& ray, std::vector<RayHit>& hits) const {
+    hits.clear();
+    for (const FacingTarget& faced : faced_) {
+        const double along = glm::dot(faced.to_middle, ray);
+        if (along * along < faced.min_along2) {
+            continue;
+        }
+        if (std::optional<RayHit> hit = meet_one(all_[faced.target], eye_, faced.height, ray)) {
+            hit->target = faced.target;
+            hits.push_back(*hit);
+        }
+    }
+}
+
+namespace {
+
+/// About the work of one of each (SearchBudget).
+constexpr std::uint64_t units_of_pair = 20;
+constexpr std::uint64_t units_of_witness = 2'000;
+constexpr std::uint64_t units_of_none = 1'000'000;
+constexpr std::uint64_t units_of_polygon_in_part = 60;
+
+/// Counts what is found, and what that costs.
+class Counting : public ProofVisitor {
+public:
+    explicit Counting(SearchBudget& budget)
+        : budget_(budget) {}
+
+    OrderProof& proof() { return proof_; }
+
+    void begin_pairs(int /*part*/, std::uint32_t /*later*/, std::size_t count) override {
+        budget_.spend(units_of_pair * count);
+    }
+
+    void add_pair(separation::DecidingPolygon /*by*/) override {}
+
+    void end_pairs() override {}
+
+    void add_plane_proof(
+        int /*part*/,
+        const separation::SeparatingPlaneProof& plane_proof,
+        std::uint32_t earlier,
+        std::uint32_t later) override {
+        if (plane_proof.kind != separation::SeparatingPlaneProof::Kind::None) {
+            budget_.spend(units_of_witness);
+            return;
+        }
+        ++proof_.unproved;
+        if (proof_.unproved_pairs.size() < OrderProof::max_open) {
+            proof_.unproved_pairs.emplace_back(earlier, later);
+        }
+        budget_.spend(units_of_none);
+    }
+
+    void add_back_facing(
+        int /*part*/, std::uint32_t /*polygon*/, const separation::PlaneFactors& /*factors*/) override {
+        budget_.spend(units_of_witness);
+    }
+
+    void add_unproved(int /*part*/, std::uint32_t /*polygon*/) override {
+        ++proof_.unproved;
+        budget_.spend(units_of_none);
+    }
+
+    void end_part(std::size_t polygons) override {
+        budget_.spend(units_of_polygon_in_part * polygons);
+    }
+
+private:
+    SearchBudget& budget_;
+    OrderProof proof_;
+};
+
+} // namespace
+
+OrderProof
+prove_order(const models::polygons::PolygonModel& model, const DrawOrder& order, double seconds) {
+    SearchBudget budget(seconds);
+    OrderProof best;
+    if (model.corner_vertices.empty()) {
+        best.is_complete = true;
+        return best;
+    }
+    const models::polygons::FileAxes axes;
+    for (const double tolerance : separation::proof_tolerances_sizes) {
+        const separation::LocalModel local = separation::local_model(model, axes, tolerance);
+        Counting counting(budget);
+        try {
+            visit_proof({model, order, axes, local}, counting);
+            counting.proof().is_complete = true;
+        } catch (const SearchGivenUp&) {
+            return best.is_complete ? best : counting.proof();
+        }
+        if (!best.is_complete || counting.proof().unproved < best.unproved) {
+            best = counting.proof();
+        }
+        if (best.unproved == 0) {
+            break;
+        }
+    }
+    return best;
+}
 
 namespace {
 

@@ -6,15 +6,395 @@
 // (fork_choice.cpp). Before that, an eye in the middle of the node is looked at: if it already sees
 // a ring, no plane can help, and a polygon is split.
 #include "visuals/draworder/view_space_tree.h"
-
+#include "sim/base/plane.h"
+#include "visuals/draworder/bit_count.h"
+#include "visuals/draworder/candidate_planes.h"
+#include "visuals/draworder/components.h"
 #include "visuals/draworder/search_budget.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
+#include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::draworder {
+
+// Which plane divides a node of the tree over eye space. Candidate planes are judged in three
+// stages, each more exact and more expensive, and applied to fewer planes: by where polygons lie to
+// the plane (PlaneScorer), by the edges that stay on cycles then (CyclicEdgeCounter), and by building both
+// sides' graphs with the exact hiding test. The plane with the least cost divides the node.
+
+// The first and coarsest of three judgements in the search for a plane (view_space_tree.cpp). For eyes
+// in front of a plane, a polygon behind it or in it cannot hide one in front of it or in it, so
+// such edges disappear; counting them takes a few operations on rows of bits. What remains may
+// still contain edges that the exact test would remove.
+
+namespace {
+
+/// Of a component at most about this many rows are looked at.
+constexpr std::size_t max_rows = 192;
+
+bool has(const std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
+    return ((words[first_word + bit / 64] >> (bit % 64)) & 1U) != 0;
+}
+
+/// A bounding sphere: the mean of the corners and the distance of the farthest one.
+std::pair<glm::dvec3, double> ball_around(const std::vector<glm::dvec3>& corners) {
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& corner : corners) {
+        middle += corner / static_cast<double>(corners.size());
+    }
+    double radius = 0.0;
+    for (const glm::dvec3& corner : corners) {
+        radius = std::max(radius, glm::distance(corner, middle));
+    }
+    return {middle, radius};
+}
+
+void set(std::vector<std::uint64_t>& words, std::size_t first_word, std::size_t bit) {
+    words[first_word + bit / 64] |= std::uint64_t{1} << (bit % 64);
+}
+
+} // namespace
+
+PlaneScorer::PlaneScorer(const ModelFaces& model, const CyclicPart& cycles)
+    : model_(model)
+    , edges_(cycles.edges) {
+    for (const std::vector<std::uint32_t>& component : cycles.components) {
+        add(cycles.inner, component);
+    }
+}
+
+/// Adds the rows of a component.
+void PlaneScorer::add(const OcclusionGraph& graph, const std::vector<std::uint32_t>& component) {
+    const std::size_t words = (component.size() + 63) / 64;
+    const std::size_t step = component.size() / max_rows + 1;
+    const std::size_t first_word = front_or_on_.size();
+    for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
+        sets->resize(first_word + words, 0);
+    }
+    for (std::size_t bit = 0; bit < component.size(); ++bit) {
+        const std::uint32_t polygon = component[bit];
+        const auto [middle, radius] = ball_around(model_.faces[polygon].corners);
+        const std::size_t weight = bit % step == 0 ? step : 0;
+        members_.push_back({polygon, middle, radius, first_word, bit, rows_.size(), words, weight});
+        if (weight == 0) {
+            continue;
+        }
+        rows_.resize(rows_.size() + words, 0);
+        for (std::size_t other = 0; other < component.size(); ++other) {
+            if (graph.occludes(component[other], polygon)) {
+                set(rows_, members_.back().first_row_word, other);
+            }
+        }
+    }
+}
+
+void PlaneScorer::set_plane(const Plane& plane) {
+    for (Words* sets : {&front_or_on_, &back_or_on_, &unseen_in_front_, &unseen_behind_}) {
+        std::ranges::fill(*sets, std::uint64_t{0});
+    }
+    some_unseen_ = false;
+    const double on = model_.tolerances.on_plane;
+    for (const Member& member : members_) {
+        const double height = distance_m(plane, member.middle);
+        PlaneSide side{height > member.radius, height < -member.radius};
+        if (!side.before && !side.behind) {
+            side = side_of(plane, model_.faces[member.polygon], on);
+        }
+        if (side.before) {
+            set(front_or_on_, member.first_word, member.bit);
+        }
+        if (side.behind) {
+            set(back_or_on_, member.first_word, member.bit);
+        }
+        const auto& own = model_.faces[member.polygon].plane;
+        if (side.before && side.behind && own) {
+            const bool along = glm::dot(plane.normal, own->normal) > 0.0;
+            set(along ? unseen_behind_ : unseen_in_front_, member.first_word, member.bit);
+            some_unseen_ = true;
+        }
+    }
+}
+
+/// The number of edges that do not disappear on one side of the plane: `occluded` are the polygons on
+/// that side or in the plane, `occluders` those on the other side or in it, and `unseen` those that
+/// face away from all eyes there.
+std::size_t PlaneScorer::left(const Words& occluded, const Words& occluders, const Words& unseen) const {
+    std::size_t ended = 0;
+    Words mask;
+    for (const Member& member : members_) {
+        const auto row = std::span(rows_).subspan(member.first_row_word, member.words);
+        if (member.weight == 0) {
+            continue;
+        }
+        const bool parted = has(occluded, member.first_word, member.bit);
+        if (!some_unseen_) {
+            const auto others = std::span(occluders).subspan(member.first_word, member.words);
+            ended += parted ? member.weight * count_common_bits(row, others) : 0;
+            continue;
+        }
+        const bool removed = has(unseen, member.first_word, member.bit);
+        mask.resize(member.words);
+        for (std::size_t word = 0; word < member.words; ++word) {
+            const std::size_t at = member.first_word + word;
+            mask[word] =
+                removed ? ~std::uint64_t{0} : unseen[at] | (parted ? occluders[at] : std::uint64_t{0});
+        }
+        ended += member.weight * count_common_bits(row, mask);
+    }
+    return edges_ - std::min(ended, edges_);
+}
+
+std::size_t PlaneScorer::edges_left_in_front() const {
+    return left(front_or_on_, back_or_on_, unseen_in_front_);
+}
+
+std::size_t PlaneScorer::edges_left_behind() const {
+    return left(back_or_on_, front_or_on_, unseen_behind_);
+}
+
+namespace {
+
+/// Calls both functions, the first one on a thread of its own if `worthwhile`, and returns both
+/// results. Neither may write to what the other one uses, so that the result is the same either
+/// way.
+template <typename PaintFirst, typename Second>
+auto both(bool worthwhile, PaintFirst first, Second second) {
+    auto there =
+        std::async(worthwhile ? std::launch::async : std::launch::deferred, std::move(first));
+    auto here = second();
+    return std::pair(there.get(), std::move(here));
+}
+
+/// Graphs with more edges are judged without the exact test.
+constexpr std::size_t max_exact_edges = 4'000;
+/// When the first planes lead nowhere, so many times as many are tried.
+constexpr std::size_t more_planes = 16;
+
+/// A candidate plane with its estimated cost. The number tells equal ones apart.
+struct ViewSplit {
+    Plane plane;
+    double cost = 0.0;
+    std::size_t number = 0;
+
+    bool operator<(const ViewSplit& other) const {
+        return std::pair(cost, number) < std::pair(other.cost, other.number);
+    }
+};
+
+/// Whether a node's work is worth a second thread.
+bool is_large(const ViewCell& node) {
+    return node.cycles.edges > 500;
+}
+
+/// The work of judging a plane by where polygons lie to it.
+std::uint64_t units_of_plane(const CyclicPart& cycles) {
+    constexpr std::size_t sampled_rows = 192;
+    std::size_t words = 0;
+    for (const auto& component : cycles.components) {
+        words += std::min(component.size(), sampled_rows) * (component.size() / 64 + 1);
+    }
+    return 15 * cycles.polygons.size() + 4 * words;
+}
+
+/// The work of counting the edges that a plane leaves on cycles.
+std::uint64_t units_of_rings(const CyclicPart& cycles) {
+    const std::size_t words = cycles.inner.count() / 64 + 1;
+    return 2 * (30 + 4 * words) * cycles.polygons.size() + 4 * cycles.edges;
+}
+
+/// Judges the planes that may divide one node.
+class SplitPlaneChooser {
+public:
+    SplitPlaneChooser(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search)
+        : work_(work)
+        , node_(node)
+        , search_(search) {}
+
+    std::optional<CellSplit> best() const;
+
+private:
+    std::vector<ViewSplit> by_sides(std::span<const Plane> planes, std::size_t first_number) const;
+    std::vector<ViewSplit> by_rings(std::span<const ViewSplit> choices) const;
+    std::vector<ViewSplit> ranked(std::span<const Plane> planes) const;
+    std::vector<ViewSplit> of_planes(std::span<const std::uint32_t> among, std::size_t most) const;
+    std::vector<ViewSplit> coarse_ranking() const;
+    CellSplit fork(const Plane& plane) const;
+    double cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const;
+    double little_gain(std::size_t before) const;
+
+    const WorkingModel& work_;
+    const ViewCell& node_;
+    const SplitPlaneSearch& search_;
+};
+
+/// The cost of a plane that leaves so many cyclic edges in front and behind, of `before`; less is
+/// better. A side that stays as it was is no gain at all and costs infinitely much.
+double SplitPlaneChooser::cost(std::size_t front_edges, std::size_t back_edges, std::size_t before) const {
+    if (front_edges >= before || back_edges >= before) {
+        return HUGE_VAL;
+    }
+    return std::pow(static_cast<double>(front_edges), search_.power) +
+           std::pow(static_cast<double>(back_edges), search_.power);
+}
+
+/// The cost of a plane that leaves 15 of 16 edges on both sides.
+double SplitPlaneChooser::little_gain(std::size_t before) const {
+    const std::size_t left = before - before / 16;
+    return cost(left, left, before + 1);
+}
+
+/// First stage: the best planes by where polygons lie to them. `first_number` is the number of the
+/// first plane.
+std::vector<ViewSplit>
+SplitPlaneChooser::by_sides(std::span<const Plane> planes, std::size_t first_number) const {
+    const CyclicPart& cycles = node_.cycles;
+    PlaneScorer scorer(work_.faces, cycles);
+    std::vector<ViewSplit> best;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Plane& plane = planes[i];
+        if (!node_.region.intersects_front_of(plane) ||
+            !node_.region.intersects_front_of(turned_over(plane))) {
+            continue;
+        }
+        const double limit = best.size() == search_.coarse_candidates ? best.back().cost : HUGE_VAL;
+        scorer.set_plane(plane);
+        const std::size_t front_edges = scorer.edges_left_in_front();
+        if (cost(front_edges, 0, cycles.edges) >= limit) {
+            continue;
+        }
+        const double value = cost(front_edges, scorer.edges_left_behind(), cycles.edges);
+        if (value >= limit) {
+            continue;
+        }
+        const ViewSplit choice{plane, value, first_number + i};
+        best.insert(std::upper_bound(best.begin(), best.end(), choice), choice);
+        if (best.size() > search_.coarse_candidates) {
+            best.pop_back();
+        }
+    }
+    return best;
+}
+
+/// Second stage: the cost of each choice by the edges that stay on cycles.
+std::vector<ViewSplit> SplitPlaneChooser::by_rings(std::span<const ViewSplit> choices) const {
+    const CyclicPart& cycles = node_.cycles;
+    CyclicEdgeCounter rings;
+    std::vector<ViewSplit> out(choices.begin(), choices.end());
+    for (ViewSplit& choice : out) {
+        const PolygonsByPlaneSide sides = sides_of(choice.plane, work_.faces, cycles.polygons);
+        const auto& [front, back] = sides.sets;
+        const auto front_edges =
+            rings.count(cycles.inner, cycles.polygons, back, front, sides.back_facing_in_front);
+        const auto back_edges =
+            rings.count(cycles.inner, cycles.polygons, front, back, sides.back_facing_behind);
+        choice.cost = cost(front_edges, back_edges, cycles.edges);
+    }
+    return out;
+}
+
+/// Both stages over many planes, on two threads; best first.
+std::vector<ViewSplit> SplitPlaneChooser::ranked(std::span<const Plane> planes) const {
+    work_.spend(planes.size() * units_of_plane(node_.cycles));
+    const bool large = is_large(node_);
+    const std::size_t half = planes.size() / 2;
+    auto [choices, others] = both(
+        large,
+        [&] { return by_sides(planes.first(half), 0); },
+        [&] { return by_sides(planes.subspan(half), half); });
+    choices.insert(choices.end(), others.begin(), others.end());
+    std::sort(choices.begin(), choices.end());
+    choices.resize(std::min(search_.coarse_candidates, choices.size()));
+    work_.spend(choices.size() * units_of_rings(node_.cycles));
+    const std::size_t middle = choices.size() / 2;
+    const std::span<const ViewSplit> all(choices);
+    auto [judged, rest] = both(
+        large,
+        [&] { return by_rings(all.first(middle)); },
+        [&] { return by_rings(all.subspan(middle)); });
+    judged.insert(judged.end(), rest.begin(), rest.end());
+    std::sort(judged.begin(), judged.end());
+    return judged;
+}
+
+/// Divides a node by a plane, with the exact test on both sides.
+CellSplit SplitPlaneChooser::fork(const Plane& plane) const {
+    const PlaneSideSets sides = sides_of(plane, work_.faces, node_.cycles.polygons).sets;
+    const PlaneSideSets turned{sides.back_or_on, sides.front_or_on};
+    const auto part = [&](const Plane& before, const PlaneSideSets& sets) {
+        OcclusionGraphBuilder graphs(work_.faces);
+        return part_of(graphs, node_, *node_.region.cut(before), &sets);
+    };
+    auto [front, back] = both(
+        is_large(node_),
+        [&] { return part(plane, sides); },
+        [&] { return part(turned_over(plane), turned); });
+    return {plane, std::move(front), std::move(back)};
+}
+
+/// The choices by the candidate planes of some polygons, of which there are about `most`.
+std::vector<ViewSplit>
+SplitPlaneChooser::of_planes(std::span<const std::uint32_t> among, std::size_t most) const {
+    std::vector<Plane> planes;
+    if (search_.tries_axis_planes_first) {
+        planes = axis_planes(work_.faces, among, 2 * most);
+    }
+    const auto others = candidate_planes(work_.faces, among, most);
+    planes.insert(planes.end(), others.begin(), others.end());
+    return ranked(planes);
+}
+
+/// The choices of the first planes or, where these lead nowhere, of more.
+std::vector<ViewSplit> SplitPlaneChooser::coarse_ranking() const {
+    const CyclicPart& cycles = node_.cycles;
+    std::vector<ViewSplit> choices = of_planes(cycles.polygons, search_.edge_planes);
+    if (choices.empty() || choices.front().cost > little_gain(cycles.edges)) {
+        choices = of_planes(cycles.polygons, more_planes * search_.edge_planes);
+    }
+    if (choices.empty()) {
+        // Of many polygons not all candidate planes were made. All those of one ring are enough to
+        // resolve it in the end.
+        choices = of_planes(shortest_cycle(cycles.inner, cycles.polygons), search_.edge_planes);
+    }
+    return choices;
+}
+
+/// Third stage: divides the node by each of the best choices and keeps the best result; for very
+/// large graphs only the first choice.
+std::optional<CellSplit> SplitPlaneChooser::best() const {
+    const CyclicPart& cycles = node_.cycles;
+    std::vector<ViewSplit> choices = coarse_ranking();
+    const std::size_t tried = cycles.edges > max_exact_edges ? 1 : search_.exact;
+    choices.resize(std::min(tried, choices.size()));
+    work_.spend(2 * choices.size() * search_units(node_));
+    std::optional<CellSplit> best;
+    ViewSplit least{.plane = {}, .cost = HUGE_VAL, .number = choices.size()};
+    for (const ViewSplit& choice : choices) {
+        CellSplit made = fork(choice.plane);
+        const double left = cost(made.front.cycles.edges, made.back.cycles.edges, cycles.edges);
+        if (const ViewSplit exact{choice.plane, left, choice.number}; !best || exact < least) {
+            least = exact;
+            best = std::move(made);
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+std::optional<CellSplit>
+best_split(const WorkingModel& work, const ViewCell& node, const SplitPlaneSearch& search) {
+    return SplitPlaneChooser(work, node, search).best();
+}
 
 namespace {
 

@@ -1,24 +1,352 @@
 // Opens imported grounds. A file of 16385 x 16385 samples is 940 MB; mapping it makes flights over
 // it start at once, and only the tiles that a mesh looks at are read.
 #include "visuals/groundfile/ground_file.h"
-
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/parallel_for.h"
 #include "visuals/groundfile/ground_header.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/groundfile/tile_checksums.h"
+#include "visuals/groundfile/tile_damage_log.h"
+#include "visuals/terrain/tile_validator.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::groundfile {
 
 namespace {
+
+/// The tiles of a mapped file, each held against its checksum when it is first read. A bad one is
+/// mended in memory (tile_mender.h), never in the file, and goes into damage_tally.h.
+class ChecksumValidator final : public terrain::TileValidator {
+public:
+    /// A finished file, sound before its tiles, mapped with Access::CopyOnWrite, and its header.
+    ChecksumValidator(
+        std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header);
+
+private:
+    /// Whether a tile's bytes in the file are those of its checksum; of a mended one: no.
+    bool is_intact(int level, std::size_t tile) const;
+    void validate(int level, std::size_t tile) const override;
+
+    std::filesystem::path path_;
+    std::shared_ptr<MappedFile> file_;
+    GroundTiles ground_; ///< Over the same memory, guarded by this object.
+    std::size_t checksums_;
+    /// Held while a tile is tested or mended, which may lead to others.
+    mutable std::recursive_mutex mutex_;
+    mutable std::vector<bool> bad_;
+};
+
+struct TileId {
+    int level = 0;
+    std::size_t tile = 0; ///< as the level's tiles lie in memory
+};
+
+/// Whether the tile of a level is sound in the file.
+using TileCheck = std::function<bool(int level, std::size_t tile)>;
+
+using terrain::NodePart;
+using terrain::MorphMargin;
+
+constexpr std::array<NodePart, 3> parts = {NodePart::Centre, NodePart::South, NodePart::West};
+constexpr std::uint8_t greatest_code = 255;
+
+struct GridIndex {
+    int column = 0;
+    int row = 0;
+
+    bool operator==(const GridIndex&) const = default;
+};
+
+class TileRepair {
+public:
+    TileRepair(
+        const TileCheck& is_intact,
+        const GroundTiles& ground,
+        TileId number,
+        std::span<std::byte> bytes)
+        : is_intact_(is_intact)
+        , ground_(ground)
+        , level_(number.level)
+        , at_(ground.layout().level(number.level))
+        , first_{
+              static_cast<int>(number.tile % static_cast<std::size_t>(at_.tiles_across))
+                  << at_.tile_shift,
+              static_cast<int>(number.tile / static_cast<std::size_t>(at_.tiles_across))
+                  << at_.tile_shift}
+        , end_{std::min(first_.column + side(), at_.columns), std::min(first_.row + side(), at_.rows)}
+        , bytes_(bytes) {}
+
+    void repair() {
+        std::fill(bytes_.begin(), bytes_.end(), std::byte{0});
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                for (const NodePart part : parts) {
+                    write_height(part, {column, row}, height(part, {column, row}));
+                }
+            }
+        }
+        // Where both rooms share a place, the smaller errors stay.
+        repair_errors(MorphMargin::Full);
+        repair_errors(MorphMargin::None);
+    }
+
+private:
+    void repair_errors(MorphMargin morph_margin) {
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                code(NodePart::Centre, {column, row}, morph_margin) = centre_code({column, row}, morph_margin);
+            }
+        }
+        for (int row = first_.row; row < end_.row; ++row) {
+            for (int column = first_.column; column < end_.column; ++column) {
+                const std::uint8_t own = code_of({column, row}, morph_margin);
+                const bool in_south = row == 0;
+                const bool in_west = column == 0;
+                code(NodePart::South, {column, row}, morph_margin) =
+                    in_south ? own : std::min(own, code_of({column, row - 1}, morph_margin));
+                code(NodePart::West, {column, row}, morph_margin) =
+                    in_west ? own : std::min(own, code_of({column - 1, row}, morph_margin));
+            }
+        }
+    }
+
+    int side() const { return 1 << at_.tile_shift; }
+
+    bool is_own(GridIndex node) const {
+        return node.column >= first_.column && node.row >= first_.row &&
+               node.column < end_.column && node.row < end_.row;
+    }
+
+    std::size_t index_of(GridIndex node) const {
+        return static_cast<std::size_t>(
+            ((node.row - first_.row) << at_.tile_shift) + node.column - first_.column);
+    }
+
+    void write_height(NodePart part, GridIndex node, std::int16_t stored) {
+        reinterpret_cast<std::int16_t*>(
+            bytes_.data())[static_cast<std::size_t>(part) * at_.tile_nodes + index_of(node)] =
+            stored;
+    }
+
+    std::uint8_t& code(NodePart part, GridIndex node, MorphMargin morph_margin) {
+        const std::size_t first =
+            at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
+        return reinterpret_cast<std::uint8_t*>(bytes_.data())[first + index_of(node)];
+    }
+
+    /// The code of a node's centre, in this tile or another of its level.
+    std::uint8_t code_of(GridIndex node, MorphMargin morph_margin) {
+        return is_own(node)
+                   ? code(NodePart::Centre, node, morph_margin)
+                   : ground_.error_code(level_, NodePart::Centre, node.column, node.row, morph_margin);
+    }
+
+    /// A centre needs the middles of the two edges of its parent that lie on its own.
+    std::uint8_t centre_code(GridIndex node, MorphMargin morph_margin) const {
+        if (level_ == 0) {
+            return greatest_code;
+        }
+        const int column = node.column / 2;
+        const int row = node.row / 2;
+        return std::min(
+            ground_.error_code(level_ - 1, NodePart::South, column, row + node.row % 2, morph_margin),
+            ground_.error_code(level_ - 1, NodePart::West, column + node.column % 2, row, morph_margin));
+    }
+
+    GridIndex clamped(GridIndex sample) const {
+        return {
+            std::clamp(sample.column, 0, ground_.columns() - 1),
+            std::clamp(sample.row, 0, ground_.rows() - 1)};
+    }
+
+    /// The height of a sample where the tile that holds it is sound.
+    std::optional<double> intact_height_m(GridIndex sample) const {
+        const auto steps = static_cast<unsigned>(sample.column | sample.row);
+        if (steps % static_cast<unsigned>(ground_.layout().level(0).edge) != 0) {
+            const int zeros = std::countr_zero(steps);
+            const int level = ground_.levels() - 1 - zeros;
+            const GroundLayout::Level& at = ground_.layout().level(level);
+            const GridIndex node{sample.column >> (zeros + 1), sample.row >> (zeros + 1)};
+            const auto tile = static_cast<std::size_t>(
+                (node.row >> at.tile_shift) * at.tiles_across + (node.column >> at.tile_shift));
+            const bool in_tile = node.column < at.columns && node.row < at.rows;
+            if (in_tile && !is_intact_(level, tile)) {
+                return std::nullopt;
+            }
+        }
+        return static_cast<double>(ground_.height_m(sample.column, sample.row));
+    }
+
+    /// The mean of two samples where both are there and sound.
+    std::optional<double> mean_m(GridIndex a, GridIndex b) const {
+        const auto at_a = a == clamped(a) ? intact_height_m(a) : std::nullopt;
+        const auto at_b = b == clamped(b) ? intact_height_m(b) : std::nullopt;
+        return at_a && at_b ? std::optional(0.5 * (*at_a + *at_b)) : std::nullopt;
+    }
+
+    /// The ends of the edge that a node's sample halves.
+    std::array<GridIndex, 2> ends_of(NodePart part, GridIndex node) const {
+        const GridIndex low{node.column * at_.edge, node.row * at_.edge};
+        const GridIndex high{low.column + at_.edge, low.row + at_.edge};
+        if (part == NodePart::South) {
+            return {low, GridIndex{high.column, low.row}};
+        }
+        if (part == NodePart::West) {
+            return {low, GridIndex{low.column, high.row}};
+        }
+        return node.column % 2 == node.row % 2
+                   ? std::array{low, high}
+                   : std::array{GridIndex{high.column, low.row}, GridIndex{low.column, high.row}};
+    }
+
+    double coarser_m(NodePart part, GridIndex node) const {
+        const auto end_m = [&](GridIndex nominal) -> std::optional<double> {
+            const GridIndex end = clamped(nominal);
+            return end == nominal
+                       ? std::optional(static_cast<double>(ground_.height_m(end.column, end.row)))
+                       : intact_height_m(end);
+        };
+        const auto [a, b] = ends_of(part, node);
+        const auto at_a = end_m(a);
+        const auto at_b = end_m(b);
+        return at_a && at_b ? 0.5 * (*at_a + *at_b)
+               : at_a       ? *at_a
+                            : at_b.value_or(static_cast<double>(ground_.metadata().mean_m));
+    }
+
+    double height_m(NodePart part, GridIndex node) const {
+        const int half = at_.edge / 2;
+        const GridIndex nominal{
+            node.column * at_.edge + (part == NodePart::West ? 0 : half),
+            node.row * at_.edge + (part == NodePart::South ? 0 : half)};
+        const GridIndex sample = clamped(nominal);
+        if (sample != nominal) {
+            if (const auto known_m = intact_height_m(sample)) {
+                return *known_m;
+            }
+        }
+        if (half > 1) {
+            const auto across_m =
+                mean_m({sample.column - 1, sample.row}, {sample.column + 1, sample.row});
+            const auto along_m =
+                mean_m({sample.column, sample.row - 1}, {sample.column, sample.row + 1});
+            if (across_m && along_m) {
+                return 0.5 * (*across_m + *along_m);
+            }
+            if (across_m || along_m) {
+                return across_m ? *across_m : *along_m;
+            }
+        }
+        return coarser_m(part, node);
+    }
+
+    std::int16_t height(NodePart part, GridIndex node) const {
+        const GroundShape& shape = ground_.shape();
+        const int shift = std::max(level_ - ground_.layout().range_level(), 0);
+        const int level = level_ - shift;
+        const double lowest_m =
+            static_cast<double>(ground_.lowest_m(level, node.column >> shift, node.row >> shift));
+        const double highest_m =
+            static_cast<double>(ground_.highest_m(level, node.column >> shift, node.row >> shift));
+        const double own_m = std::clamp(height_m(part, node), lowest_m, highest_m);
+        return static_cast<std::int16_t>(
+            std::lround((own_m - shape.height_base_m) / shape.height_unit_m));
+    }
+
+    const TileCheck& is_intact_;
+    const GroundTiles& ground_;
+    int level_;
+    GroundLayout::Level at_;
+    GridIndex first_;
+    GridIndex end_;
+    std::span<std::byte> bytes_;
+};
+
+/// Writes what is known of a damaged tile into its memory. Heights of a level that has finer ones
+/// are the means of the sound samples beside them; else each lies half-way between the ends of the
+/// edge that it halves, as the coarser ground is drawn. Errors are the least of those of the
+/// samples that they need: never below the true ones, so that errors stay nested and meshes have no
+/// cracks. Reads other tiles through `ground`, but not this one.
+void repair_tile(
+    const TileCheck& is_intact,
+    const GroundTiles& ground,
+    TileId number,
+    std::span<std::byte> bytes) {
+    TileRepair(is_intact, ground, number, bytes).repair();
+}
+
+std::span<const std::byte> tile_bytes(const GroundTiles& ground, int level, std::size_t tile) {
+    const GroundLayout::Level& at = ground.layout().level(level);
+    return ground.memory().subspan(at.first_tile + tile * at.tile_bytes, at.tile_bytes);
+}
+
+ChecksumValidator::ChecksumValidator(
+    std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
+    : TileValidator(GroundLayout(shape_of(header)), false)
+    , path_(std::move(path))
+    , file_(std::move(file))
+    , ground_(
+          shape_of(header),
+          metadata_of(header),
+          std::as_const(*file_).bytes().subspan(
+              GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
+          nullptr,
+          std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this))
+    , checksums_(GroundFileLayout(ground_.layout()).checksums)
+    , bad_(GroundFileLayout(ground_.layout()).tiles) {}
+
+bool ChecksumValidator::is_intact(int level, std::size_t tile) const {
+    const std::scoped_lock lock(mutex_);
+    const std::size_t index = index_of(level, tile);
+    if (bad_[index] || is_valid(index)) {
+        return !bad_[index];
+    }
+    std::uint64_t checksum = 0;
+    const std::size_t place = checksums_ + 8 * (index + 1); // the first is of what lies before
+    std::memcpy(&checksum, std::as_const(*file_).bytes().data() + place, sizeof checksum);
+    return checksum_of(tile_bytes(ground_, level, tile)) == checksum;
+}
+
+void ChecksumValidator::validate(int level, std::size_t tile) const {
+    const std::scoped_lock lock(mutex_);
+    const std::size_t index = index_of(level, tile);
+    if (is_valid(index)) {
+        return;
+    }
+    if (!is_intact(level, tile)) {
+        bad_[index] = true;
+        const GroundLayout::Level& at = ground_.layout().level(level);
+        const auto across = static_cast<std::size_t>(at.tiles_across);
+        log_tile_damage(path_, {level, tile % across, tile / across});
+        const std::span<const std::byte> bytes = tile_bytes(ground_, level, tile);
+        const auto offset =
+            static_cast<std::size_t>(bytes.data() - std::as_const(*file_).bytes().data());
+        repair_tile(
+            [this](int l, std::size_t t) { return is_intact(l, t); },
+            ground_,
+            {level, tile},
+            file_->writable_copy(offset, bytes.size()));
+    }
+    set_valid(index);
+}
 
 using std::filesystem::path;
 

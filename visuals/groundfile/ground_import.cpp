@@ -2,28 +2,327 @@
 // made, then the tiles are built in front of them, and at last the file is cut. The header tells
 // how far this has come, so that an import which was stopped can go on.
 #include "visuals/groundfile/ground_import.h"
-
+#include "models/heights/height_raster.h"
 #include "models/heights/height_source.h"
+#include "models/heights/height_voids.h"
+#include "models/heights/import_options.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_header.h"
-#include "visuals/groundfile/import_files.h"
-#include "visuals/groundfile/import_rows.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/groundfile/integer_voids.h"
 #include "visuals/terrain/ground_assembler.h"
+#include "visuals/terrain/ground_layout.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::groundfile {
 
 namespace {
+
+// Fills voids of fields that are too large to be smoothed in one piece: coarse first, then tile by
+// tile with a margin.
+
+/// Stands for a sample without data among a field's numbers.
+constexpr std::int16_t void_value = std::numeric_limits<std::int16_t>::min();
+
+/// The most samples that are filled in one piece.
+constexpr std::size_t max_samples_at_once = std::size_t{1} << 22U;
+constexpr int rectangle_edge = 1024;
+constexpr int margin = 32; ///< Samples around a piece that take part in its smoothing.
+
+struct Field {
+    std::span<std::int16_t> numbers;
+    int columns;
+    int rows;
+
+    std::int16_t& at(int column, int row) const {
+        return numbers
+            [static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+             static_cast<std::size_t>(column)];
+    }
+};
+
+float height_of(std::int16_t number) {
+    return number == void_value ? std::numeric_limits<float>::quiet_NaN()
+                                 : static_cast<float>(number);
+}
+
+/// The mean of the known samples of a block; NaN when there are none.
+float block_mean(const Field& field, int column, int row, int edge) {
+    double sum = 0.0;
+    int known = 0;
+    for (int y = row; y < std::min(row + edge, field.rows); ++y) {
+        for (int x = column; x < std::min(column + edge, field.columns); ++x) {
+            const std::int16_t number = field.at(x, y);
+            sum += number == void_value ? 0.0 : number;
+            known += number == void_value ? 0 : 1;
+        }
+    }
+    return known == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sum / known);
+}
+
+models::heights::HeightGrid block_means(const Field& field, int edge) {
+    models::heights::HeightGrid means;
+    means.columns = (field.columns + edge - 1) / edge;
+    means.rows = (field.rows + edge - 1) / edge;
+    for (int row = 0; row < field.rows; row += edge) {
+        for (int column = 0; column < field.columns; column += edge) {
+            means.heights_m.push_back(block_mean(field, column, row, edge));
+        }
+    }
+    return means;
+}
+
+/// A rectangle of samples; east and north are one past the last.
+struct SampleRectangle {
+    int west;
+    int east;
+    int south;
+    int north;
+};
+
+bool has_voids(const Field& field, const SampleRectangle& piece) {
+    for (int row = piece.south; row < piece.north; ++row) {
+        const std::int16_t* const start = &field.at(0, row);
+        if (std::find(start + piece.west, start + piece.east, void_value) != start + piece.east) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Writes the heights of a grid into the voids of a piece. `of` is the rectangle that the grid
+/// covers.
+void write_filled(
+    const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& grid, SampleRectangle of) {
+    for (int row = piece.south; row < piece.north; ++row) {
+        for (int column = piece.west; column < piece.east; ++column) {
+            std::int16_t& number = field.at(column, row);
+            if (number == void_value) {
+                number = static_cast<std::int16_t>(
+                    std::lround(grid.at(column - of.west, row - of.south)));
+            }
+        }
+    }
+}
+
+/// Fills the voids of one piece, starting from the coarse field.
+void fill_rectangle(
+    const Field& field, const SampleRectangle& piece, const models::heights::HeightGrid& coarse, int edge) {
+    const SampleRectangle wide{
+        std::max(0, piece.west - margin),
+        std::min(field.columns, piece.east + margin),
+        std::max(0, piece.south - margin),
+        std::min(field.rows, piece.north + margin)};
+    models::heights::HeightGrid grid;
+    grid.columns = wide.east - wide.west;
+    grid.rows = wide.north - wide.south;
+    for (int row = wide.south; row < wide.north; ++row) {
+        for (int column = wide.west; column < wide.east; ++column) {
+            grid.heights_m.push_back(height_of(field.at(column, row)));
+        }
+    }
+    models::heights::fill_voids_from(grid, [&](int column, int row) {
+        return models::heights::interpolated(
+            coarse, (wide.west + column + 0.5) / edge - 0.5, (wide.south + row + 0.5) / edge - 0.5);
+    });
+    write_filled(field, piece, grid, wide);
+}
+
+/// Gives every void of a field (row after row) a height that runs smoothly from rim to rim, rounded
+/// to a whole number. At least one sample must be known; known samples stay as they are. Up to four
+/// million samples are filled in one piece (models/heights/height_voids.h). Of a larger field, a
+/// coarser one of block means is filled first, and from it the voids are smoothed piece by piece.
+/// Memory: at most 80 MB beside the numbers.
+void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) {
+    const Field field{numbers, columns, rows};
+    int edge = 1;
+    while (numbers.size() > max_samples_at_once * static_cast<std::size_t>(edge * edge)) {
+        edge *= 2;
+    }
+    models::heights::HeightGrid coarse = block_means(field, edge);
+    models::heights::fill_voids(coarse);
+    if (edge == 1) {
+        const SampleRectangle all{0, columns, 0, rows};
+        write_filled(field, all, coarse, all);
+        return;
+    }
+    for (int south = 0; south < rows; south += rectangle_edge) {
+        for (int west = 0; west < columns; west += rectangle_edge) {
+            const SampleRectangle piece{
+                west,
+                std::min(west + rectangle_edge, columns),
+                south,
+                std::min(south + rectangle_edge, rows)};
+            if (has_voids(field, piece)) {
+                fill_rectangle(field, piece, coarse, edge);
+            }
+        }
+    }
+}
+
+static_assert(void_value == models::heights::void_height_m);
+
+void take_range(double lowest_m, double highest_m, ImportProgress& progress) {
+    progress.lowest_m = std::min(progress.lowest_m, lowest_m);
+    progress.highest_m = std::max(progress.highest_m, highest_m);
+}
+
+void read_integer_metres(
+    models::heights::HeightSource& source,
+    int first_row,
+    std::span<std::int16_t> numbers,
+    ImportProgress& progress) {
+    source.read(first_row, numbers);
+    std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
+    std::int16_t highest_m = void_value;
+    int voids = 0;
+    for (const std::int16_t number : numbers) {
+        const bool is_void = number == void_value;
+        voids += is_void ? 1 : 0;
+        lowest_m = std::min(lowest_m, is_void ? lowest_m : number);
+        highest_m = std::max(highest_m, number);
+    }
+    progress.voids += voids;
+    if (static_cast<std::size_t>(voids) < numbers.size()) {
+        take_range(lowest_m, highest_m, progress);
+    }
+}
+
+void read_fractions(
+    models::heights::HeightSource& source,
+    int first_row,
+    std::span<std::int16_t> numbers,
+    ImportProgress& progress) {
+    std::vector<float> heights_m(numbers.size());
+    source.read(first_row, heights_m);
+    const terrain::GroundShape shape =
+        terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const bool is_void = std::isnan(heights_m[i]);
+        progress.voids += is_void ? 1 : 0;
+        numbers[i] = is_void ? void_value : terrain::stored_number(heights_m[i], shape);
+    }
+}
+
+/// Updates the lowest and highest height in `progress` by some rows.
+void scan_rows(
+    models::heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
+    std::vector<float> heights_m(
+        static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
+    source.read(first_row, heights_m);
+    for (const float height_m : heights_m) {
+        if (!std::isnan(height_m)) {
+            take_range(height_m, height_m, progress);
+        }
+    }
+}
+
+/// Reads the rows that fill the span as the numbers to keep, void_value for samples without data.
+/// If the source has whole metres, these are kept, and lowest and highest in `progress` are
+/// updated; otherwise the numbers are those of shape_of the scanned heights. Counts voids. Throws
+/// Error as the source does.
+void read_rows(
+    models::heights::HeightSource& source,
+    int first_row,
+    std::span<std::int16_t> numbers,
+    ImportProgress& progress) {
+    if (source.has_integer_metres()) {
+        read_integer_metres(source, first_row, numbers, progress);
+    } else {
+        read_fractions(source, first_row, numbers, progress);
+    }
+}
+
+// The files around an import: nothing of the user's is overwritten, and a finished file appears
+// under its name in one step.
+
+/// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from
+/// another.
+std::uint64_t hash_of_inputs(
+    const std::vector<std::filesystem::path>& inputs,
+    const models::heights::ImportOptions& options);
+
+using std::filesystem::path;
+
+std::uint64_t
+hash_of_inputs(const std::vector<path>& inputs, const models::heights::ImportOptions& options) {
+    Hash hash;
+    hash.add_word(GroundHeader::current_version);
+    hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
+    hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale.value_or(0.0)));
+    for (const std::optional<std::string>& text : {options.system, options.band}) {
+        hash.add_word(text ? text->size() + 1 : 0);
+        const std::string bytes = text.value_or("");
+        hash.add(std::as_bytes(std::span(bytes)));
+    }
+    hash.add_word(options.voids.only ? 1 : 0);
+    hash.add_word(options.voids.values.size());
+    hash.add(std::as_bytes(std::span(options.voids.values)));
+    for (const path& input : inputs) {
+        std::error_code code;
+        const std::string name = std::filesystem::absolute(input, code).string();
+        hash.add(std::as_bytes(std::span(name)));
+        hash.add_word(std::filesystem::file_size(input, code));
+        hash.add_word(static_cast<std::uint64_t>(
+            std::filesystem::last_write_time(input, code).time_since_epoch().count()));
+    }
+    return hash.value();
+}
+
+/// Throws Error when writing `out`, and `part` on the way, would overwrite an input or something
+/// that is no regular file.
+void check_output(const std::vector<path>& inputs, const path& out, const path& part) {
+    std::error_code code;
+    for (const path& written : {out, part}) {
+        for (const path& input : inputs) {
+            if (std::filesystem::equivalent(input, written, code)) {
+                throw_error_in(written, "expected a file to write, got one of the inputs");
+            }
+        }
+        if (std::filesystem::exists(written, code) &&
+            !std::filesystem::is_regular_file(written, code)) {
+            throw_error_in(written, "expected a file to write, got a folder, device or pipe");
+        }
+    }
+}
+
+/// Throws Error when there is a file at `part` that is neither empty nor begins as ground files do.
+void check_partial_file(const path& part) {
+    std::error_code code;
+    if (!is_ground_file(part) && std::filesystem::file_size(part, code) > 0) {
+        throw_error_in(
+            part,
+            "expected what an earlier import left, got another kind of file: move it away or "
+            "choose another --out");
+    }
+}
+
+/// Renames the part to `out`; the new name is on the disk when it returns. Throws Error.
+void rename_into_place(const path& part, const path& out) {
+    std::error_code code;
+    std::filesystem::rename(part, out, code);
+    if (code) {
+        throw_error_in(out, fmt::format("cannot be written: {}", code.message()));
+    }
+    sync_folder_of(out);
+}
 
 using std::filesystem::path;
 using Stage = ImportProgress::Stage;

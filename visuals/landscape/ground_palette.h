@@ -1,7 +1,6 @@
 #pragma once
 
 #include "sim/base/geo_position.h"
-#include "visuals/landscape/ground_point.h"
 #include "visuals/nature/climate.h"
 #include "visuals/nature/daylight.h"
 #include "visuals/nature/relief_shadows.h"
@@ -17,6 +16,18 @@
 #include <optional>
 
 namespace octant::visuals::landscape {
+
+/// A place on the ground.
+struct TerrainPoint {
+    /// East and north of the field's south-west corner.
+    float east_m = 0.0F;
+    float north_m = 0.0F;
+    /// Above datum.
+    float height_m = 0.0F;
+    glm::vec3 normal{0.0F, 0.0F, 1.0F};
+    /// Of water: the share of its surroundings that is land.
+    float land_share = 0.0F;
+};
 
 /// Unit vector towards the sun, world axes. Azimuth clockwise from north.
 glm::vec3 direction_to_sun(const scene::AirSettings& settings);

@@ -6,9 +6,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace octant::visuals::ordercache {
+
+/// All that decides which order a model gets: its corners, polygons, parts and pivots, and the
+/// options. The names of the model and its materials, and colours, are not in it.
+std::string
+encode_key(const models::polygons::PolygonModel& model, const draworder::OrderOptions& options);
+
+/// An ordered model without what it has from the model as given (decode_order).
+std::string encode_order(const draworder::OrderedModel& ordered);
+
+/// The inverse of encode_order, bit for bit. `given` is the model that was ordered; names,
+/// materials, parts and pivots are its own. The bytes may be anything: every number that leads to
+/// something is checked. Throws Error "expected ..., got ...".
+draworder::OrderedModel
+decode_order(std::string_view bytes, const models::polygons::PolygonModel& given);
 
 /// Raised whenever draworder::ordered() gives any model another result, or a file another layout:
 /// what was kept before is then computed anew.

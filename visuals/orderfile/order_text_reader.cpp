@@ -1,19 +1,167 @@
 // Reads painting orders in the text format that order_text.h describes. Every message names the
 // file, the line, what was expected and what was found.
+#include "models/polygons/file_axes.h"
 #include "sim/base/error.h"
+#include "sim/base/plane.h"
 #include "sim/base/text_file.h"
 #include "visuals/draworder/octant_path.h"
 #include "visuals/orderfile/order_text.h"
-#include "visuals/orderfile/order_tokens.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::orderfile {
 
 namespace {
+
+/// The words of a file of orders, line by line, and what they may stand for. What is read is left
+/// behind; a word that is wrong is refused with an Error that names file, line, what was expected
+/// and what was found.
+class OrderTokens {
+public:
+    OrderTokens(const std::filesystem::path& path, const models::polygons::FileAxes& axes)
+        : path_(path)
+        , axes_(axes) {}
+
+    /// Goes to the next line of the file, of which a comment after # does not count. The text must
+    /// outlive the work on the line.
+    void begin_line(std::string_view text);
+
+    /// The words of the line with one space between them.
+    std::string line() const;
+
+    bool has_more() const { return at_ < words_.size(); }
+
+    /// The next word, which must be there.
+    std::string_view peek() const { return words_[at_]; }
+
+    void advance() { ++at_; }
+
+    /// Goes back to the word before, to refuse it.
+    void back() { --at_; }
+
+    void rewind() { at_ = 0; }
+
+    /// Throws Error about the next word.
+    [[noreturn]] void refuse(const std::string& expected) const;
+
+    bool next_is(std::string_view word) const { return has_more() && peek() == word; }
+
+    /// Reads that word where it comes next; returns whether it did.
+    bool skip(std::string_view word);
+
+    double number(const char* what);
+
+    /// A number that must not be negative.
+    double min_zero(const char* what);
+
+    /// A whole number within limits.
+    long count(const char* what, long least, long most);
+
+    /// Three numbers: a vector in body axes.
+    glm::dvec3 vector(const char* what);
+
+    /// A vector that must not be zero.
+    glm::dvec3 nonzero_vector(const char* what);
+
+    /// A plane with a normal of any length.
+    Plane plane();
+
+private:
+    std::filesystem::path path_;
+    models::polygons::FileAxes axes_;
+    std::vector<std::string_view> words_;
+    std::size_t at_ = 0;
+    int line_ = 0;
+};
+
+constexpr double largest_number = 1e12;
+constexpr double min_length = 1e-12; ///< A normal or direction must be longer than this.
+
+void OrderTokens::begin_line(std::string_view text) {
+    ++line_;
+    words_ = split_words(text.substr(0, text.find('#')));
+    at_ = 0;
+}
+
+std::string OrderTokens::line() const {
+    return fmt::format("{}", fmt::join(words_, " "));
+}
+
+void OrderTokens::refuse(const std::string& expected) const {
+    const std::string got =
+        has_more() ? fmt::format("'{}'", printable(std::string(peek()))) : "none";
+    throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+}
+
+bool OrderTokens::skip(std::string_view word) {
+    const bool there = next_is(word);
+    at_ += there ? 1 : 0;
+    return there;
+}
+
+double OrderTokens::number(const char* what) {
+    const auto value = has_more() ? finite_number(peek()) : std::nullopt;
+    if (!value || std::abs(*value) > largest_number) {
+        refuse(fmt::format("{} (a number within {:g})", what, largest_number));
+    }
+    ++at_;
+    return *value;
+}
+
+glm::dvec3 OrderTokens::vector(const char* what) {
+    const double x = number(what);
+    const double y = number(what);
+    const double z = number(what);
+    return axes_.body_from_file({x, y, z});
+}
+
+glm::dvec3 OrderTokens::nonzero_vector(const char* what) {
+    const glm::dvec3 v = vector(what);
+    if (glm::length(v) < min_length) {
+        --at_;
+        refuse(fmt::format("{} with a length", what));
+    }
+    return v;
+}
+
+long OrderTokens::count(const char* what, long least, long most) {
+    const auto value = has_more() ? whole_number(peek()) : std::nullopt;
+    if (!value || *value < least || *value > most) {
+        refuse(fmt::format("{} ({} to {})", what, least, most));
+    }
+    ++at_;
+    return *value;
+}
+
+double OrderTokens::min_zero(const char* what) {
+    const double value = number(what);
+    if (value < 0.0) {
+        --at_;
+        refuse(fmt::format("{} of 0 or more", what));
+    }
+    return value;
+}
+
+Plane OrderTokens::plane() {
+    const glm::dvec3 normal = nonzero_vector("a normal");
+    const double length = glm::length(normal);
+    // A unit vector stays as written, bit for bit.
+    const double factor = std::abs(length - 1.0) < 1e-14 ? 1.0 : 1.0 / length;
+    return {normal * factor, number("an offset") * factor};
+}
 
 using draworder::DrawOrder;
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "visuals/raster/draw_style.h"
 #include "visuals/raster/projection.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/raster/vertex_stage.h"
+#include "visuals/scene/paint_step.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -16,6 +16,17 @@
 #include <vector>
 
 namespace octant::visuals::raster {
+
+/// How the triangles of one step are drawn.
+struct DrawStyle {
+    Fill fill = Fill::Gouraud;
+    scene::DepthUse depth = scene::DepthUse::None;
+    std::uint16_t group = 0; ///< depth group, from 1
+    bool culls_back_faces = false;
+    bool has_detail_texture = false;                   ///< ground whose corners say their share of it
+    float opacity = 1.0F;                     ///< as scene::PaintStep
+    std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
+};
 
 /// Triangles of a part of a plan, in painting order.
 struct TriangleList {

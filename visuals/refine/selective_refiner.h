@@ -1,22 +1,284 @@
 #pragma once
 
+#include "models/collapse_sequence.h"
 #include "visuals/refine/active_leaf_set.h"
-#include "visuals/refine/dirty_blocks.h"
-#include "visuals/refine/classic_split_rules.h"
-#include "visuals/refine/face_lists.h"
 #include "visuals/refine/progressive_mesh.h"
-#include "visuals/refine/uint24_array.h"
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::refine {
+
+/// An array of numbers below 2^24 in three bytes each.
+class Uint24Array {
+public:
+    /// Makes an array of `count` zeros.
+    void assign(std::size_t count) { bytes_.assign(3 * count + 1, 0); }
+
+    std::uint32_t operator[](std::size_t at) const {
+        std::uint32_t number = 0;
+        std::memcpy(&number, &bytes_[3 * at], 4);
+        return number & 0xffffffU;
+    }
+
+    void set(std::size_t at, std::uint32_t number) { std::memcpy(&bytes_[3 * at], &number, 3); }
+
+    std::size_t bytes() const { return bytes_.capacity(); }
+
+private:
+    static_assert(std::endian::native == std::endian::little);
+
+    /// There is one more byte at the end, because numbers are read four bytes at a time.
+    std::vector<std::uint8_t> bytes_;
+};
+
+/// Reserves room for `count` items. The vector grows by a quarter at a time instead of doubling,
+/// and never beyond `most` items, to keep memory small.
+template <class Item>
+void reserve_up_to(std::vector<Item>& items, std::size_t count, std::size_t most) {
+    if (count > items.capacity()) {
+        items.reserve(std::max(count, std::min(count + count / 4, most)));
+    }
+}
+
+/// Triangles between numbered vertices, with a linked list of the corners at each vertex. The links
+/// are stored with the corners, so that adding and removing needs no memory once there was as much
+/// before. Corner 3 f + k is the k-th corner of face f. A removed face leaves a degenerate one
+/// behind (all corners at vertex 0), which draws nothing, until its place is used again.
+///
+/// Memory: 24 bytes a face, half of them the index list that the renderer uses, and 8 bytes a
+/// vertex. For that, corner numbers and face labels have 24 bits.
+class FaceLists {
+public:
+    static constexpr std::uint32_t none = models::none;
+
+    /// `vertex_capacity` and `face_capacity` limit how many there may be at a time. Corner numbers
+    /// and face labels must stay below 2^24 - 1 (asserted).
+    FaceLists(std::size_t vertex_capacity, std::size_t face_capacity);
+
+    /// Removes all vertices and faces but keeps the memory.
+    void clear();
+
+    /// Adds a vertex without faces whose label is `none`, and returns its number. The number of the
+    /// vertex that was removed last is used again (and keeps its marks); otherwise it is the next
+    /// one.
+    std::uint32_t add_vertex();
+
+    /// Removes a vertex that has no faces (asserted).
+    void remove_vertex(std::uint32_t vertex);
+
+    /// How many vertex numbers are in use, those of removed vertices included.
+    std::size_t vertex_count() const { return vertices_.size(); }
+
+    /// A number that the caller keeps with a vertex.
+    std::uint32_t vertex_label(std::uint32_t vertex) const { return vertices_[vertex].label; }
+
+    void set_vertex_label(std::uint32_t vertex, std::uint32_t label) {
+        vertices_[vertex].label = label;
+    }
+
+    /// Eight bits that the caller keeps with a vertex.
+    std::uint32_t marks(std::uint32_t vertex) const { return vertices_[vertex].marks; }
+
+    void set_marks(std::uint32_t vertex, std::uint32_t marks) {
+        vertices_[vertex].marks = marks & 0xffU;
+    }
+
+    /// Adds a face and returns its number. `label` is a number that the caller keeps with the face.
+    std::uint32_t add(const std::array<std::uint32_t, 3>& vertices, std::uint32_t label);
+
+    void remove(std::uint32_t face);
+
+    /// Calls use(corner) for each corner at a vertex.
+    template <class Use>
+    void for_each_corner(std::uint32_t vertex, const Use& use) const {
+        for (std::uint32_t c = vertices_[vertex].first; c != no_corner; c = links_[c].next) {
+            use(c);
+        }
+    }
+
+    /// Moves those corners of vertex `from` for which moves(corner) is true to vertex `to`, in
+    /// front of that vertex's own corners. The loop has no branch on what moves, because the
+    /// outcome is as good as random and would be mispredicted half of the time.
+    template <class Moves>
+    void move_corners(std::uint32_t from, std::uint32_t to, const Moves& moves) {
+        std::array<std::uint32_t, 2> heads{no_corner, vertices_[to].first};
+        const std::array<std::uint32_t, 2> vertices{from, to};
+        std::uint32_t corner = vertices_[from].first;
+        while (corner != no_corner) {
+            const std::uint32_t following = links_[corner].next;
+            const auto side = static_cast<std::size_t>(moves(corner));
+            links_[corner].next = heads[side] & no_corner;
+            heads[side] = corner;
+            indices_[corner] = vertices[side];
+            corner = following;
+        }
+        vertices_[from].first = heads[0] & no_corner;
+        vertices_[to].first = heads[1] & no_corner;
+    }
+
+    /// The number of the face with a given label at a vertex; `none` when there is none.
+    std::uint32_t find(std::uint32_t vertex, std::uint32_t label) const;
+
+    std::uint32_t vertex(std::uint32_t corner) const { return indices_[corner]; }
+
+    /// The next corner of the same face, counter-clockwise.
+    static std::uint32_t next_in_face(std::uint32_t corner) {
+        return corner % 3 == 2 ? corner - 2 : corner + 1;
+    }
+
+    /// The previous corner of the same face, counter-clockwise.
+    static std::uint32_t previous_in_face(std::uint32_t corner) {
+        return corner % 3 == 0 ? corner + 2 : corner - 1;
+    }
+
+    /// The label of a face; `none` for a place without a face.
+    std::uint32_t label(std::uint32_t face) const {
+        const Link* links = &links_[3 * std::size_t{face}];
+        const std::uint32_t label = std::uint32_t{links[0].label_part} |
+                                    std::uint32_t{links[1].label_part} << 8U |
+                                    std::uint32_t{links[2].label_part} << 16U;
+        return label == no_corner ? none : label;
+    }
+
+    /// How many face numbers are in use, those of removed faces included.
+    std::size_t face_slot_count() const { return links_.size() / 3; }
+
+    std::size_t face_count() const { return face_count_; }
+
+    /// The index list: three vertices for each place.
+    std::span<const std::uint32_t> indices() const { return indices_; }
+
+    std::size_t bytes() const;
+
+private:
+    static constexpr std::uint32_t no_corner = 0xffffffU;
+
+    struct Vertex {
+        std::uint32_t first : 24 = no_corner; ///< The head of the list of corners at this vertex.
+        std::uint32_t marks : 8 = 0;
+        std::uint32_t label = none;
+    };
+
+    /// What is kept with a corner. The three corners of a face hold its 24-bit label together, 8
+    /// bits each.
+    struct Link {
+        std::uint32_t next : 24; ///< The next corner at the same vertex.
+        std::uint32_t label_part : 8;
+    };
+
+    void set_label(std::uint32_t face, std::uint32_t label);
+    void unlink(std::uint32_t corner);
+
+    std::vector<Vertex> vertices_;
+    std::vector<std::uint32_t> indices_; ///< For each corner its vertex.
+    std::vector<Link> links_;            ///< One for each corner.
+    /// The head of the list of free places, linked through their first corners.
+    std::uint32_t free_ = no_corner;
+    /// The head of the list of free vertices, linked through Vertex::first.
+    std::uint32_t free_vertices_ = no_corner;
+    std::size_t face_count_ = 0;
+    std::size_t vertices_at_max_;
+    std::size_t faces_at_max_;
+};
+
+/// A half-open range [first, end) of indices into an array.
+struct SlotRange {
+    std::size_t first = 0;
+    std::size_t end = 0;
+
+    bool operator==(const SlotRange&) const = default;
+};
+
+/// Remembers which blocks of an array were written since take() was last called, so that only these
+/// are uploaded to the graphics card.
+class DirtyBlocks {
+public:
+    static constexpr std::size_t block_size = 64;
+
+    void mark(std::size_t place) {
+        const std::size_t block = place / block_size;
+        if (block >= marks_.size()) {
+            marks_.resize(block + 1, 0);
+        }
+        marks_[block] = 1;
+    }
+
+    /// Marks the block of a place when `written` is true, without a branch. The block must have
+    /// been marked at some time before, so that its mark exists.
+    void mark_if(std::size_t place, bool written) {
+        marks_[place / block_size] |= static_cast<std::uint8_t>(written);
+    }
+
+    /// Puts the maximal runs of marked blocks into `ranges`, ascending and cut off at `size`
+    /// places, and clears all marks.
+    void take(std::size_t size, std::vector<SlotRange>& ranges) {
+        ranges.clear();
+        for (std::size_t block = 0; block < marks_.size(); ++block) {
+            if (marks_[block] == 0) {
+                continue;
+            }
+            marks_[block] = 0;
+            const std::size_t first = block * block_size;
+            const std::size_t end = first + block_size < size ? first + block_size : size;
+            if (!ranges.empty() && ranges.back().end == first) {
+                ranges.back().end = end;
+            } else if (first < end) {
+                ranges.push_back({first, end});
+            }
+        }
+    }
+
+    std::size_t bytes() const { return marks_.capacity(); }
+
+private:
+    std::vector<std::uint8_t> marks_;
+};
+
+/// Which neighbourhood must be active before a node may split.
+enum class SplitRule {
+    Selective, ///< Kim & Lee 2000, 2001: two different active cut vertices.
+    Hoppe,     ///< Hoppe 1997: the faces that lay beside the two removed ones at collapse time.
+    Xia        ///< Xia & Varshney 1996: all vertices of the 1-ring at collapse time.
+};
+
+/// The neighbourhoods that the two earlier rules store for each collapse. They are here so that the
+/// three rules can be compared over one hierarchy. Found by replaying all collapses of the mesh
+/// once.
+class ClassicSplitRules {
+public:
+    explicit ClassicSplitRules(const ProgressiveMesh& mesh);
+
+    /// The four original faces fn0 to fn3 of Hoppe 1997: the ones across the remaining edges of the
+    /// two faces that the collapse removed; `none` on a boundary. `node` is an inner node.
+    const std::array<std::uint32_t, 4>& adjacent_faces(std::uint32_t node) const {
+        return adjacent_faces_[node - leaves_];
+    }
+
+    /// The 1-ring of Xia & Varshney: the nodes around both children when they were collapsed,
+    /// ascending.
+    std::span<const std::uint32_t> ring(std::uint32_t node) const { return rings_[node - leaves_]; }
+
+    /// The inner node whose split adds an original face to the active mesh; `none` for a face of
+    /// the base mesh.
+    std::uint32_t introducer(std::uint32_t face) const { return introducers_[face]; }
+
+private:
+    std::uint32_t leaves_;
+    std::vector<std::array<std::uint32_t, 4>> adjacent_faces_;
+    std::vector<std::vector<std::uint32_t>> rings_;
+    std::vector<std::uint32_t> introducers_;
+};
 
 /// A vertex as it is drawn, in the layout that the graphics card takes. 20 bytes.
 struct RefinedVertex {

@@ -3,20 +3,179 @@
 // eyes that see a polygon are bounded by its plane, too. Where no single plane will do, a game
 // finds the factors, and where rounding spoils that a linear programme.
 #include "visuals/separation/separating_plane_proof.h"
-
 #include "visuals/separation/linear_program.h"
-#include "visuals/separation/matrix_game.h"
-#include "visuals/separation/refined_optimum.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::separation {
+
+namespace {
+
+// Iterative refinement: A. Gleixner, D. Steffy, K. Wolter, "Iterative Refinement for Linear
+// Programming", 2016. A solver keeps bounds within 1e-9. What it is off by is put under a
+// magnifying glass and solved for again, with the same factors.
+
+constexpr double magnification = 1e6;
+constexpr int rounds = 1;
+
+/// The programme of what is to be added to a solution, times `magnification`.
+LinearProgram correction(const LinearProgram& program, const std::vector<double>& solution) {
+    LinearProgram out = program;
+    for (std::size_t i = 0; i < solution.size(); ++i) {
+        out.variables[i].least = (out.variables[i].least - solution[i]) * magnification;
+        out.variables[i].most = (out.variables[i].most - solution[i]) * magnification;
+    }
+    for (LinearProgram::Row& row : out.rows) {
+        long double value = 0.0;
+        for (std::size_t i = 0; i < solution.size(); ++i) {
+            value += static_cast<long double>(row.factors[i]) * solution[i];
+        }
+        row.least = static_cast<double>((row.least - value) * magnification);
+        row.most = static_cast<double>((row.most - value) * magnification);
+    }
+    return out;
+}
+
+/// The variables of an optimum to nearly all of their digits; nothing where none is found.
+std::optional<std::vector<double>> refined_optimum(const LinearProgram& program) {
+    auto solution = optimum(program);
+    for (int round = 0; solution && round < rounds; ++round) {
+        const auto more = optimum(correction(program, *solution));
+        if (!more) {
+            break;
+        }
+        for (std::size_t i = 0; i < solution->size(); ++i) {
+            (*solution)[i] += (*more)[i] / magnification;
+        }
+    }
+    return solution;
+}
+
+} // namespace
+
+// G. Dantzig's way to solve a game by the simplex method: with all payoffs positive the other
+// player's programme, to maximise the sum of y with y >= 0 and at most 1 for each choice, begins at
+// y = 0, and its dual variables are proportional to the shares.
+
+namespace {
+
+constexpr double rounding = 1e-13;
+
+/// A row for each choice and one for the aim, a column for each case and one for the bounds.
+class Tableau {
+public:
+    explicit Tableau(const Payoffs& payoffs)
+        : choices_(payoffs.choices)
+        , cases_(payoffs.cases())
+        , wide_(cases_ + 1)
+        , cells_((choices_ + 1) * wide_, 0.0)
+        , of_row_(choices_)
+        , of_column_(cases_) {
+        const double shift = 1.0 - *std::ranges::min_element(payoffs.values);
+        for (std::size_t i = 0; i < choices_; ++i) {
+            for (std::size_t k = 0; k < cases_; ++k) {
+                at(i, k) = payoffs.values[k * choices_ + i] + shift;
+            }
+            at(i, cases_) = 1.0;
+        }
+        for (std::size_t k = 0; k < cases_; ++k) {
+            at(choices_, k) = -1.0;
+        }
+        std::iota(of_row_.begin(), of_row_.end(), std::size_t{0});
+        std::iota(of_column_.begin(), of_column_.end(), choices_);
+    }
+
+    std::vector<double> shares() {
+        // Far more steps than are ever needed: a circle would end here.
+        const std::size_t max_steps = 8 * (choices_ + cases_) + 32;
+        for (std::size_t step = 0; step < max_steps; ++step) {
+            const std::size_t column = entering();
+            if (column == cases_) {
+                break;
+            }
+            exchange(leaving(column), column);
+        }
+        std::vector<double> shares(choices_, 0.0);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < cases_; ++k) {
+            if (of_column_[k] < choices_) {
+                sum += shares[of_column_[k]] = std::max(at(choices_, k), 0.0);
+            }
+        }
+        for (double& share : shares) {
+            share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(choices_);
+        }
+        return shares;
+    }
+
+private:
+    double& at(std::size_t row, std::size_t column) { return cells_[row * wide_ + column]; }
+
+    /// The column that improves the aim most; none at the optimum.
+    std::size_t entering() {
+        const auto row = cells_.begin() + static_cast<std::ptrdiff_t>(choices_ * wide_);
+        const auto least = std::min_element(row, row + static_cast<std::ptrdiff_t>(cases_));
+        return *least < -rounding ? static_cast<std::size_t>(least - row) : cases_;
+    }
+
+    /// The row whose bound is met first. There is one: all payoffs are positive.
+    std::size_t leaving(std::size_t column) {
+        std::size_t first = choices_;
+        double least = 0.0;
+        for (std::size_t i = 0; i < choices_; ++i) {
+            if (at(i, column) <= rounding) {
+                continue;
+            }
+            const double ratio = at(i, cases_) / at(i, column);
+            if (first == choices_ || ratio < least) {
+                first = i;
+                least = ratio;
+            }
+        }
+        return std::min(first, choices_ - 1);
+    }
+
+    void exchange(std::size_t row, std::size_t column) {
+        const double pivot = at(row, column);
+        for (std::size_t k = 0; k < wide_; ++k) {
+            at(row, k) = k == column ? 1.0 / pivot : at(row, k) / pivot;
+        }
+        for (std::size_t i = 0; i <= choices_; ++i) {
+            if (i == row) {
+                continue;
+            }
+            const double factor = at(i, column);
+            for (std::size_t k = 0; k < wide_ && factor != 0.0; ++k) {
+                at(i, k) = k == column ? -factor / pivot : at(i, k) - factor * at(row, k);
+            }
+        }
+        std::swap(of_row_[row], of_column_[column]);
+    }
+
+    std::size_t choices_;
+    std::size_t cases_;
+    std::size_t wide_;
+    std::vector<double> cells_;
+    std::vector<std::size_t> of_row_; ///< What stands there: choices, then cases.
+    std::vector<std::size_t> of_column_;
+};
+
+} // namespace
+
+std::vector<double> best_shares(const Payoffs& payoffs) {
+    assert(payoffs.cases() > 0);
+    return Tableau(payoffs).shares();
+}
 
 namespace {
 

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "visuals/terrain/box_error_bound.h"
-#include "visuals/terrain/float4.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/vertical_distances.h"
-#include "visuals/terrain/level_reader.h"
+
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
@@ -13,6 +11,288 @@
 #include <vector>
 
 namespace octant::visuals::terrain {
+
+/// The vertical distance of the eye from the ground around a block, which is a node with height
+/// bounds.
+struct VerticalDistances {
+    /// The least squared distance to the block and to some of its neighbours. The index is a sum: 1
+    /// includes those beyond its west side, 2 east, 4 south, 8 north.
+    std::array<float, 16> squared_m2{};
+    /// The same for how far ahead of the eye the block's heights alone bring it, at least: their
+    /// share of the depth in the picture.
+    std::array<float, 16> ahead_m{};
+    float lowest_m = 0.0F; ///< The lowest of the block's own samples.
+    float highest_m = 0.0F;
+};
+
+/// A node by its place.
+struct BlockIndex {
+    int level = 0;
+    int column = 0;
+    int row = 0;
+};
+
+/// Where an eye is and looks, as far as heights are concerned.
+struct EyeElevation {
+    float z_m = 0.0F;
+    float ahead_up = 0.0F; ///< What a metre up brings ahead; 0 for all around the eye.
+};
+
+/// The gaps of a block for an eye.
+VerticalDistances vertical_distances(const GroundTiles& ground, const BlockIndex& block, const EyeElevation& eye);
+
+/// Fast access to the numbers of a level of GroundTiles by node. The numbers of a node's fan lie
+/// close together.
+class LevelReader {
+public:
+    using FourCodes = std::array<std::uint8_t, 4>;
+
+    /// Where a node's numbers lie: its tile, and its place in it.
+    struct NodeSlot {
+        const std::byte* tile;
+        std::size_t node;
+    };
+
+    /// The ground's memory must outlive it.
+    LevelReader(const GroundTiles& ground, int level)
+        : memory_(ground.memory().data())
+        , corners_(ground.layout().corners())
+        , at_(ground.layout().level(level))
+        , validator_(&ground.validator())
+        , level_(level)
+        , mask_((1 << at_.tile_shift) - 1) {}
+
+    int edge() const { return at_.edge; }
+
+    int columns() const { return at_.columns; }
+
+    int rows() const { return at_.rows; }
+
+    NodeSlot slot(int column, int row) const {
+        const auto tile = static_cast<std::size_t>(
+            (row >> at_.tile_shift) * at_.tiles_across + (column >> at_.tile_shift));
+        validator_->ensure_valid(level_, tile);
+        return {
+            memory_ + at_.first_tile + tile * at_.tile_bytes,
+            static_cast<std::size_t>(((row & mask_) << at_.tile_shift) + (column & mask_))};
+    }
+
+    /// The error codes of the mid-points of a node's fan_edges.
+    FourCodes middle_codes(int column, int row, MorphMargin morph_margin) const {
+        const NodeSlot own = slot(column, row);
+        const auto r = static_cast<std::size_t>(morph_margin);
+        return {
+            *error(own, NodePart::South, morph_margin),
+            *(column + 1 == at_.columns ? codes(at_.east_errors[r]) + row
+                                        : error(east_of(own, column, row), NodePart::West, morph_margin)),
+            *(row + 1 == at_.rows ? codes(at_.north_errors[r]) + column
+                                  : error(north_of(own, column, row), NodePart::South, morph_margin)),
+            *error(own, NodePart::West, morph_margin)};
+    }
+
+    /// The error codes of the centres of the four children of one node of the level above, the
+    /// first of which is at (column, row); meaningless for children that do not exist.
+    FourCodes child_codes(int column, int row, MorphMargin morph_margin) const {
+        const std::uint8_t* first = error(slot(column, row), NodePart::Centre, morph_margin);
+        const std::uint8_t* above = first + (std::ptrdiff_t{1} << at_.tile_shift);
+        return {first[0], first[1], above[0], above[1]};
+    }
+
+    std::uint8_t centre_code(int column, int row, MorphMargin morph_margin) const {
+        return *error(slot(column, row), NodePart::Centre, morph_margin);
+    }
+
+    /// The stored height of the root's corner in a quadrant.
+    std::int16_t corner_height(std::size_t quadrant) const { return heights(corners_)[quadrant]; }
+
+    std::int16_t centre_height(const NodeSlot& own) const { return *height(own, NodePart::Centre); }
+
+    /// The stored height of the mid-point of one of a node's fan_edges.
+    std::int16_t middle_height(const NodeSlot& own, int column, int row, std::size_t edge) const {
+        switch (edge) {
+        case 0:
+            return *height(own, NodePart::South);
+        case 1:
+            return *(
+                column + 1 == at_.columns ? heights(at_.east_heights) + row
+                                          : height(east_of(own, column, row), NodePart::West));
+        case 2:
+            return *(
+                row + 1 == at_.rows ? heights(at_.north_heights) + column
+                                    : height(north_of(own, column, row), NodePart::South));
+        default:
+            return *height(own, NodePart::West);
+        }
+    }
+
+private:
+    const std::uint8_t* codes(std::size_t offset) const {
+        return reinterpret_cast<const std::uint8_t*>(memory_ + offset);
+    }
+
+    const std::int16_t* heights(std::size_t offset) const {
+        return reinterpret_cast<const std::int16_t*>(memory_ + offset);
+    }
+
+    const std::uint8_t* error(const NodeSlot& slot, NodePart part, MorphMargin morph_margin) const {
+        const std::size_t plane =
+            at_.errors[static_cast<std::size_t>(morph_margin)][static_cast<std::size_t>(part)];
+        return reinterpret_cast<const std::uint8_t*>(slot.tile) + plane + slot.node;
+    }
+
+    const std::int16_t* height(const NodeSlot& slot, NodePart part) const {
+        const std::size_t plane = static_cast<std::size_t>(part) * at_.tile_nodes;
+        return reinterpret_cast<const std::int16_t*>(slot.tile) + plane + slot.node;
+    }
+
+    NodeSlot east_of(const NodeSlot& own, int column, int row) const {
+        return (column & mask_) != mask_ ? NodeSlot{own.tile, own.node + 1} : slot(column + 1, row);
+    }
+
+    NodeSlot north_of(const NodeSlot& own, int column, int row) const {
+        return (row & mask_) != mask_
+                   ? NodeSlot{own.tile, own.node + (std::size_t{1} << at_.tile_shift)}
+                   : slot(column, row + 1);
+    }
+
+    const std::byte* memory_;
+    std::size_t corners_;
+    GroundLayout::Level at_;
+    const TileValidator* validator_;
+    int level_;
+    int mask_;
+};
+
+/// Four numbers that are computed with at a time, each with the same result as alone.
+using Float4 = float __attribute__((vector_size(16)));
+
+/// The larger one of each pair.
+inline Float4 max4(Float4 a, Float4 b) {
+    return a > b ? a : b;
+}
+
+/// The smaller one of each pair.
+inline Float4 min4(Float4 a, Float4 b) {
+    return a < b ? a : b;
+}
+
+/// The same number four times.
+inline Float4 splat4(float each) {
+    return Float4{each, each, each, each};
+}
+
+/// Bounds how far errors in boxes are seen to reach in a picture, as the beginning of
+/// error_rule.cpp tells.
+class BoxErrorBound {
+public:
+    /// The boxes of influence of four samples: their ends in samples from the eye, and the least
+    /// vertical share of their distance squared and of their depth.
+    struct FourBoxes {
+        Float4 west;
+        Float4 east;
+        Float4 south;
+        Float4 north;
+        Float4 gap_m2;
+        Float4 ahead_m;
+    };
+
+    explicit BoxErrorBound(double spacing_m)
+        : spacing_m_(spacing_m)
+        , spacing_squared_m2_(static_cast<float>(spacing_m * spacing_m)) {}
+
+    /// Bounds for pictures in this direction from now on, by the cosine of the angle to their
+    /// corners; for all around the eye where the direction is zero.
+    void set_direction(const glm::dvec3& ahead, double corner_cos);
+
+    /// Whether the view has a direction.
+    bool has_direction() const { return has_direction_; }
+
+    /// The squares of lower bounds of m, where an error e anywhere in a box is at most focal length
+    /// * e / m pixels.
+    Float4 squared_m2(const FourBoxes& boxes) const;
+
+private:
+    /// What a sample east and a sample north bring along a level direction, in metres.
+    struct AxisProjection {
+        float east_m = 0.0F;
+        float north_m = 0.0F;
+    };
+
+    /// The ends of what boxes reach along a direction.
+    struct Range {
+        Float4 min_m;
+        Float4 max_m;
+    };
+
+    static Range range_along(const FourBoxes& boxes, const AxisProjection& along);
+    Float4 min_share(const FourBoxes& boxes, const Range& level) const;
+
+    double spacing_m_;
+    float spacing_squared_m2_;
+    bool has_direction_ = false;
+    AxisProjection ahead_;        ///< The level part of the direction.
+    AxisProjection aside_;        ///< Square to it, times the sine of the pitch.
+    float level_ = 1.0F; ///< The cosine of the pitch.
+    float corner_cos_squared_ = 1.0F;
+    float max_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
+    float near_factor_ = 1.0F;
+};
+
+/// The squared distances along one axis from the eye to four boxes that reach from `before` to
+/// `after`, in samples^2.
+inline Float4 squared_distance(Float4 before, Float4 after) {
+    const Float4 off = max4(max4(before, -after), splat4(0.0F));
+    return off * off;
+}
+
+/// A linear function at `before` where it rises and at `after` where it falls: its least over what
+/// reaches from `before` to `after`, and its most with the ends exchanged.
+inline Float4 min_along(Float4 before, Float4 after, float slope) {
+    return splat4(slope) * (slope > 0.0F ? before : after);
+}
+
+inline BoxErrorBound::Range BoxErrorBound::range_along(const FourBoxes& b, const AxisProjection& along) {
+    return {
+        min_along(b.west, b.east, along.east_m) + min_along(b.south, b.north, along.north_m),
+        min_along(b.east, b.west, along.east_m) + min_along(b.north, b.south, along.north_m)};
+}
+
+/// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a
+/// picture may show.
+inline Float4 BoxErrorBound::min_share(const FourBoxes& b, const Range& level) const {
+    constexpr float min_divisor_m = 1e-6F; // in place of a division by zero
+    // Only a picture that shows what lies straight below or above the eye shows what lies behind
+    // it; sums up to this count, because of rounding.
+    constexpr float sees_nadir = 1.0001F;
+    const Float4 worst_m = b.ahead_m < splat4(0.0F) ? level.min_m : level.max_m;
+    const Float4 before = splat4(1.0F) + b.ahead_m / max4(worst_m, splat4(min_divisor_m));
+    Float4 share = before;
+    if (level_ * level_ + corner_cos_squared_ < sees_nadir) {
+        const Float4 behind = b.ahead_m / max4(-level.min_m, splat4(min_divisor_m)) - splat4(1.0F);
+        share = level.min_m < splat4(0.0F) ? min4(before, behind) : before;
+    }
+    return splat4(level_) * max4(share, splat4(0.0F));
+}
+
+inline Float4 BoxErrorBound::squared_m2(const FourBoxes& b) const {
+    const Float4 distance_m2 = max4(
+        splat4(spacing_squared_m2_) *
+                (squared_distance(b.west, b.east) + squared_distance(b.south, b.north)) +
+            b.gap_m2,
+        splat4(1.0F));
+    if (!has_direction_) {
+        return distance_m2;
+    }
+    const Range level = range_along(b, ahead_);
+    const Float4 depth_m = max4(level.min_m + b.ahead_m, splat4(0.0F));
+    const Float4 depth_m2 = max4(depth_m * depth_m, splat4(corner_cos_squared_) * distance_m2);
+    const Range aside = range_along(b, aside_);
+    const Float4 aside_m2 = max4(aside.min_m * aside.min_m, aside.max_m * aside.max_m);
+    const Float4 share = min_share(b, level);
+    const Float4 across =
+        splat4(1.0F) / (share * share) + min4(aside_m2 / depth_m2, splat4(max_aside_squared_));
+    return depth_m2 * max4(splat4(1.0F) / across, splat4(near_factor_));
+}
 
 /// A node, with what its ancestors know about it.
 struct NodeContext {

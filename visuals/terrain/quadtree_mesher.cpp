@@ -14,14 +14,296 @@
 //   border.
 // - Those of equation (3) are stated in split_rule.cpp.
 #include "visuals/terrain/quadtree_mesher.h"
-
+#include "visuals/terrain/count_search.h"
+#include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/frustum.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
 namespace octant::visuals::terrain {
+
+// Which nodes of the restricted quadtree split: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD
+// Method that Minimize Flickering Effect", equations (1) and (3).
+//
+// Deviations:
+// - Equation (3), f = l / (d C max(c d2, 1)) < 1, is evaluated as C > l / (d max(c d2, 1)), with
+//   both sides squared. The right side belongs to the node and the view alone, so that the C of
+//   every step of N(C) is known.
+// - l is sqrt(dx^2 + dy^2 + (eye's height above the ground below it)^2), with dx, dy to the node's
+//   centre. The third part is the same for all nodes, so that l changes by no more than the
+//   distance between two centres and splitting is monotone down the tree.
+// - The root is always in the mesh, whatever its f.
+// - C is raised to the tree's smallest and multiplied by the view's magnification.
+
+namespace {
+
+/// More than the rounding of heights in double precision can amount to.
+constexpr double height_margin_m = 1e-6;
+
+} // namespace
+
+QuadtreeCriterion::QuadtreeCriterion(const Quadtree& tree)
+    : tree_(&tree) {
+    for (int level = 0; level < tree.levels(); ++level) {
+        const auto edge = static_cast<float>(tree.edge_samples(level));
+        levels_.push_back(
+            {tree.edge_samples(level),
+             tree.columns(level),
+             tree.rows(level),
+             tree.index_of(level, 0, 0),
+             edge,
+             0.5F * edge});
+    }
+}
+
+void QuadtreeCriterion::set_view(const MeshView& view, const QuadtreeDetail& detail) {
+    assert(view.magnification >= 1.0);
+    assert(detail.roughness_weight >= 0.0 && detail.roughness_weight < 1e6);
+    const models::heights::HeightField& field = tree_->field();
+    const glm::dvec2 half_m = field.half_extent_m();
+    const double ground_m = field
+                                .height_at(
+                                    std::clamp(view.eye_m.x, -half_m.x, half_m.x),
+                                    std::clamp(view.eye_m.y, -half_m.y, half_m.y))
+                                .value_or(0.0);
+    view_ = view;
+    west_m_ = -half_m.x - view.eye_m.x;
+    south_m_ = -half_m.y - view.eye_m.y;
+    eye_column_ = static_cast<float>(-west_m_ / field.spacing_m());
+    eye_row_ = static_cast<float>(-south_m_ / field.spacing_m());
+    const double height = std::max(view.eye_m.z - ground_m, 0.0) / field.spacing_m();
+    eye_height_squared_ = static_cast<float>(height * height);
+    fan_kind_ = detail.fans;
+    roughness_weight_ = static_cast<float>(detail.roughness_weight);
+}
+
+double QuadtreeCriterion::resolution_of(float limit) const {
+    return std::max(
+        std::sqrt(static_cast<double>(limit)) / view_.magnification,
+        tree_->options().min_resolution);
+}
+
+std::array<float, 4> QuadtreeCriterion::critical_squared_of_four(int level, int column, int row) const {
+    std::array<float, 4> critical{};
+    if (fan_kind_ == FanKind::Full) {
+        critical.fill(critical_squared(level, column, row));
+        return critical;
+    }
+    const Level& at = levels_[static_cast<std::size_t>(level)];
+    const std::size_t east = column + 1 < at.columns ? 1 : 0;
+    const std::size_t north = row + 1 < at.rows ? static_cast<std::size_t>(at.columns) : 0;
+    const QuadtreeNode* first = tree_->nodes().data() + node_at(level, column, row);
+    const std::array<float, 4> roughness = {
+        roughness_of(first[0]),
+        roughness_of(first[east]),
+        roughness_of(first[north]),
+        roughness_of(first[north + east])};
+    for (unsigned q = 0; q < 4; ++q) {
+        critical[q] = critical_squared_at(
+            at, column + static_cast<int>(q & 1U), row + static_cast<int>(q >> 1U), roughness[q]);
+    }
+    return critical;
+}
+
+NodeBox QuadtreeCriterion::box_of(const GroundFan& node) const {
+    const models::heights::HeightField& field = tree_->field();
+    const QuadtreeNode& bounds = tree_->nodes()[node.node];
+    const int edge = levels_[node.level].edge;
+    const int west = node.column * edge;
+    const int south = node.row * edge;
+    NodeBox box{
+        field.sample_m(west, south),
+        field.sample_m(
+            std::min(west + edge, field.columns() - 1), std::min(south + edge, field.rows() - 1))};
+    box.min_m.z = tree_->lowest_m(bounds) - height_margin_m;
+    box.max_m.z = tree_->highest_m(bounds) + height_margin_m;
+    return box;
+}
+
+unsigned QuadtreeCriterion::crossed_planes_of_node(const GroundFan& node, unsigned planes) const {
+    const models::heights::HeightField& field = tree_->field();
+    const QuadtreeNode& bounds = tree_->nodes()[node.node];
+    const int edge = levels_[node.level].edge;
+    const int west = node.column * edge;
+    const int south = node.row * edge;
+    const int east = std::min(west + edge, field.columns() - 1);
+    const int north = std::min(south + edge, field.rows() - 1);
+    const double half_spacing_m = 0.5 * field.spacing_m();
+    const double low_m = tree_->lowest_m(bounds) - view_.eye_m.z;
+    const double high_m = tree_->highest_m(bounds) - view_.eye_m.z;
+    const glm::dvec3 centre_m(
+        west_m_ + (west + east) * half_spacing_m,
+        south_m_ + (south + north) * half_spacing_m,
+        0.5 * (low_m + high_m));
+    const glm::dvec3 half_m(
+        (east - west) * half_spacing_m, (north - south) * half_spacing_m, 0.5 * (high_m - low_m));
+    return crossed_planes(view_.frustum_normals, planes, centre_m, half_m);
+}
+
+// The resolution C that spends a budget of triangles, exactly and in the frame in which it is
+// spent: equations (1) and (3) of E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that
+// Minimize Flickering Effect", solved for C. Each node has a critical C above which it is in the
+// mesh; N(C) is a sum of steps at these values, and the largest C within the budget is read off.
+//
+// Deviation: this replaces section 3 of the paper, which steers C by the triangles of earlier
+// frames, equations (4) and (5).
+
+namespace {
+
+constexpr float unbounded = std::numeric_limits<float>::infinity();
+constexpr float first_look = 64.0F; ///< Without a last call the first walk looks up to C = 8.
+
+/// A child of a node, without its index.
+GroundFan child_of(const GroundFan& fan, unsigned quadrant) {
+    GroundFan child;
+    child.column = static_cast<std::uint16_t>(2U * fan.column + (quadrant & 1U));
+    child.row = static_cast<std::uint16_t>(2U * fan.row + (quadrant >> 1U));
+    child.level = static_cast<std::uint8_t>(fan.level + 1);
+    return child;
+}
+
+} // namespace
+
+float QuadtreeSelection::limit_for(const QuadtreeCriterion& rule, const TriangleBudget& budget) {
+    assert(budget.triangles >= 1);
+    rule_ = &rule;
+    nodes_tested_ = 0;
+    const float last = last_resolution_ > 0.0 ? rule.limit_squared(last_resolution_) : 0.0F;
+    const CountSearch search{
+        budget.triangles,
+        rule.limit_squared(0.0),
+        rule.limit_squared(budget.max_resolution),
+        last,
+        first_look};
+    const float found =
+        find_limit(search, steps_, [&](float low, float high, int max_triangles) {
+            return survey(low, high, max_triangles);
+        });
+    last_resolution_ = rule.resolution_of(found);
+    return found;
+}
+
+/// Walks the tree and collects nodes and steps below `high`. Returns whether there is more above
+/// it.
+bool QuadtreeSelection::survey(float low, float high, int max_triangles) {
+    nodes_.clear();
+    steps_.start(low, high);
+    high_ = high;
+    max_triangles_ = max_triangles;
+    has_steps_above_ = false;
+    PendingNode root;
+    root.planes = active_planes(rule_->view().frustum_normals);
+    visit(root);
+    return has_steps_above_;
+}
+
+/// Surveys a node and the nodes below it.
+void QuadtreeSelection::visit(const PendingNode& from) {
+    if (steps_.at_high() > max_triangles_) {
+        return;
+    }
+    SelectedNode node;
+    node.fan = from.fan;
+    node.fan.crosses_frustum = from.planes != 0;
+    node.node_limit = from.node_limit;
+    node.split.fill(unbounded);
+    std::array<unsigned, 4> planes{};
+    if (from.fan.level + 1 < tree_->levels()) {
+        test_quadrants(from, node, planes);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        const FanEdge& edge = fan_edges[k];
+        node.middle[k] =
+            std::min({from.beyond[k], node.split[edge.quadrant_a], node.split[edge.quadrant_b]});
+    }
+    const FanSamples samples(
+        tree_->field(), rule_->level(node.fan.level).edge, node.fan.column, node.fan.row);
+    FanTriangles cut_triangles;
+    const FanTriangles* triangles = &uncut_fan_triangles;
+    if (samples.is_cut()) {
+        cut_triangles = triangles_with_area(samples);
+        triangles = &cut_triangles;
+    }
+    const FanLimits limits{node.node_limit, node.middle, node.fan.hidden, from.replaced};
+    has_steps_above_ = count_fan(limits, *triangles, high_, steps_) || has_steps_above_;
+    nodes_.push_back(node);
+    for (unsigned q = 0; q < 4; ++q) {
+        if ((unsigned{node.fan.hidden} >> q & 1U) != 0) {
+            continue;
+        }
+        if (node.split[q] >= high_) {
+            has_steps_above_ = true;
+            continue;
+        }
+        PendingNode next = child_pending(from, node, q);
+        next.planes = planes[q];
+        next.replaced = triangles->of_quadrant[q];
+        visit(next);
+    }
+}
+
+/// Fills in the limits at which the quadrants split, which of them are hidden, and which frustum
+/// planes their boxes may reach beyond.
+void QuadtreeSelection::test_quadrants(
+    const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes) {
+    const int level = from.fan.level + 1;
+    const QuadtreeCriterion::Level& at = rule_->level(level);
+    const std::array<float, 4> critical =
+        rule_->critical_squared_of_four(level, 2 * from.fan.column, 2 * from.fan.row);
+    for (unsigned q = 0; q < 4; ++q) {
+        const auto bit = static_cast<std::uint8_t>(1U << q);
+        GroundFan child = child_of(from.fan, q);
+        if (child.column >= at.columns || child.row >= at.rows) {
+            node.fan.hidden |= bit;
+            continue;
+        }
+        ++nodes_tested_;
+        node.split[q] = std::max(node.node_limit, critical[q]);
+        if (from.planes != 0) {
+            child.node = rule_->node_at(level, child.column, child.row);
+            planes[q] = rule_->crossed_planes_of_node(child, from.planes);
+            node.fan.hidden |= planes[q] == outside_frustum ? bit : std::uint8_t{0};
+        }
+    }
+}
+
+/// The visit to a child; planes and replaced triangles are left to the caller.
+QuadtreeSelection::PendingNode
+QuadtreeSelection::child_pending(const PendingNode& from, const SelectedNode& node, unsigned quadrant) const {
+    PendingNode next;
+    next.fan = child_of(from.fan, quadrant);
+    const int column = next.fan.column;
+    const int row = next.fan.row;
+    next.fan.node = rule_->node_at(next.fan.level, column, row);
+    next.node_limit = node.split[quadrant];
+    const bool east = (quadrant & 1U) != 0;
+    const bool north = (quadrant & 2U) != 0;
+    const QuadtreeCriterion::Level& at = rule_->level(next.fan.level);
+    next.beyond[east ? 3 : 1] = east || column + 1 < at.columns ? node.split[quadrant ^ 1U] : 0.0F;
+    next.beyond[north ? 0 : 2] = north || row + 1 < at.rows ? node.split[quadrant ^ 2U] : 0.0F;
+    const std::size_t side = east ? 1 : 3;
+    next.beyond[side] = neighbour_limit(from.beyond[side], next.fan.level, column + (east ? 1 : -1), row);
+    const std::size_t end = north ? 2 : 0;
+    next.beyond[end] = neighbour_limit(from.beyond[end], next.fan.level, column, row + (north ? 1 : -1));
+    return next;
+}
+
+/// The limit above which a neighbouring node is in the mesh; 0 where the field ends there. `parent`
+/// is the limit of that node's parent.
+float QuadtreeSelection::neighbour_limit(float parent, int level, int column, int row) const {
+    const QuadtreeCriterion::Level& at = rule_->level(level);
+    if (column < 0 || row < 0 || column >= at.columns || row >= at.rows) {
+        return 0.0F;
+    }
+    if (parent >= high_) {
+        return unbounded;
+    }
+    return std::max(parent, rule_->critical_squared(level, column, row));
+}
 
 QuadtreeMesher::QuadtreeMesher(const Quadtree& tree, std::span<const std::uint32_t> colours)
     : tree_(&tree)

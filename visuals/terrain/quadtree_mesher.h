@@ -1,23 +1,191 @@
 #pragma once
 
 #include "models/colour_vertex.h"
-#include "visuals/terrain/quadtree_selection.h"
 #include "visuals/terrain/detail_settings.h"
 #include "visuals/terrain/fan_shape.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/quadtree.h"
-#include "visuals/terrain/quadtree_criterion.h"
+#include "visuals/terrain/step_function.h"
 #include "visuals/terrain/triangle_ranges.h"
 
+#include <glm/vec3.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace octant::visuals::terrain {
+
+/// An axis-aligned box in world axes.
+struct NodeBox {
+    glm::dvec3 min_m;
+    glm::dvec3 max_m;
+};
+
+/// Which nodes of a quadtree a view switches on, and which it cannot see.
+class QuadtreeCriterion {
+public:
+    /// What the rule must know of a level of the tree.
+    struct Level {
+        int edge;          ///< In samples.
+        int columns;       ///< In nodes.
+        int rows;          ///< In nodes.
+        std::size_t first; ///< The index of its first node.
+        float edge_samples;
+        float half_edge_samples;
+    };
+
+    /// The tree must outlive the rule.
+    explicit QuadtreeCriterion(const Quadtree& tree);
+
+    /// Takes a view; `detail.resolution` is not used.
+    void set_view(const MeshView& view, const QuadtreeDetail& detail);
+
+    const Quadtree& tree() const { return *tree_; }
+
+    const MeshView& view() const { return view_; }
+
+    const Level& level(int index) const { return levels_[static_cast<std::size_t>(index)]; }
+
+    /// The index of a node in Quadtree::nodes().
+    std::uint32_t node_at(int level_index, int column, int row) const {
+        const Level& at = levels_[static_cast<std::size_t>(level_index)];
+        return static_cast<std::uint32_t>(
+            at.first + static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
+            static_cast<std::size_t>(column));
+    }
+
+    /// The x coordinate of the field's west border relative to the eye.
+    double west_m() const { return west_m_; }
+
+    /// The y coordinate of the field's south border relative to the eye.
+    double south_m() const { return south_m_; }
+
+    /// The limit that critical values are compared with: the square of C, which is raised to the
+    /// tree's smallest, times the magnification.
+    float limit_squared(double resolution) const {
+        const double seen =
+            std::max(resolution, tree_->options().min_resolution) * view_.magnification;
+        return static_cast<float>(seen * seen);
+    }
+
+    /// The C of a limit that is not below the smallest one; limit_squared of it is `limit` again.
+    double resolution_of(float limit) const;
+
+    /// Equation (3) solved for C and squared. A node's quadrant of its parent is switched on if
+    /// this is below the limit and the parent is on. The root is always on.
+    float critical_squared(int level, int column, int row) const {
+        if (level == 0) {
+            return 0.0F;
+        }
+        return fan_kind_ == FanKind::Partial ? own_critical_squared(level, column, row)
+                                             : own_critical_squared(level - 1, column / 2, row / 2);
+    }
+
+    /// The same for the four children at (column, row) and east and north of it, by quadrant;
+    /// meaningless for those that do not exist.
+    std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
+
+    /// A box around all samples of a node, a little wider than the tree's height bounds.
+    NodeBox box_of(const GroundFan& node) const;
+
+    /// crossed_planes (frustum.h) for the box of a node's samples.
+    unsigned crossed_planes_of_node(const GroundFan& node, unsigned planes) const;
+
+private:
+    float own_critical_squared(int level, int column, int row) const {
+        return critical_squared_at(
+            levels_[static_cast<std::size_t>(level)],
+            column,
+            row,
+            roughness_of(tree_->nodes()[node_at(level, column, row)]));
+    }
+
+    float critical_squared_at(const Level& at, int column, int row, float roughness) const {
+        const float east = static_cast<float>(2 * column + 1) * at.half_edge_samples - eye_column_;
+        const float north = static_cast<float>(2 * row + 1) * at.half_edge_samples - eye_row_;
+        const float scale = at.edge_samples * std::max(roughness_weight_ * roughness, 1.0F);
+        return (east * east + north * north + eye_height_squared_) / (scale * scale);
+    }
+
+    const Quadtree* tree_;
+    std::vector<Level> levels_;
+    MeshView view_;
+    FanKind fan_kind_ = FanKind::Partial;
+    float roughness_weight_ = 0.0F;
+    float eye_column_ = 0.0F;
+    float eye_row_ = 0.0F;
+    float eye_height_squared_ = 0.0F; ///< In samples^2.
+    double west_m_ = 0.0;
+    double south_m_ = 0.0;
+};
+
+/// A node that is in the mesh at some limits (QuadtreeCriterion::limit_squared). Its members tell from
+/// which limit on each of its parts is there; infinite means above all limits that were looked at.
+struct SelectedNode {
+    GroundFan fan;                 ///< Its `split` is left empty.
+    float node_limit = 0.0F;               ///< The node itself.
+    std::array<float, 4> split{};  ///< Its quadrants, in the order of their bits.
+    std::array<float, 4> middle{}; ///< The mid-points of its fan_edges.
+};
+
+/// Finds the resolution C at which a mesh has a given number of triangles, before the mesh is made.
+///
+/// The number of triangles at any C is known exactly: a node adds one triangle for each of its
+/// sides; the mid-point of a side replaces that triangle by one for each adjoining quadrant that is
+/// not hidden; a quadrant that splits takes its two away. One walk down the tree, to a little more
+/// than the C of the last call, collects the values of C at which this happens. The last call only
+/// makes the walk short; the answer does not depend on it.
+class QuadtreeSelection {
+public:
+    /// The tree must outlive the survey.
+    explicit QuadtreeSelection(const Quadtree& tree)
+        : tree_(&tree) {}
+
+    /// The largest limit, at most that of `budget.max_resolution`, up to which no mesh has more
+    /// than `budget.triangles` triangles; the limit of the tree's smallest C where even that one
+    /// has more.
+    float limit_for(const QuadtreeCriterion& rule, const TriangleBudget& budget);
+
+    /// The nodes of all meshes up to the limit that was found, and some more: parents before
+    /// children.
+    std::span<const SelectedNode> nodes() const { return nodes_; }
+
+    int nodes_tested() const { return nodes_tested_; }
+
+private:
+    /// A node that is to be surveyed.
+    struct PendingNode {
+        GroundFan fan;
+        unsigned planes = 0; ///< The frustum planes that its box may reach beyond.
+        float node_limit = 0.0F;     ///< The limit above which it is in the mesh.
+        /// The same for the nodes beyond its edges; 0 at the field's border.
+        std::array<float, 4> beyond{};
+        int replaced = 0; ///< How many triangles of its parent it replaces.
+    };
+
+    bool survey(float low, float high, int max_triangles);
+    void visit(const PendingNode& from);
+    void test_quadrants(const PendingNode& from, SelectedNode& node, std::array<unsigned, 4>& planes);
+    PendingNode child_pending(const PendingNode& from, const SelectedNode& node, unsigned quadrant) const;
+    float neighbour_limit(float parent, int level, int column, int row) const;
+
+    const Quadtree* tree_;
+    const QuadtreeCriterion* rule_ = nullptr;
+    std::vector<SelectedNode> nodes_;
+    StepFunction steps_;
+    float high_ = 0.0F;
+    int max_triangles_ = 0;  ///< A walk stops once it has counted more.
+    bool has_steps_above_ = false; ///< Something visible appears only above the limits looked at.
+    int nodes_tested_ = 0;
+    double last_resolution_ = 0.0; ///< 0 before the first call.
+};
 
 /// Makes the mesh of a quadtree for an eye point, frame after frame in the same memory, with the
 /// triangles in the view's painting order. The order is exact up to the rounding of the eye's

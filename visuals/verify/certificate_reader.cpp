@@ -1,21 +1,565 @@
 // Reads certificates of painting orders; README.md has their format. Lines that tell of the model
 // and its order (structure_reader.cpp) come before the claims (claim_reader.cpp).
 #include "visuals/verify/certificate_reader.h"
-
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "visuals/verify/certificate_tokens.h"
-#include "visuals/verify/statement_reader.h"
-#include "visuals/verify/structure_reader.h"
-#include "visuals/verify/region_plane_counts.h"
+#include "visuals/verify/certificate.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::verify {
 
 namespace {
+
+/// The words of one line of a file after another. Whatever is not as expected is refused by an
+/// Error "file:line: expected ..., got ...".
+class TokenReader {
+public:
+    explicit TokenReader(std::filesystem::path path)
+        : path_(std::move(path)) {}
+
+    /// Goes on to the next line, of which what follows a # does not count; false if it is empty.
+    bool set_line(std::string_view line);
+
+    /// The number of the line at hand, from 1.
+    int line() const { return line_; }
+
+    bool done() const { return at_ == words_.size(); }
+
+    /// Throws Error about the word at hand.
+    [[noreturn]] void refuse(const std::string& expected) const;
+
+    /// Throws Error about the word before it.
+    [[noreturn]] void fail_at_last(const std::string& expected);
+
+    /// Takes a word if it is the one at hand.
+    bool skip(std::string_view word);
+
+    std::string_view word(std::string_view what);
+    double number(std::string_view what, double least, double most);
+    /// A whole number from 0 to below `end`.
+    std::uint32_t index(std::string_view what, std::size_t end);
+    void end_of_line() const;
+
+private:
+    std::filesystem::path path_;
+    std::vector<std::string_view> words_;
+    std::size_t at_ = 0;
+    int line_ = 0;
+};
+
+/// The most entries of any kind that a certificate may have.
+constexpr std::size_t max_entries = 50'000'000;
+/// The largest number that may stand in a certificate.
+constexpr double largest_number = 1e12;
+
+/// The words of a certificate's lines, read as what its README.md has. What is wrong is refused as
+/// TokenReader refuses it.
+class CertificateTokens : public TokenReader {
+public:
+    using TokenReader::TokenReader;
+
+    Vector vector(const char* what);
+    /// A vector of a length of about 1.
+    Vector unit_vector(const char* what);
+    WrittenPlane plane();
+
+    /// Appends an entry and refuses the line if there are too many.
+    template <typename Entry>
+    void add(std::vector<Entry>& entries, Entry entry) const {
+        if (entries.size() >= max_entries) {
+            fail_too_many();
+        }
+        entries.push_back(std::move(entry));
+    }
+
+private:
+    double coordinate(const char* what);
+    [[noreturn]] void fail_too_many() const;
+};
+
+bool TokenReader::set_line(std::string_view line) {
+    ++line_;
+    words_ = split_words(line.substr(0, line.find('#')));
+    at_ = 0;
+    return !words_.empty();
+}
+
+void TokenReader::refuse(const std::string& expected) const {
+    const std::string got =
+        done() ? "none" : fmt::format("'{}'", printable(std::string(words_[at_])));
+    throw_error_at(path_, line_, fmt::format("expected {}, got {}", expected, got));
+}
+
+void TokenReader::fail_at_last(const std::string& expected) {
+    --at_;
+    refuse(expected);
+}
+
+bool TokenReader::skip(std::string_view word) {
+    const bool there = !done() && words_[at_] == word;
+    at_ += there ? 1 : 0;
+    return there;
+}
+
+std::string_view TokenReader::word(std::string_view what) {
+    if (done()) {
+        refuse(std::string(what));
+    }
+    return words_[at_++];
+}
+
+double TokenReader::number(std::string_view what, double least, double most) {
+    const auto value = done() ? std::nullopt : finite_number(words_[at_]);
+    if (!value || *value < least || *value > most) {
+        refuse(fmt::format("{} (a number from {:g} to {:g})", what, least, most));
+    }
+    ++at_;
+    return *value;
+}
+
+std::uint32_t TokenReader::index(std::string_view what, std::size_t end) {
+    const auto value = done() ? std::nullopt : whole_number(words_[at_]);
+    if (!value || *value < 0 || static_cast<std::size_t>(*value) >= end) {
+        refuse(
+            end == 0 ? fmt::format("{}, of which there are none", what)
+                     : fmt::format("{} (0 to {})", what, end - 1));
+    }
+    ++at_;
+    return static_cast<std::uint32_t>(*value);
+}
+
+void TokenReader::end_of_line() const {
+    if (!done()) {
+        refuse("the end of the line");
+    }
+}
+
+constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
+constexpr double longest_normal = 1.5;
+
+double CertificateTokens::coordinate(const char* what) {
+    return number(what, -largest_number, largest_number);
+}
+
+Vector CertificateTokens::vector(const char* what) {
+    const double x = coordinate(what);
+    const double y = coordinate(what);
+    const double z = coordinate(what);
+    return {x, y, z};
+}
+
+Vector CertificateTokens::unit_vector(const char* what) {
+    const Vector v = vector(what);
+    const double longest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    if (longest < min_normal || longest > longest_normal) {
+        fail_at_last(fmt::format("{} of length 1", what));
+    }
+    return v;
+}
+
+WrittenPlane CertificateTokens::plane() {
+    const Vector normal = unit_vector("a normal");
+    return {normal, coordinate("an offset")};
+}
+
+void CertificateTokens::fail_too_many() const {
+    refuse(fmt::format("at most {} such lines", max_entries));
+}
+
+/// Reads the lines of a certificate that tell of the model and of its order: tolerance, vertex,
+/// axis, polygon, turning, list and node.
+class StructureReader {
+public:
+    StructureReader(CertificateTokens& words, Certificate& made)
+        : words_(words)
+        , made_(made) {}
+
+    /// Reads the line at hand if it is one of these; false if its first word is another.
+    bool take();
+
+private:
+    bool read_tolerance();
+    bool read_reference();
+    bool read_vertex();
+    bool read_axis();
+    bool read_polygon(bool turning);
+    bool read_list();
+    bool read_node();
+    int child(bool may_be_nothing, bool may_be_node);
+
+    CertificateTokens& words_;
+    Certificate& made_;
+    std::vector<bool> used_; ///< One flag for each polygon; all are false between lines.
+};
+
+bool StructureReader::take() {
+    return words_.skip("tolerance") ? read_tolerance()
+           : words_.skip("about")   ? read_reference()
+           : words_.skip("vertex")  ? read_vertex()
+           : words_.skip("axis")    ? read_axis()
+           : words_.skip("polygon") ? read_polygon(false)
+           : words_.skip("turning") ? read_polygon(true)
+           : words_.skip("list")    ? read_list()
+                                    : words_.skip("node") && read_node();
+}
+
+bool StructureReader::read_tolerance() {
+    if (made_.tolerance > 0.0) {
+        words_.refuse("one tolerance");
+    }
+    made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
+    return true;
+}
+
+/// Where the certificate measures from changes nothing of what it proves.
+bool StructureReader::read_reference() {
+    if (!made_.vertices.empty() || !made_.axes.empty()) {
+        words_.refuse("'about' before all places");
+    }
+    words_.vector("a coordinate");
+    return true;
+}
+
+bool StructureReader::read_vertex() {
+    words_.add(made_.vertices, words_.vector("a coordinate"));
+    return true;
+}
+
+bool StructureReader::read_axis() {
+    const Vector point = words_.vector("a coordinate");
+    words_.add(made_.axes, {point, words_.unit_vector("a direction")});
+    return true;
+}
+
+bool StructureReader::read_polygon(bool turning) {
+    CertificatePolygon polygon;
+    polygon.line = words_.line();
+    if (turning) {
+        polygon.axis = words_.index("an axis", made_.axes.size());
+    }
+    polygon.source = words_.index("a polygon of the model's file", max_entries);
+    polygon.plane = words_.plane();
+    while (!words_.done() || polygon.corners.size() < 3) {
+        polygon.corners.push_back(words_.index("a vertex", made_.vertices.size()));
+    }
+    words_.add(made_.polygons, std::move(polygon));
+    return true;
+}
+
+bool StructureReader::read_list() {
+    OrderList list;
+    list.line = words_.line();
+    std::vector<bool>& used = used_;
+    used.resize(made_.polygons.size());
+    while (!words_.done()) {
+        const std::uint32_t polygon = words_.index("a polygon", made_.polygons.size());
+        if (used[polygon]) {
+            words_.fail_at_last("each polygon once");
+        }
+        used[polygon] = true;
+        list.polygons.push_back(polygon);
+    }
+    for (const std::uint32_t polygon : list.polygons) {
+        used[polygon] = false;
+    }
+    words_.add(made_.lists, std::move(list));
+    return true;
+}
+
+bool StructureReader::read_node() {
+    OrderNode node;
+    node.line = words_.line();
+    const bool sequence = words_.skip("sequence");
+    const bool parting = !sequence && words_.skip("parting");
+    if (!sequence && !parting && !words_.skip("choice")) {
+        words_.refuse("choice, parting or sequence");
+    }
+    node.kind = sequence  ? OrderNode::Kind::Sequence
+                : parting ? OrderNode::Kind::PolygonSplit
+                          : OrderNode::Kind::ViewSplit;
+    if (!sequence) {
+        node.plane = words_.plane();
+    }
+    const auto side = [&] {
+        return sequence || parting        ? child(true, true)
+               : words_.skip("unclaimed") ? OrderNode::not_covered
+                                          : child(false, true);
+    };
+    node.front = side();
+    node.back = side();
+    if (parting) {
+        node.coplanar_front = child(true, false);
+        node.coplanar_back = child(true, false);
+    }
+    words_.add(made_.nodes, std::move(node));
+    return true;
+}
+
+/// A child; whether it is there is known only when all are read.
+int StructureReader::child(bool may_be_nothing, bool may_be_node) {
+    if (may_be_nothing && words_.skip("nothing")) {
+        return OrderNode::nothing;
+    }
+    if (words_.skip("list")) {
+        return ~static_cast<int>(words_.index("a list", max_entries));
+    }
+    if (!may_be_node || !words_.skip("node")) {
+        words_.refuse(fmt::format(
+            "{}list K{}", may_be_node ? "node K, " : "", may_be_nothing ? ", nothing" : ""));
+    }
+    const std::uint32_t number = words_.index("a node", max_entries);
+    if (number <= made_.nodes.size()) {
+        words_.fail_at_last("a later node");
+    }
+    return static_cast<int>(number);
+}
+
+/// How many walls bound the eyes that come to each node and list of a certificate: one for each
+/// choice above it.
+struct RegionPlaneCounts {
+    std::vector<std::size_t> by_node;
+    std::vector<std::size_t> by_list;
+};
+
+constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
+
+void require_some(const Certificate& certificate, bool some, const char* what) {
+    if (!some) {
+        throw_error_in(certificate.path, fmt::format("expected {}, got none", what));
+    }
+}
+
+class RegionPlaneCounter {
+public:
+    explicit RegionPlaneCounter(const Certificate& certificate)
+        : certificate_(certificate)
+        , counts_{
+              std::vector<std::size_t>(certificate.nodes.size(), unseen),
+              std::vector<std::size_t>(certificate.lists.size(), unseen)} {}
+
+    RegionPlaneCounts count() {
+        (counts_.by_node.empty() ? counts_.by_list : counts_.by_node).front() = 0;
+        for (std::size_t i = 0; i < certificate_.nodes.size(); ++i) {
+            const OrderNode& node = certificate_.nodes[i];
+            require_reached(counts_.by_node[i], "node", i, node.line);
+            const std::size_t more = node.kind == OrderNode::Kind::ViewSplit ? 1 : 0;
+            for (const int child : {node.front, node.back, node.coplanar_front, node.coplanar_back}) {
+                reach(child, counts_.by_node[i] + more, node.line);
+            }
+        }
+        for (std::size_t i = 0; i < certificate_.lists.size(); ++i) {
+            require_reached(counts_.by_list[i], "list", i, certificate_.lists[i].line);
+        }
+        return counts_;
+    }
+
+private:
+    void require_reached(std::size_t region_planes, const char* what, std::size_t number, int line) const {
+        if (region_planes == unseen) {
+            throw_error_at(
+                certificate_.path,
+                line,
+                fmt::format(
+                    "expected {} {} to be the child of an earlier node, got none", what, number));
+        }
+    }
+
+    void reach(int child, std::size_t region_planes, int line) {
+        if (OrderNode::is_empty(child)) {
+            return;
+        }
+        auto& all = child < 0 ? counts_.by_list : counts_.by_node;
+        const auto number = static_cast<std::size_t>(child < 0 ? ~child : child);
+        if (number >= all.size() || all[number] != unseen) {
+            throw_error_at(
+                certificate_.path,
+                line,
+                fmt::format(
+                    "expected children that are there, each of one node, got {} {}",
+                    child < 0 ? "list" : "node",
+                    number));
+        }
+        all[number] = region_planes;
+    }
+
+    const Certificate& certificate_;
+    RegionPlaneCounts counts_;
+};
+
+/// Counts the walls down from the first node, or for the only list where there is no node. Throws
+/// Error unless nodes and lists are one tree and the certificate has a tolerance and polygons.
+RegionPlaneCounts count_region_planes(const Certificate& certificate) {
+    require_some(certificate, certificate.tolerance > 0.0, "a tolerance");
+    require_some(certificate, !certificate.polygons.empty(), "at least one polygon");
+    require_some(certificate, !certificate.lists.empty(), "at least one list");
+    return RegionPlaneCounter(certificate).count();
+}
+
+/// What a line claims.
+enum class StatementKind { Pairs, Sum, Never, Away, Unproved };
+
+/// Reads the claims of a certificate, whose structure is known: pairs, sum, never, away and
+/// unproved.
+class StatementReader {
+public:
+    /// What is read is put into `made`, whose nodes, lists and polygons are there.
+    StatementReader(CertificateTokens& words, Certificate& made, RegionPlaneCounts region_planes)
+        : words_(words)
+        , made_(made)
+        , walls_(std::move(region_planes)) {}
+
+    /// Reads what follows the first word of a claim.
+    void take(StatementKind kind);
+
+private:
+    Statements& current_statements();
+    void read_factors(Statements& claims, PairStatement::Kind kind, std::uint32_t polygon);
+    std::uint32_t polygon();
+    double factor();
+    void read_region_planes(StatedFactors& factors);
+    void read_back_facing(Statements& claims, std::uint32_t polygon);
+    void read_unproved(Statements& claims, std::uint32_t polygon);
+    void read_row(Statements& claims, std::uint32_t later);
+    DeciderRun run();
+
+    CertificateTokens& words_;
+    Certificate& made_;
+    RegionPlaneCounts walls_;
+    std::size_t current_region_plane_count_ = 0; ///< How many walls the region of the claim at hand has.
+};
+
+/// Takes the first word of a line if it begins a claim.
+std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
+    using Word = std::pair<std::string_view, StatementKind>;
+    for (const auto& [word, kind] :
+         {Word("pairs", StatementKind::Pairs),
+          Word("sum", StatementKind::Sum),
+          Word("never", StatementKind::Never),
+          Word("away", StatementKind::Away),
+          Word("unproved", StatementKind::Unproved)}) {
+        if (words.skip(word)) {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
+void StatementReader::take(StatementKind kind) {
+    Statements& claims = current_statements();
+    const std::uint32_t polygon = this->polygon();
+    switch (kind) {
+    case StatementKind::Pairs:
+        return read_row(claims, polygon);
+    case StatementKind::Sum:
+        return read_factors(claims, PairStatement::Kind::Sum, polygon);
+    case StatementKind::Never:
+        return read_factors(claims, PairStatement::Kind::Never, polygon);
+    case StatementKind::Away:
+        return read_back_facing(claims, polygon);
+    case StatementKind::Unproved:
+        return read_unproved(claims, polygon);
+    }
+}
+
+/// The claims of the list or node that the line names next.
+Statements& StatementReader::current_statements() {
+    const bool of_list = words_.skip("list");
+    if (!of_list && !words_.skip("node")) {
+        words_.refuse("list or node");
+    }
+    const std::uint32_t number = of_list ? words_.index("a list", made_.lists.size())
+                                         : words_.index("a node", made_.nodes.size());
+    current_region_plane_count_ = of_list ? walls_.by_list[number] : walls_.by_node[number];
+    return of_list ? made_.by_list[number] : made_.by_node[number];
+}
+
+std::uint32_t StatementReader::polygon() {
+    return words_.index("a polygon", made_.polygons.size());
+}
+
+void StatementReader::read_factors(Statements& claims, PairStatement::Kind kind, std::uint32_t polygon) {
+    PairStatement statement;
+    statement.kind = kind;
+    statement.pair = {polygon, this->polygon()};
+    statement.line = words_.line();
+    statement.factors.earlier = factor();
+    statement.factors.later = factor();
+    read_region_planes(statement.factors);
+    words_.add(claims.pairs, std::move(statement));
+}
+
+double StatementReader::factor() {
+    return words_.number("a factor", 0.0, largest_number);
+}
+
+/// The factor of 1 and those of the walls.
+void StatementReader::read_region_planes(StatedFactors& factors) {
+    factors.one = factor();
+    for (std::size_t i = 0; i < current_region_plane_count_; ++i) {
+        factors.region_planes.push_back(factor());
+    }
+}
+
+void StatementReader::read_back_facing(Statements& claims, std::uint32_t polygon) {
+    BackFacingStatement statement;
+    statement.line = words_.line();
+    statement.factors.earlier = 1.0;
+    read_region_planes(statement.factors);
+    if (!claims.away.emplace(polygon, std::move(statement)).second) {
+        words_.fail_at_last("each polygon once");
+    }
+}
+
+/// A polygon or a pair without a proof.
+void StatementReader::read_unproved(Statements& claims, std::uint32_t polygon) {
+    ++made_.unproved;
+    made_.first_unproved = made_.first_unproved.value_or(words_.line());
+    if (words_.done()) {
+        claims.unproved.emplace(polygon, words_.line());
+    } else {
+        words_.add(
+            claims.pairs,
+            {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line()});
+    }
+}
+
+void StatementReader::read_row(Statements& claims, std::uint32_t later) {
+    PairRow row;
+    row.later = later;
+    row.line = words_.line();
+    while (!words_.done()) {
+        row.runs.push_back(run());
+    }
+    words_.add(claims.rows, std::move(row));
+}
+
+/// Reads a count and a letter.
+DeciderRun StatementReader::run() {
+    const std::string_view word = words_.word("a run of pairs");
+    const auto count = whole_number(word.substr(0, word.size() - 1));
+    const char letter = word.back();
+    const bool known = letter == 'e' || letter == 'l' || letter == '-';
+    if (!known || !count || *count < 1 || static_cast<std::size_t>(*count) > max_entries) {
+        words_.fail_at_last("a count with e, l or -");
+    }
+    return {
+        letter == 'e'   ? DeciderRun::By::Earlier
+        : letter == 'l' ? DeciderRun::By::Later
+                        : DeciderRun::By::Elsewhere,
+        static_cast<std::uint32_t>(*count)};
+}
 
 constexpr std::size_t largest_bytes = std::size_t{2} << 30;
 

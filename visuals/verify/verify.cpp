@@ -1,26 +1,564 @@
 // Walks the tree of a painting order from its root and asks for a proof of everything that the
 // order rests on. README.md has the proofs.
 #include "visuals/verify/verify.h"
-
 #include "sim/base/error.h"
-#include "visuals/verify/statement_check.h"
-#include "visuals/verify/proved_pairs.h"
-#include "visuals/verify/painted_check.h"
-#include "visuals/verify/pair_check.h"
+#include "visuals/verify/certificate.h"
 #include "visuals/verify/exact_sides.h"
 #include "visuals/verify/tree_contents.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace octant::visuals::verify {
 
 namespace {
+
+/// A set of polygons.
+class PolygonSet {
+public:
+    explicit PolygonSet(std::size_t polygons)
+        : words_((polygons + 63) / 64, 0) {}
+
+    void add(std::uint32_t polygon) { words_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
+
+    void add(const PolygonSet& others) {
+        for (std::size_t i = 0; i < words_.size(); ++i) {
+            words_[i] |= others.words_[i];
+        }
+    }
+
+    bool has(std::uint32_t polygon) const {
+        return ((words_[polygon / 64] >> (polygon % 64)) & 1U) != 0;
+    }
+
+    /// Whether all of these are among others.
+    bool is_subset_of(const PolygonSet& others) const {
+        for (std::size_t i = 0; i < words_.size(); ++i) {
+            if ((words_[i] & ~others.words_[i]) != 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    std::vector<std::uint64_t> words_;
+};
+
+/// Pairs of which the earlier polygon is proved to hide nothing of the later one from some eyes.
+class ProvedPairs {
+public:
+    explicit ProvedPairs(std::size_t polygons)
+        : polygons_(polygons) {}
+
+    void add(const PolygonPair& pair);
+
+    /// Adds what a plane proves that all eyes are before: whatever is behind it hides nothing of
+    /// whatever is before it.
+    void add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides);
+
+    /// Whether all of `painted` hide nothing of a polygon.
+    bool decide(const PolygonSet& painted, std::uint32_t later) const;
+
+    /// The first polygon of which that is not known; there is one (asserted).
+    std::uint32_t first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const;
+
+private:
+    PolygonSet& row(std::uint32_t later);
+
+    std::size_t polygons_;
+    std::unordered_map<std::uint32_t, PolygonSet> rows_; ///< By the later polygon.
+};
+
+PolygonSet& ProvedPairs::row(std::uint32_t later) {
+    return rows_.try_emplace(later, polygons_).first->second;
+}
+
+void ProvedPairs::add(const PolygonPair& pair) {
+    row(pair.later).add(pair.earlier);
+}
+
+void ProvedPairs::add_region_plane(const WrittenPlane& wall, const Certificate& certificate, const ExactSides& sides) {
+    const WrittenPlane back = reversed(wall);
+    PolygonSet behind(polygons_);
+    for (std::uint32_t i = 0; i < polygons_; ++i) {
+        if (sides.is_behind(i, wall, PartAngle::Turning)) {
+            behind.add(i);
+        }
+    }
+    for (std::uint32_t i = 0; i < polygons_; ++i) {
+        if (!sides.is_behind(i, back, PartAngle::Turning)) {
+            continue;
+        }
+        // Polygons that turn together see the wall turn.
+        const auto& axis = certificate.polygons[i].axis;
+        if (!axis) {
+            row(i).add(behind);
+            continue;
+        }
+        for (std::uint32_t earlier = 0; earlier < polygons_; ++earlier) {
+            if (behind.has(earlier) && certificate.polygons[earlier].axis != axis) {
+                row(i).add(earlier);
+            }
+        }
+    }
+}
+
+bool ProvedPairs::decide(const PolygonSet& painted, std::uint32_t later) const {
+    const auto known = rows_.find(later);
+    return known != rows_.end() && painted.is_subset_of(known->second);
+}
+
+std::uint32_t ProvedPairs::first_open(std::span<const std::uint32_t> painted, std::uint32_t later) const {
+    const auto known = rows_.find(later);
+    const auto open = std::ranges::find_if(painted, [&](std::uint32_t earlier) {
+        return known == rows_.end() || !known->second.has(earlier);
+    });
+    assert(open != painted.end());
+    return *open;
+}
+
+/// The eyes of a list or node: what is before all of these planes.
+using RegionPlanes = std::vector<WrittenPlane>;
+
+/// Judges witnesses; README.md says why each one proves what it claims. Throws Refusal for those
+/// that do not. Keeps references.
+class PairCheck {
+public:
+    PairCheck(const Certificate& certificate, const ExactSides& sides)
+        : certificate_(certificate)
+        , sides_(sides) {}
+
+    /// That the plane of the earlier polygon has the later one before it.
+    void check_earlier(const PolygonPair& pair, int line) const;
+
+    /// That the plane of the later polygon has the earlier one behind it.
+    void check_later(const PolygonPair& pair, int line) const;
+
+    /// What a claim says for the eyes before all walls; of Kind::Unproved nothing is asked.
+    void check(const PairStatement& statement, const RegionPlanes& region_planes) const;
+
+    /// That a polygon faces away from every eye before all walls.
+    void check_away(std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const;
+
+private:
+    /// Factors that are claimed for a pair.
+    struct Sum {
+        const PolygonPair& pair;
+        PartAngle pose;
+        const StatedFactors& factors;
+        const RegionPlanes& region_planes;
+        int line;
+    };
+
+    PartAngle pose_of(const PolygonPair& pair) const;
+    void require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const;
+    ExactPlane plane_of(const Sum& sum) const;
+    void check_separates(const Sum& sum) const;
+    void check_never(const Sum& sum) const;
+
+    const Certificate& certificate_;
+    const ExactSides& sides_;
+};
+
+/// Polygons that turn together stand still to one another.
+PartAngle PairCheck::pose_of(const PolygonPair& pair) const {
+    const auto& axis = certificate_.polygons[pair.earlier].axis;
+    const bool together = axis && axis == certificate_.polygons[pair.later].axis;
+    return together ? PartAngle::Standing : PartAngle::Turning;
+}
+
+void PairCheck::require_fixed_plane(std::uint32_t polygon, PartAngle pose, int line) const {
+    if (!sides_.has_fixed_plane(polygon, pose)) {
+        throw InvalidCertificate{
+            line,
+            fmt::format(
+                "expected a witness without the plane of polygon {}, which turns, got one with it",
+                polygon)};
+    }
+}
+
+void PairCheck::check_earlier(const PolygonPair& pair, int line) const {
+    const PartAngle pose = pose_of(pair);
+    require_fixed_plane(pair.earlier, pose, line);
+    if (!sides_.is_before(pair.later, certificate_.polygons[pair.earlier].plane, pose)) {
+        throw InvalidCertificate{
+            line,
+            fmt::format(
+                "expected polygon {} before the plane of polygon {}, got a corner behind it",
+                pair.later,
+                pair.earlier)};
+    }
+}
+
+void PairCheck::check_later(const PolygonPair& pair, int line) const {
+    const PartAngle pose = pose_of(pair);
+    require_fixed_plane(pair.later, pose, line);
+    if (!sides_.is_behind(pair.earlier, certificate_.polygons[pair.later].plane, pose)) {
+        throw InvalidCertificate{
+            line,
+            fmt::format(
+                "expected polygon {} behind the plane of polygon {}, got a corner before it",
+                pair.earlier,
+                pair.later)};
+    }
+}
+
+void PairCheck::check(const PairStatement& statement, const RegionPlanes& region_planes) const {
+    const Sum sum{statement.pair, pose_of(statement.pair), statement.factors, region_planes, statement.line};
+    if (statement.kind == PairStatement::Kind::Sum) {
+        check_separates(sum);
+    } else if (statement.kind == PairStatement::Kind::Never) {
+        check_never(sum);
+    }
+}
+
+void PairCheck::check_away(
+    std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const {
+    check_never({{polygon, polygon}, PartAngle::Turning, statement.factors, region_planes, statement.line});
+}
+
+ExactPlane PairCheck::plane_of(const Sum& sum) const {
+    ExactPlane plane;
+    const auto add_front = [&](double factor, std::uint32_t polygon) {
+        if (factor > 0.0) {
+            require_fixed_plane(polygon, sum.pose, sum.line);
+            add(plane, factor, exact(certificate_.polygons[polygon].plane));
+        }
+    };
+    add_front(sum.factors.earlier, sum.pair.earlier);
+    add_front(sum.factors.later, sum.pair.later);
+    const auto& axis = certificate_.polygons[sum.pair.earlier].axis;
+    for (std::size_t i = 0; i < sum.region_planes.size(); ++i) {
+        const double factor = sum.factors.region_planes[i];
+        if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
+            !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
+            throw InvalidCertificate{
+                sum.line,
+                fmt::format(
+                    "expected a witness without wall {}, which polygons {} and {} see turn, got "
+                    "one with it",
+                    i,
+                    sum.pair.earlier,
+                    sum.pair.later)};
+        }
+        add(plane, factor, exact(sum.region_planes[i]));
+    }
+    plane.offset += Rational(sum.factors.one);
+    return plane;
+}
+
+void PairCheck::check_separates(const Sum& sum) const {
+    const ExactPlane plane = plane_of(sum);
+    const auto refuse = [&](std::uint32_t polygon, const char* expected, const char* got) {
+        throw InvalidCertificate{
+            sum.line,
+            fmt::format(
+                "expected factors of a plane with polygon {} {} it, got a corner {} it",
+                polygon,
+                expected,
+                got)};
+    };
+    if (largest(plane.normal) == 0) {
+        throw InvalidCertificate{sum.line, "expected factors that make a plane, got none"};
+    }
+    if (!sides_.is_behind(sum.pair.earlier, plane, sum.pose)) {
+        refuse(sum.pair.earlier, "behind", "before");
+    }
+    if (!sides_.is_before(sum.pair.later, plane, sum.pose)) {
+        refuse(sum.pair.later, "before", "behind");
+    }
+}
+
+void PairCheck::check_never(const Sum& sum) const {
+    const StatedFactors& factors = sum.factors;
+    const bool enough = Rational(factors.earlier) + Rational(factors.later) >= 1;
+    if (!enough || !sides_.is_impossible(plane_of(sum))) {
+        throw InvalidCertificate{
+            sum.line,
+            fmt::format(
+                "expected factors that leave no eye before the planes of polygons {} and {}, got a "
+                "sum that is not negative everywhere",
+                sum.pair.earlier,
+                sum.pair.later)};
+    }
+}
+
+/// The earlier polygons of which a row of pairs speaks, by the later one; nothing where there
+/// should be no such row.
+using EarlierOf = std::function<std::optional<std::span<const std::uint32_t>>(std::uint32_t later)>;
+
+void check_row(
+    const PairCheck& check,
+    const PairRow& row,
+    std::span<const std::uint32_t> earlier,
+    ProvedPairs& proved_pairs,
+    StatementCounts& counts) {
+    std::uint64_t all = 0;
+    for (const DeciderRun& run : row.runs) {
+        all += run.count;
+    }
+    if (all != earlier.size()) {
+        throw InvalidCertificate{
+            row.line,
+            fmt::format("expected pairs with {} earlier polygons, got {}", earlier.size(), all)};
+    }
+    std::size_t at = 0;
+    for (const DeciderRun& run : row.runs) {
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            const PolygonPair pair{earlier[at++], row.later};
+            if (run.by == DeciderRun::By::Elsewhere) {
+                continue;
+            }
+            run.by == DeciderRun::By::Earlier ? check.check_earlier(pair, row.line)
+                                       : check.check_later(pair, row.line);
+            proved_pairs.add(pair);
+            ++counts.by_polygons;
+        }
+    }
+}
+
+/// Checks all that is claimed about pairs for the eyes before some walls, and adds it to what is
+/// known. Throws Refusal.
+void check_statements(
+    const PairCheck& check,
+    const Statements& claims,
+    const RegionPlanes& region_planes,
+    const EarlierOf& earlier_of,
+    ProvedPairs& proved_pairs,
+    StatementCounts& counts) {
+    for (const PairRow& row : claims.rows) {
+        const auto earlier = earlier_of(row.later);
+        if (!earlier) {
+            throw InvalidCertificate{
+                row.line,
+                fmt::format(
+                    "expected pairs of a polygon that is painted over others there, got polygon {}",
+                    row.later)};
+        }
+        check_row(check, row, *earlier, proved_pairs, counts);
+    }
+    for (const PairStatement& statement : claims.pairs) {
+        check.check(statement, region_planes);
+        proved_pairs.add(statement.pair);
+        counts.by_sums += statement.kind == PairStatement::Kind::Sum ? 1 : 0;
+        counts.never_both_visible += statement.kind == PairStatement::Kind::Never ? 1 : 0;
+    }
+}
+
+/// Checks that each polygon is painted where it can be seen, once, and over those of its own plane
+/// that it is to cover. Throws Refusal. Keeps references.
+class PaintedCheck {
+public:
+    PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check);
+
+    /// That in a child nothing is painted but what is expected, and that what is expected and not
+    /// painted faces away from all eyes before the walls. Returns how many do.
+    std::uint64_t require_painted(
+        int child,
+        std::span<const std::uint32_t> expected,
+        std::span<const std::uint32_t> painted,
+        const RegionPlanes& region_planes);
+
+    /// That no polygon lies in two parts of a node, front, back, along and against, but for flat
+    /// ones in its plane that are seen from both sides.
+    void require_disjoint(int line, const std::array<std::span<const std::uint32_t>, 4>& parts);
+
+    /// That in a list what overlaps in one plane is painted as the model's file has it.
+    void require_layer_order(std::span<const std::uint32_t> list, int line) const;
+
+    /// The same for all of one part painted before all of another.
+    void require_layer_order(
+        std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const;
+
+private:
+    const Certificate& certificate_;
+    const PairCheck& pair_check_;
+    std::vector<PolygonPair> coplanar_layer_pairs_;
+    std::vector<char> mark_; ///< One for each polygon; all are 0 between checks.
+};
+
+struct Box {
+    Vector least{};
+    Vector most{};
+    std::uint32_t polygon = 0;
+};
+
+Box box_of(const Certificate& certificate, std::uint32_t number) {
+    const CertificatePolygon& polygon = certificate.polygons[number];
+    Box box;
+    box.polygon = number;
+    box.least = box.most = certificate.vertices[polygon.corners.front()];
+    for (const std::uint32_t corner : polygon.corners) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.least[i] = std::min(box.least[i], certificate.vertices[corner][i]);
+            box.most[i] = std::max(box.most[i], certificate.vertices[corner][i]);
+        }
+    }
+    // Polygons that only nearly overlap lie in one plane all the same.
+    for (std::size_t i = 0; i < 3; ++i) {
+        box.least[i] -= certificate.tolerance;
+        box.most[i] += certificate.tolerance;
+    }
+    return box;
+}
+
+bool meet(const Box& a, const Box& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (a.most[i] < b.least[i] || b.most[i] < a.least[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// All pairs of polygons that overlap in one plane and of which the later one of the model's file
+/// has to be painted later.
+std::vector<PolygonPair> coplanar_layer_pairs(const Certificate& certificate, const ExactSides& sides) {
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < certificate.polygons.size(); ++i) {
+        boxes.push_back(box_of(certificate, i));
+    }
+    std::ranges::sort(boxes, {}, [](const Box& box) { return box.least[0]; });
+    std::vector<PolygonPair> found;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].least[0] <= boxes[i].most[0];
+             ++j) {
+            PolygonPair pair{boxes[i].polygon, boxes[j].polygon};
+            const CertificatePolygon& a = certificate.polygons[pair.earlier];
+            const CertificatePolygon& b = certificate.polygons[pair.later];
+            if (a.source != b.source && a.axis == b.axis && meet(boxes[i], boxes[j]) &&
+                sides.are_coplanar_layers(pair.earlier, pair.later)) {
+                if (a.source > b.source) {
+                    std::swap(pair.earlier, pair.later);
+                }
+                found.push_back(pair);
+            }
+        }
+    }
+    return found;
+}
+
+[[noreturn]] void fail_at_repeat(std::uint32_t polygon, int line) {
+    throw InvalidCertificate{line, fmt::format("expected each polygon painted once, got {} again", polygon)};
+}
+
+[[noreturn]] void fail_layer_order(const PolygonPair& pair, int line) {
+    throw InvalidCertificate{
+        line,
+        fmt::format(
+            "expected polygon {} painted over polygon {}, which it overlaps in one plane and "
+            "follows in the model's file, got it painted earlier",
+            pair.later,
+            pair.earlier)};
+}
+
+std::unordered_map<std::uint32_t, std::size_t> places_of(std::span<const std::uint32_t> list) {
+    std::unordered_map<std::uint32_t, std::size_t> places;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        places.emplace(list[i], i);
+    }
+    return places;
+}
+
+PaintedCheck::PaintedCheck(
+    const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
+    : certificate_(certificate)
+    , pair_check_(pair_check)
+    , coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides))
+    , mark_(certificate.polygons.size(), 0) {}
+
+std::uint64_t PaintedCheck::require_painted(
+    int child,
+    std::span<const std::uint32_t> expected,
+    std::span<const std::uint32_t> painted,
+    const RegionPlanes& region_planes) {
+    enum : char { None, Expected, Painted };
+
+    const int line = certificate_.line_of(child);
+    const Statements& claims = certificate_.statements_of(child);
+    for (const std::uint32_t polygon : expected) {
+        mark_[polygon] = Expected;
+    }
+    for (const std::uint32_t polygon : painted) {
+        if (std::exchange(mark_[polygon], Painted) != Expected) {
+            fail_at_repeat(polygon, line);
+        }
+    }
+    std::uint64_t unlisted = 0;
+    for (const std::uint32_t polygon : expected) {
+        if (std::exchange(mark_[polygon], None) == Painted || claims.unproved.contains(polygon)) {
+            continue;
+        }
+        const auto away = claims.away.find(polygon);
+        if (away == claims.away.end()) {
+            throw InvalidCertificate{
+                line,
+                fmt::format(
+                    "expected polygon {} painted or proved to face away, got neither", polygon)};
+        }
+        pair_check_.check_away(polygon, away->second, region_planes);
+        ++unlisted;
+    }
+    return unlisted;
+}
+
+void PaintedCheck::require_disjoint(
+    int line, const std::array<std::span<const std::uint32_t>, 4>& parts) {
+    constexpr std::array<char, 4> marks{1, 2, 3, 4};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (const std::uint32_t polygon : parts[i]) {
+            const char before = std::exchange(mark_[polygon], marks[i]);
+            if (before != 0 && !(before == marks[2] && i == 3)) {
+                fail_at_repeat(polygon, line);
+            }
+        }
+    }
+    for (const auto& part : parts) {
+        for (const std::uint32_t polygon : part) {
+            mark_[polygon] = 0;
+        }
+    }
+}
+
+void PaintedCheck::require_layer_order(std::span<const std::uint32_t> list, int line) const {
+    if (coplanar_layer_pairs_.empty()) {
+        return;
+    }
+    const auto places = places_of(list);
+    for (const PolygonPair& pair : coplanar_layer_pairs_) {
+        const auto lower = places.find(pair.earlier);
+        const auto upper = places.find(pair.later);
+        if (lower != places.end() && upper != places.end() && upper->second < lower->second) {
+            fail_layer_order(pair, line);
+        }
+    }
+}
+
+void PaintedCheck::require_layer_order(
+    std::span<const std::uint32_t> first, std::span<const std::uint32_t> later, int line) const {
+    if (coplanar_layer_pairs_.empty()) {
+        return;
+    }
+    const auto places_first = places_of(first);
+    const auto places_later = places_of(later);
+    for (const PolygonPair& pair : coplanar_layer_pairs_) {
+        if (places_first.contains(pair.later) && places_later.contains(pair.earlier)) {
+            fail_layer_order(pair, line);
+        }
+    }
+}
 
 constexpr double largest_tolerance_sizes = 1e-6;
 

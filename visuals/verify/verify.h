@@ -1,15 +1,27 @@
 #pragma once
 
 #include "visuals/verify/certificate.h"
-#include "visuals/verify/statement_counts.h"
-#include "visuals/verify/invalid_certificate.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace octant::visuals::verify {
+
+/// How many claims about pairs were checked, by kinds.
+struct StatementCounts {
+    std::uint64_t by_polygons = 0; ///< The plane of one polygon of the pair decides.
+    std::uint64_t by_sums = 0;     ///< A sum of planes decides.
+    std::uint64_t never_both_visible = 0;  ///< No eye sees both.
+};
+
+/// A claim that is false, or missing where one is needed. Thrown on the first one.
+struct InvalidCertificate {
+    int line = 0;
+    std::string what; ///< "expected ..., got ..."
+};
 
 /// What a certificate proves.
 struct VerificationResult {

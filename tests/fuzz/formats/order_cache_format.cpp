@@ -3,7 +3,7 @@
 #include "tests/fuzz/formats/small_model.h"
 #include "tests/fuzz/formats/target.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/ordercache/order_file_format.h"
+#include "visuals/ordercache/order_cache.h"
 
 namespace octant::tests::formats::order_cache_format {
 

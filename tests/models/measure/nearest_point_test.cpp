@@ -1,4 +1,4 @@
-#include "models/measure/nearest_point.h"
+#include "models/measure/triangle_bvh.h"
 #include "tests/models/measure/made_meshes.h"
 
 #include <catch2/catch.hpp>

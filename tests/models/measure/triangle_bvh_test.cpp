@@ -1,4 +1,3 @@
-#include "models/measure/nearest_point.h"
 #include "models/measure/triangle_bvh.h"
 #include "sim/base/parallel_for.h"
 #include "tests/models/measure/made_meshes.h"

@@ -1,7 +1,5 @@
 #include "models/procedural/background60.h"
-#include "models/planar/decimal_grid.h"
 #include "models/planar/planar_model.h"
-#include "models/planar/planarize.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_check.h"
 #include "sim/base/random_generator.h"

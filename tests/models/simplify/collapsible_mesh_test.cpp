@@ -1,4 +1,4 @@
-#include "models/simplify/collapsible_mesh.h"
+#include "models/simplify/working_surface.h"
 #include "tests/models/simplify/simplify_meshes.h"
 
 #include <catch2/catch.hpp>

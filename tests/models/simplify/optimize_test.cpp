@@ -1,5 +1,4 @@
 #include "models/measure/mesh_distance.h"
-#include "models/simplify/collapsible_mesh.h"
 #include "models/simplify/local_error.h"
 #include "models/simplify/simplify.h"
 #include "models/simplify/surface_samples.h"

@@ -1,5 +1,5 @@
 #include "sim/base/units.h"
-#include "sim/links/cigi_articulated_parts.h"
+#include "sim/links/cigi_image_generator.h"
 #include "tests/sim/links/cigi_samples.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "sim/base/axes.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/units.h"
-#include "sim/links/live_vehicle.h"
+#include "sim/links/live_traffic.h"
 #include "sim/links/sender_clock.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,4 @@
 #include "ui/commands/bench.h"
-#include "ui/commands/bench_features.h"
 
 #include <catch2/catch.hpp>
 

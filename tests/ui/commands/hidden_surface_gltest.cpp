@@ -3,8 +3,7 @@
 #include "tests/scratch.h"
 #include "tests/ui/flight/kept_world.h"
 #include "ui/flight/id_comparison.h"
-#include "ui/studies/draw_order/ray_comparison.h"
-#include "ui/studies/draw_order/ridge_tower.h"
+#include "ui/studies/draw_order/study_hidden_surface.h"
 
 #include <catch2/catch.hpp>
 

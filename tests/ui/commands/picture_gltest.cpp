@@ -4,7 +4,7 @@
 #include "tests/ui/flight/kept_world.h"
 #include "ui/flight/session.h"
 #include "ui/report/png_file.h"
-#include "ui/studies/hybrid_shading/shading_models.h"
+#include "ui/studies/hybrid_shading/study_shading.h"
 
 #include <catch2/catch.hpp>
 

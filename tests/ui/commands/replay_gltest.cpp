@@ -8,7 +8,7 @@
 #include "tests/ui/flight/small_ground.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/loaded_recording.h"
-#include "ui/studies/hybrid_shading/shading_models.h"
+#include "ui/studies/hybrid_shading/study_shading.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "ui/commands/spelling.h"
+#include "ui/commands/command_line.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,6 @@
 #include "models/procedural/procedural_terrain.h"
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_line.h"
-#include "ui/terrain/crack_finder.h"
 #include "ui/terrain/terrain_check.h"
 #include "visuals/scene/camera.h"
 #include "visuals/terrain/quadtree_mesher.h"

@@ -1,4 +1,4 @@
-#include "ui/flight/cigi_atmosphere.h"
+#include "ui/flight/live_flight.h"
 
 #include <catch2/catch.hpp>
 

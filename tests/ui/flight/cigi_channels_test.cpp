@@ -1,6 +1,6 @@
 #include "sim/links/cigi_responses.h"
 #include "sim/links/udp_port.h"
-#include "ui/flight/cigi_channels.h"
+#include "ui/flight/sender.h"
 
 #include <catch2/catch.hpp>
 

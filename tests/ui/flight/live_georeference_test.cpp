@@ -1,6 +1,6 @@
 #include "models/heights/map_frame.h"
 #include "sim/base/axes.h"
-#include "ui/flight/live_georeference.h"
+#include "ui/flight/live_flight.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "ui/flight/quality_controller.h"
+#include "ui/flight/session.h"
 
 #include <catch2/catch.hpp>
 

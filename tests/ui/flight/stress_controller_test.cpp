@@ -1,5 +1,5 @@
 #include "sim/base/random_generator.h"
-#include "ui/flight/stress_controller.h"
+#include "ui/flight/session.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,6 @@
 #include "tests/ui/report/scratch.h"
 #include "ui/report/flight_plots.h"
 #include "ui/report/html_report.h"
-#include "ui/report/page_plot.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/slow_pictures.h"
 

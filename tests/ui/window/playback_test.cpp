@@ -1,4 +1,4 @@
-#include "ui/window/playback.h"
+#include "ui/window/view_state.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "ui/window/real_time_factor.h"
+#include "ui/window/view_state.h"
 #include "ui/window/status_marks.h"
 
 #include <catch2/catch.hpp>

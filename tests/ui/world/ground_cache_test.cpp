@@ -3,7 +3,7 @@
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
 #include "tests/ui/world/user_cache.h"
-#include "ui/world/ground_cache.h"
+#include "ui/world/terrain_file.h"
 
 #include <catch2/catch.hpp>
 

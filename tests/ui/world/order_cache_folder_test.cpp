@@ -2,7 +2,7 @@
 #include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "tests/ui/world/user_cache.h"
-#include "ui/world/order_cache_folder.h"
+#include "ui/world/aircraft_loader.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
-#include "ui/world/refine_mesh_cache.h"
+#include "ui/world/aircraft_loader.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,5 @@
 #include "sim/base/random_generator.h"
-#include "visuals/bsp/bit_matrix.h"
-#include "visuals/bsp/occlusion_components.h"
-#include "visuals/bsp/splitting_plane.h"
 #include "visuals/bsp/partial_bsp_tree.h"
-#include "visuals/bsp/piece_table.h"
 #include "visuals/bsp/polygon_pieces.h"
 
 #include <catch2/catch.hpp>

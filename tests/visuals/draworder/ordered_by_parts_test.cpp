@@ -1,11 +1,9 @@
 #include "models/polygons/polygon_model.h"
 #include "sim/base/random_generator.h"
 #include "tests/order_shapes.h"
-#include "visuals/draworder/order_proof.h"
 #include "visuals/draworder/order_ray_test.h"
 #include "visuals/draworder/ordered_model.h"
-#include "visuals/draworder/bsp_order.h"
-#include "visuals/orderfile/bsp_cells.h"
+#include "visuals/orderfile/cell_orders.h"
 #include "visuals/orderfile/random_ray_test.h"
 
 #include <catch2/catch.hpp>

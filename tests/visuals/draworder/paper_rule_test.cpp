@@ -1,4 +1,4 @@
-#include "visuals/draworder/paper_rule.h"
+#include "visuals/draworder/octant_order.h"
 #include "visuals/draworder/precedence.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "sim/base/random_generator.h"
 #include "tests/order_shapes.h"
-#include "visuals/draworder/ray_targets.h"
+#include "visuals/draworder/order_ray_test.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

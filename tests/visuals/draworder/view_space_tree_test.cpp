@@ -3,8 +3,7 @@
 #include "visuals/draworder/candidate_planes.h"
 #include "visuals/draworder/cell_search.h"
 #include "visuals/draworder/components.h"
-#include "visuals/draworder/cycle_split.h"
-#include "visuals/draworder/plane_scorer.h"
+#include "visuals/draworder/working_model.h"
 #include "visuals/draworder/view_space_tree.h"
 #include "visuals/draworder/search_budget.h"
 

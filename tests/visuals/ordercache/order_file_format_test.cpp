@@ -4,7 +4,6 @@
 #include "sim/base/hash.h"
 #include "tests/visuals/ordercache/small_models.h"
 #include "visuals/ordercache/binary_file.h"
-#include "visuals/ordercache/order_file_format.h"
 #include "visuals/ordercache/order_cache.h"
 
 #include <catch2/catch.hpp>

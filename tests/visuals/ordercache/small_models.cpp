@@ -1,7 +1,7 @@
 #include "tests/visuals/ordercache/small_models.h"
 
 #include "models/polygons/obj_reader.h"
-#include "visuals/ordercache/order_file_format.h"
+#include "visuals/ordercache/order_cache.h"
 
 #include <catch2/catch.hpp>
 

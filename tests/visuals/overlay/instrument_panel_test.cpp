@@ -1,6 +1,5 @@
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
-#include "visuals/overlay/dial_hands.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/scene/camera_rig.h"
 

@@ -1,4 +1,4 @@
-#include "visuals/planning/path_ribbon.h"
+#include "visuals/planning/frame_transparents.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

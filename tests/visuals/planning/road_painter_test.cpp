@@ -2,7 +2,7 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/road_painter.h"
+#include "visuals/planning/planner.h"
 #include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "sim/base/units.h"
 #include "visuals/planning/ground_frame.h"
-#include "visuals/planning/runway_painter.h"
+#include "visuals/planning/planner.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>

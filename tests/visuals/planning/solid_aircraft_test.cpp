@@ -1,4 +1,4 @@
-#include "visuals/planning/pixel_box.h"
+#include "visuals/planning/scene_painter.h"
 
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>

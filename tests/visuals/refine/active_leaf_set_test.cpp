@@ -1,5 +1,5 @@
 #include "visuals/refine/active_leaf_set.h"
-#include "visuals/refine/uint24_array.h"
+#include "visuals/refine/selective_refiner.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "visuals/roads/road_cost_grid.h"
+#include "visuals/roads/road_network.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "visuals/roads/road_curve.h"
+#include "visuals/roads/road_network.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-#include "visuals/roads/road_routes.h"
+#include "visuals/roads/road_network.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 #include "sim/base/random_generator.h"
-#include "visuals/separation/matrix_game.h"
+#include "visuals/separation/separating_plane_proof.h"
 
 #include <catch2/catch.hpp>
 

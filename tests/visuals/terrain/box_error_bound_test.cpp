@@ -1,4 +1,4 @@
-#include "visuals/terrain/box_error_bound.h"
+#include "visuals/terrain/bisection_criterion.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "tests/rough_heights.h"
 #include "tests/visuals/terrain/error_ground.h"
 #include "tests/visuals/terrain/pixel_errors.h"
-#include "visuals/terrain/horizon_error.h"
+#include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/vertex_popping.h"
 
 #include <catch2/catch.hpp>

@@ -1,36 +1,264 @@
 #include "ui/studies/flicker/study_popping.h"
-
 #include "sim/base/output_file.h"
 #include "sim/base/parallel_for.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/flight_cameras.h"
+#include "ui/flight/session.h"
 #include "ui/report/html_text.h"
 #include "ui/report/statistics.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/flicker/shimmer_table.h"
+#include "ui/terrain/ground_view.h"
 #include "ui/terrain/loaded_ground.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/terrain_file.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/terrain/curvature_drop.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/vertex_popping.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace octant::ui::studies::flicker {
+
+// What is left of flicker: pictures of a flight compared after the motion is taken out.
+
+namespace terrain = visuals::terrain;
+
+namespace {
+
+constexpr int pixel_step = 4;
+constexpr double reach_m = 100000.0;
+
+/// Two hits this near to each other, with distance, are the same ground.
+double same_ground_tolerance_m(double distance_m) {
+    return 0.5 + 0.002 * distance_m;
+}
+
+glm::dvec3 lowered(glm::dvec3 place_m, const glm::dvec3& eye_m, double radius_m) {
+    const glm::dvec2 level_m = glm::dvec2(place_m) - glm::dvec2(eye_m);
+    place_m.z -= terrain::curvature_drop_m(glm::dot(level_m, level_m), radius_m);
+    return place_m;
+}
+
+/// Whether a pixel, from the middle, lies near the aircraft's.
+bool near_aircraft(
+    const flight::FlightCamera& frame, const terrain::PerspectiveView& view, const glm::dvec2& pixel) {
+    const glm::dvec3 seen = view.seen_m(frame.aircraft_m - view.eye_m);
+    if (seen.z <= frame.aircraft_radius_m) {
+        return seen.z > -frame.aircraft_radius_m;
+    }
+    const double radius_px = 1.5 * view.focal_px * frame.aircraft_radius_m / seen.z;
+    return glm::distance(view.pixel(seen), pixel) < radius_px;
+}
+
+/// Where the frame shows a place of the ground, from the middle of the picture.
+std::optional<glm::dvec2> pixel_of(
+    const terrain::GroundSamples& ground,
+    const terrain::PerspectiveView& view,
+    const glm::dvec3& place_m,
+    double radius_m) {
+    const glm::dvec3 from_eye_m = lowered(place_m, view.eye_m, radius_m) - view.eye_m;
+    const glm::dvec3 seen = view.seen_m(from_eye_m);
+    if (!view.shows(seen)) {
+        return std::nullopt;
+    }
+    const auto hit_m =
+        terrain::intersect_ground(ground, view.eye_m, glm::normalize(from_eye_m), reach_m, radius_m);
+    if (!hit_m || glm::distance(*hit_m, place_m) > same_ground_tolerance_m(glm::length(from_eye_m))) {
+        return std::nullopt;
+    }
+    return view.pixel(seen);
+}
+
+double luminance(const visuals::scene::Picture& picture, int x, int y) {
+    const std::size_t at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+             static_cast<std::size_t>(x));
+    return 0.2126 * picture.rgba[at] + 0.7152 * picture.rgba[at + 1] +
+           0.0722 * picture.rgba[at + 2];
+}
+
+double luminance_between(const visuals::scene::Picture& picture, const glm::dvec2& at) {
+    const int x = static_cast<int>(at.x);
+    const int y = static_cast<int>(at.y);
+    const double east = at.x - x;
+    const double south = at.y - y;
+    return (1.0 - south) *
+               ((1.0 - east) * luminance(picture, x, y) + east * luminance(picture, x + 1, y)) +
+           south * ((1.0 - east) * luminance(picture, x, y + 1) +
+                    east * luminance(picture, x + 1, y + 1));
+}
+
+} // namespace
+
+std::vector<ReprojectedPixel> reprojected_pixels(
+    const terrain::GroundSamples& ground,
+    const flight::FlightCamera& earlier,
+    const flight::FlightCamera& later,
+    const glm::ivec2& size_px,
+    double radius_m) {
+    const terrain::PerspectiveView before = ui::terrain::picture_view(earlier.camera, size_px);
+    const terrain::PerspectiveView now = ui::terrain::picture_view(later.camera, size_px);
+    const glm::dvec2 corner(-now.half_width_px + 0.5, now.half_height_px - 0.5);
+    std::vector<ReprojectedPixel> matches;
+    for (int y = 0; y < size_px.y; y += pixel_step) {
+        for (int x = 0; x < size_px.x; x += pixel_step) {
+            const glm::dvec2 pixel = corner + glm::dvec2(x, -y);
+            if (near_aircraft(later, now, pixel)) {
+                continue;
+            }
+            const glm::dvec3 ray =
+                glm::normalize(now.ahead + (now.right * pixel.x + now.up * pixel.y) / now.focal_px);
+            const auto hit_m = terrain::intersect_ground(ground, now.eye_m, ray, reach_m, radius_m);
+            const auto was =
+                hit_m ? pixel_of(ground, before, *hit_m, radius_m) : std::optional<glm::dvec2>();
+            if (!was || near_aircraft(earlier, before, *was)) {
+                continue;
+            }
+            const glm::dvec2 at(was->x - corner.x, corner.y - was->y);
+            if (at.x >= 0.0 && at.y >= 0.0 && at.x < size_px.x - 1 && at.y < size_px.y - 1) {
+                matches.push_back({{x, y}, at});
+            }
+        }
+    }
+    return matches;
+}
+
+double mean_change(
+    const visuals::scene::Picture& earlier,
+    const visuals::scene::Picture& later,
+    const std::vector<ReprojectedPixel>& matches) {
+    double sum = 0.0;
+    for (const ReprojectedPixel& place : matches) {
+        sum += std::abs(
+            luminance(later, place.pixel.x, place.pixel.y) -
+            luminance_between(earlier, place.before));
+    }
+    return matches.empty() ? 0.0 : sum / static_cast<double>(matches.size());
+}
+
+namespace scene = visuals::scene;
+namespace terrain = visuals::terrain;
+
+namespace {
+
+struct RaySampler {
+    int samples;
+    bool geomorphs;
+};
+
+constexpr std::array samplings = {
+    RaySampler{1, false}, RaySampler{1, true}, RaySampler{4, false}, RaySampler{4, true}};
+
+/// Sums over pairs of frames.
+struct Change {
+    std::array<double, samplings.size()> sum{};
+    std::size_t pairs = 0;
+    std::size_t pixels = 0;
+};
+
+void add_change(report::HtmlTable& table, const std::string& path, const Change& change) {
+    std::vector<std::string> row = {
+        path, fmt::format("{}", change.pairs), fmt::format("{}", change.pixels)};
+    for (const double sum : change.sum) {
+        row.push_back(fmt::format("{:.3f}", sum / static_cast<double>(change.pairs)));
+    }
+    table.rows.push_back(row);
+}
+
+Change shimmer_along(
+    const ShimmerOptions& options,
+    const settings::RunSettings& flown,
+    const ui::terrain::LoadedGround& ground) {
+    const terrain::GroundSamples samples = ground.samples();
+    const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
+    std::array<std::unique_ptr<flight::Session>, samplings.size()> sessions;
+    for (std::size_t k = 0; k < samplings.size(); ++k) {
+        settings::RunSettings settings = flown;
+        settings.view.samples = samplings[k].samples;
+        settings.ground.geomorphs = samplings[k].geomorphs;
+        sessions[k] = std::make_unique<flight::Session>(settings);
+    }
+    const double radius_m = flown.ground.earth_curvature ? ground.mean_radius_m() : 0.0;
+    base::Progress progress(flown.path.name, static_cast<int>(cameras.size()), options.quiet);
+    Change change;
+    const auto step = static_cast<std::size_t>(options.every);
+    for (std::size_t frame = 0; frame + 1 < cameras.size(); frame += step) {
+        const std::vector<ReprojectedPixel> matches =
+            reprojected_pixels(samples, cameras[frame], cameras[frame + 1], flown.view.size_px, radius_m);
+        for (std::size_t k = 0; k < samplings.size(); ++k) {
+            flight::Session& session = *sessions[k];
+            session.draw(static_cast<int>(frame));
+            const visuals::scene::Picture earlier = session.picture();
+            session.draw(static_cast<int>(frame) + 1);
+            change.sum[k] += mean_change(earlier, session.picture(), matches);
+        }
+        ++change.pairs;
+        change.pixels += matches.size();
+        progress.show(static_cast<int>(frame));
+    }
+    return change;
+}
+
+} // namespace
+
+report::HtmlTable shimmer_table(const ShimmerOptions& options) {
+    const ui::terrain::LoadedGround ground = ui::terrain::load_ground(
+        options.settings.path.terrain,
+        world::import_options(options.settings.path),
+        true); // popping said the notes
+    report::HtmlTable table;
+    table.title = "Shimmer: mean change of luminance (0 to 255) after the motion is taken out";
+    table.header = {
+        "path",
+        "pairs of frames",
+        "pixels",
+        "1 sample, no geomorphs",
+        "1 sample, geomorphs",
+        "4 samples, no geomorphs",
+        "4 samples, geomorphs"};
+    std::vector<Change> changes(base::built_in_paths.size());
+    ShimmerOptions of_path = options;
+    of_path.quiet = options.quiet || options.jobs > 1; // progress of one at a time only
+    parallel_for(changes.size(), options.jobs, [&](std::size_t i, std::size_t /*worker*/) {
+        settings::RunSettings settings = options.settings;
+        settings.path.name = std::string(base::built_in_paths[i]);
+        settings.surface.shadows = false;
+        settings.ground.mesh = scene::GroundMetric::ScreenError;
+        changes[i] = shimmer_along(of_path, settings, ground);
+    });
+    Change all;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        add_change(table, std::string(base::built_in_paths[i]), changes[i]);
+        for (std::size_t k = 0; k < samplings.size(); ++k) {
+            all.sum[k] += changes[i].sum[k];
+        }
+        all.pairs += changes[i].pairs;
+        all.pixels += changes[i].pixels;
+    }
+    add_change(table, "all", all);
+    table.note = "Every fourth pixel, both ways, of the later frame that shows ground which the "
+                 "earlier one shows: rays to the full-resolution ground; the earlier picture is "
+                 "read between its pixels. Not near the aircraft; no shadows.";
+    return table;
+}
 
 namespace scene = visuals::scene;
 namespace terrain = visuals::terrain;

@@ -19,7 +19,7 @@ namespace scene = visuals::scene;
 
 namespace {
 
-constexpr int frames = 100;
+constexpr int timed_frames = 100;
 constexpr int warm_up_frames = 10;
 
 struct ShadingMode {
@@ -72,7 +72,7 @@ settings_of(const std::string& aircraft, const ShadingMode& way, const RendererM
     settings.view.kind = scene::View::Orbit; // so that the choice changes
     settings.path.terrain = "none";
     settings.path.aircraft = {aircraft};
-    settings.time.frames = frames;
+    settings.time.frames = timed_frames;
     settings.time.warm_up = 0;
     settings.drawing.renderer = drawer.renderer;
     settings.view.samples = drawer.samples;
@@ -121,8 +121,8 @@ std::array<ShadingTimes, shading_modes.size()> measured(const std::string& aircr
         sessions[i] = session_of(aircraft, shading_modes[i / renderer_modes.size()], renderer_modes[i % renderer_modes.size()]);
     }
     std::array<ShadingTimes, shading_modes.size()> result;
-    base::Progress progress(fmt::format("{} flown", aircraft), frames, quiet);
-    for (int frame = 0; frame < frames; ++frame) {
+    base::Progress progress(fmt::format("{} flown", aircraft), timed_frames, quiet);
+    for (int frame = 0; frame < timed_frames; ++frame) {
         for (std::size_t turn = 0; turn < all; ++turn) {
             const std::size_t i = (turn + static_cast<std::size_t>(frame)) % all;
             const report::FrameRecord record = sessions[i]->draw(frame);
@@ -180,7 +180,7 @@ report::HtmlTable shading_times_table(std::span<const std::string> aircraft, boo
         "that divided for each pixel; the columns say what it costs here, and what light in each "
         "pixel (Phong) does. The last columns paint by a depth buffer, which asks for depth in each "
         "sample of the aircraft and is not tuned as the painter is.",
-        frames - warm_up_frames);
+        timed_frames - warm_up_frames);
     return table;
 }
 

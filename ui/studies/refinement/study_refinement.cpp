@@ -1,21 +1,136 @@
 #include "ui/studies/refinement/study_refinement.h"
-
 #include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
+#include "ui/report/png_file.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/refinement/refinement_pictures.h"
 #include "ui/studies/refinement/refinement_tables.h"
+#include "ui/studies/shading_pictures.h"
 #include "ui/world/refine_mesh.h"
+#include "visuals/refine/partition_mesh.h"
+#include "visuals/refine/refine_region.h"
+#include "visuals/shading/vertex_normals.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
+#include <string>
 #include <utility>
 
 namespace octant::ui::studies::refinement {
 
 namespace {
+
+namespace refine = visuals::refine;
+namespace shading = visuals::shading;
+
+constexpr int size_px = 480;
+constexpr auto background = std::byte{255};
+
+/// Axes of ShadingPictures: x forward, y right, z down.
+models::TriangleMesh in_body_axes(models::TriangleMesh mesh, bool y_up) {
+    for (glm::dvec3& point_m : mesh.vertices_m) {
+        point_m = y_up ? glm::dvec3(point_m.x, point_m.z, -point_m.y)
+                       : glm::dvec3(point_m.x, -point_m.y, -point_m.z);
+    }
+    mesh.normals.clear();
+    mesh.corner_normals.clear();
+    mesh.materials.clear();
+    mesh.triangle_materials.clear();
+    if (mesh.colours.empty()) {
+        mesh.colours.assign(mesh.vertices_m.size(), glm::vec3(0.6F));
+    }
+    return mesh;
+}
+
+/// Flat faces from the right, a little from the front and above. Light is worked out for red, green
+/// and blue in turn.
+report::Picture picture_of(const models::TriangleMesh& original, bool y_up) {
+    const models::TriangleMesh mesh = in_body_axes(original, y_up);
+    shading::ShadingLight light;
+    light.to_light = glm::normalize(glm::vec3(0.5F, 0.6F, -0.7F));
+    light.ambient = 0.35F;
+    light.diffuse = 0.65F;
+    light.specular = 0.0F;
+    const std::vector<glm::vec3> normals = shading::corner_normals(mesh);
+    report::Picture picture{size_px, size_px, 3, {}};
+    picture.bytes.assign(std::size_t{3} * size_px * size_px, background);
+    for (int part = 0; part < 3; ++part) {
+        models::TriangleMesh tinted = mesh;
+        for (glm::vec3& colour : tinted.colours) {
+            colour = glm::vec3(colour[part], 0.0F, 0.0F);
+        }
+        const shading::ShadedPolygons polygons = shading::shaded_polygons(tinted, normals);
+        const glm::dvec3 eye_m =
+            glm::dvec3(polygons.centre_m) + 3.0 * static_cast<double>(polygons.radius_m) *
+                                                glm::normalize(glm::dvec3(0.35, 1.0, -0.3));
+        const ShadingPictures pictures(polygons, light, eye_m, size_px);
+        const LightPicture seen = pictures.hybrid(std::vector<std::uint8_t>(polygons.size(), 0));
+        for (std::size_t at = 0; at < seen.light.size(); ++at) {
+            if (pictures.covered()[at] != 0) {
+                const float shown = glm::clamp(seen.light[at], 0.0F, 1.0F);
+                picture.bytes[3 * at + static_cast<std::size_t>(part)] =
+                    static_cast<std::byte>(std::lround(255.0F * shown));
+            }
+        }
+    }
+    return picture;
+}
+
+/// About the original vertex that lies nearest to three quarters of the way to the front and below
+/// the middle.
+refine::Sphere chest_of(const models::TriangleMesh& original, bool y_up) {
+    const models::BoundingBox bounds = models::bounds_of(original);
+    const glm::dvec3 share = y_up ? glm::dvec3(0.72, 0.42, 0.8) : glm::dvec3(0.72, 0.2, 0.42);
+    const glm::dvec3 wanted_m = glm::mix(bounds.min_m, bounds.max_m, share);
+    const auto nearest = std::ranges::min_element(
+        original.vertices_m, {}, [&](const auto& at_m) { return glm::distance(at_m, wanted_m); });
+    return {*nearest, 0.12 * models::diagonal_m(original)};
+}
+
+/// The paper's figure of what refinement means: a model, its base mesh, the parts of the model that
+/// the base mesh's vertices stand for, and the base mesh with one part (a cow's chest: front, low)
+/// refined all the way. Writes four PNG to `folder`, returns the Markdown that shows them. `y_up`:
+/// else z is. The model is seen from its right, its front is at +x. Throws Error.
+std::string write_refinement_pictures(
+    const RefinedModel& model, bool y_up, const std::filesystem::path& folder) {
+    refine::SelectiveRefiner front(model);
+    const auto add = [&](const char* name, const models::TriangleMesh& mesh) {
+        const std::string file = fmt::format("refinement-{}.png", name);
+        report::write_png(folder / file, picture_of(mesh, y_up).view());
+        return fmt::format("![{}]({}) ", name, file);
+    };
+    const models::TriangleMesh original =
+        visuals::refine::partition_mesh(front, visuals::refine::ColourBy::Nothing);
+    std::string markdown = add("original", original);
+    models::TriangleMesh base = refine::active_mesh(front).mesh;
+    base.colours.clear();
+    markdown += add("base", base);
+    markdown += add("partition", visuals::refine::partition_mesh(front));
+    const refine::Sphere chest = chest_of(original, y_up);
+    refine::refine_regions(front, std::span(&chest, 1));
+    front.repair();
+    markdown +=
+        add("region",
+            visuals::refine::coloured_mesh(
+                refine::active_mesh(front), visuals::refine::ColourBy::Level));
+    return fmt::format(
+        "{}: {} vertices; its base mesh of {}; the parts that these stand for; one part refined, "
+        "{} vertices (blue: original ones)\n\n{}\n",
+        model->parts().name,
+        model->leaf_count(),
+        model->roots().size(),
+        front.active_count(),
+        markdown);
+}
 
 namespace refine = visuals::refine;
 

@@ -1,22 +1,697 @@
 #include "ui/studies/simplification/study_simplification.h"
-
+#include "models/meshfile/mesh_file.h"
+#include "models/procedural/background60.h"
+#include "models/procedural/globe.h"
+#include "models/procedural/machined_part.h"
+#include "models/repair/repair.h"
+#include "models/simplify/simplify.h"
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/parallel_for.h"
+#include "ui/base/data_files.h"
 #include "ui/base/progress.h"
+#include "ui/base/stopwatch.h"
+#include "ui/report/child_program.h"
+#include "ui/report/html_text.h"
+#include "ui/report/plots.h"
 #include "ui/report/table_text.h"
-#include "ui/studies/simplification/peer_program.h"
-#include "ui/studies/simplification/simplification_runs.h"
-#include "ui/studies/simplification/simplification_tables.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::studies::simplification {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* repeats = "3";
+
+/// A file that goes when it is no longer needed.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(fs::path file)
+        : path(std::move(file)) {}
+
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path, ignored);
+    }
+
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    TemporaryFile(TemporaryFile&&) = delete;
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
+
+    const fs::path path;
+};
+
+double time_in(const fs::path& program, const std::string& output) {
+    const auto json = nlohmann::json::parse(output, nullptr, false);
+    if (!json.is_object() || !json.contains("time_ms") || !json["time_ms"].is_number()) {
+        throw_error_in(
+            program,
+            fmt::format("expected a line of JSON with time_ms, got '{}'", printable(output)));
+    }
+    return json["time_ms"].get<double>();
+}
+
+/// Positions and triangles only.
+models::TriangleMesh bare(const models::TriangleMesh& mesh) {
+    models::TriangleMesh shape;
+    shape.vertices_m = mesh.vertices_m;
+    shape.triangles = mesh.triangles;
+    return shape;
+}
+
+constexpr std::array peer_methods = {
+    PeerMethod{"meshoptimizer", "meshoptimizer"},
+    PeerMethod{lindstrom_turk_name, "CGAL Lindstrom-Turk"},
+    PeerMethod{"cgal-garland-heckbert", "CGAL Garland-Heckbert"},
+    PeerMethod{"openmesh-quadric", "OpenMesh quadric"}};
+
+models::TriangleMesh octahedron() {
+    models::TriangleMesh mesh;
+    mesh.vertices_m = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        mesh.triangles.push_back({i, (i + 1) % 4, 4});
+        mesh.triangles.push_back({(i + 1) % 4, i, 5});
+    }
+    return mesh;
+}
+
+} // namespace
+
+std::vector<PeerMethod> methods_of_peer(const fs::path& program, const fs::path& folder) {
+    std::vector<PeerMethod> there;
+    for (const PeerMethod& method : peer_methods) {
+        if (simplified_by_peer(program, method.name, octahedron(), 6, folder)) {
+            there.push_back(method);
+        }
+    }
+    return there;
+}
+
+std::optional<fs::path> find_peer_program() {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    const fs::path peers = program.parent_path() / "octant-peers";
+    if (failed || !fs::is_regular_file(peers, failed)) {
+        return std::nullopt;
+    }
+    return peers;
+}
+
+std::optional<PeerResult> simplified_by_peer(
+    const fs::path& program,
+    const std::string& method,
+    const models::TriangleMesh& mesh,
+    std::size_t faces,
+    const fs::path& folder) {
+    const TemporaryFile input(folder / "peer-input.obj");
+    const TemporaryFile output(folder / "peer-output.obj");
+    models::meshfile::write_mesh(input.path, bare(mesh));
+    auto child = report::ChildProgram::start(
+        {fs::absolute(program).string(),
+         method,
+         input.path.string(),
+         fmt::format("{}", faces),
+         output.path.string(),
+         "--repeat",
+         repeats});
+    if (!child) {
+        throw_error_in(program, "expected the program octant-peers, got nothing that can be run");
+    }
+    const report::ProgramResult ending = child->finish();
+    if (!ending.succeeded) {
+        if (ending.output.rfind("not built with", 0) == 0) {
+            return std::nullopt;
+        }
+        throw_error_in(program, fmt::format("{} failed: {}", method, printable(ending.last_error_line)));
+    }
+    PeerResult result;
+    result.time_ms = time_in(program, ending.output);
+    result.mesh = models::meshfile::read_mesh(output.path);
+    return result;
+}
+
+namespace {
+
+StudyMesh study_mesh(std::string name, models::TriangleMesh original) {
+    StudyMesh mesh;
+    mesh.name = std::move(name);
+    mesh.diagonal_m = models::diagonal_m(original);
+    models::TriangleMesh shape;
+    shape.vertices_m = original.vertices_m;
+    shape.colours = original.colours;
+    shape.triangles = original.triangles;
+    mesh.original = shape;
+    mesh.clean = models::repair::repaired(std::move(shape)).mesh;
+    return mesh;
+}
+
+models::TriangleMesh torus_mesh() {
+    const models::polygons::PolygonModel model = models::procedural::torus(256, 64);
+    models::TriangleMesh mesh;
+    mesh.vertices_m = model.vertices_m;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const auto corners = model.corners(i);
+        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+        mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+    }
+    return mesh;
+}
+
+/// Every triangle cut in four at the middles of its sides.
+models::TriangleMesh cut_in_four(const models::TriangleMesh& coarse) {
+    models::TriangleMesh fine;
+    fine.vertices_m = coarse.vertices_m;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [found, is_new] = middles.try_emplace(
+            std::minmax(a, b), static_cast<std::uint32_t>(fine.vertices_m.size()));
+        if (is_new) {
+            fine.vertices_m.push_back(0.5 * (coarse.vertices_m[a] + coarse.vertices_m[b]));
+        }
+        return found->second;
+    };
+    for (const auto& [a, b, c] : coarse.triangles) {
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        fine.triangles.insert(
+            fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    return fine;
+}
+
+models::TriangleMesh fine_aircraft(const char* name) {
+    constexpr std::size_t wanted = 40'000;
+    models::TriangleMesh mesh =
+        models::repair::repaired(models::meshfile::read_mesh(base::aircraft_file(name))).mesh;
+    while (mesh.triangles.size() < wanted) {
+        mesh = cut_in_four(mesh);
+    }
+    return mesh;
+}
+
+} // namespace
+
+StudyMesh bunny_from(const std::filesystem::path& file) {
+    StudyMesh mesh = study_mesh_from(file);
+    constexpr std::size_t vertices = 35947;
+    constexpr std::size_t faces = 69451;
+    if (mesh.original.vertices_m.size() != vertices || mesh.original.triangles.size() != faces) {
+        throw_error_in(
+            file,
+            fmt::format(
+                "expected the Stanford bunny of {} vertices and {} faces, got {} and {}",
+                vertices,
+                faces,
+                mesh.original.vertices_m.size(),
+                mesh.original.triangles.size()));
+    }
+    mesh.name = "bunny";
+    return mesh;
+}
+
+StudyMesh study_mesh_from(const std::filesystem::path& file) {
+    StudyMesh mesh = study_mesh(file.stem().string(), models::meshfile::read_mesh(file));
+    if (mesh.clean.triangles.empty()) {
+        throw_error_in(file, "expected a mesh with triangles, got none");
+    }
+    return mesh;
+}
+
+std::vector<StudyMesh> built_in_mesh_names() {
+    std::vector<StudyMesh> meshes;
+    meshes.push_back(study_mesh("globe", models::procedural::globe()));
+    meshes.push_back(study_mesh("torus", torus_mesh()));
+    meshes.push_back(study_mesh("machined part", models::procedural::machined_part()));
+    meshes.push_back(study_mesh("F-15, fine", fine_aircraft("f15")));
+    return meshes;
+}
+
+StudyMesh uncoloured(StudyMesh mesh) {
+    mesh.original.colours.clear();
+    mesh.clean.colours.clear();
+    return mesh;
+}
+
+namespace {
+
+namespace measure = models::measure;
+namespace simplify = models::simplify;
+using models::TriangleMesh;
+using simplify::PaperMeasure;
+
+constexpr std::size_t own_methods = 3;
+
+measure::MeshDistance distance_to(const TriangleMesh& original, const TriangleMesh& result) {
+    measure::DistanceOptions options;
+    options.tightness = 1.02;
+    options.samples = 100'000;
+    options.threads = core_count();
+    return measure::distance(original, result, options);
+}
+
+/// The methods on one mesh and one number of faces.
+class QualityRow {
+public:
+    QualityRow(const StudyMesh& mesh, std::size_t faces, const OnResult& tick)
+        : mesh_(mesh)
+        , faces_(faces)
+        , tick_(tick) {}
+
+    void add(const char* method, const TriangleMesh& result, double time_ms) {
+        QualityRun& run = runs.emplace_back();
+        run.mesh = mesh_.name;
+        run.method = method;
+        run.target_faces = faces_;
+        run.faces = result.triangles.size();
+        run.time_ms = time_ms;
+        if (result.triangles.empty()) {
+            run.hausdorff = run.rms = 1.0;
+        } else {
+            const measure::MeshDistance found = distance_to(mesh_.clean, result);
+            run.hausdorff = found.max_hausdorff_m() / mesh_.diagonal_m;
+            run.rms = found.rms_m() / mesh_.diagonal_m;
+            if (!mesh_.clean.colours.empty() && !result.colours.empty()) {
+                run.colour_rms = found.colour_rms();
+            }
+        }
+        tick_();
+    }
+
+    void add_ours(const char* method, int effort) {
+        simplify::SimplifyOptions options;
+        options.effort = effort;
+        options.goal.faces = faces_;
+        const base::Stopwatch watch;
+        const simplify::Simplified result = simplify::simplified(mesh_.clean, options);
+        add(method, result.mesh, watch.ms());
+    }
+
+    void add_paper(const char* method) {
+        simplify::PaperOptions options;
+        options.goal.faces = faces_;
+        const base::Stopwatch watch;
+        const simplify::PaperResult result = simplify::paper_simplified(mesh_.clean, options);
+        add(method, result.mesh, watch.ms());
+    }
+
+    void add_peers(const QualityOptions& options) {
+        for (const PeerMethod& peer : options.peers) {
+            const auto result =
+                simplified_by_peer(options.program, peer.name, mesh_.clean, faces_, options.folder);
+            if (!result) {
+                continue;
+            }
+            add(peer.shown, result->mesh, result->time_ms);
+            runs.back().peer = true;
+            runs.back().lindstrom_turk_name = std::string(peer.name) == lindstrom_turk_name;
+        }
+    }
+
+    std::vector<QualityRun> runs;
+
+private:
+    const StudyMesh& mesh_;
+    std::size_t faces_;
+    const OnResult& tick_;
+};
+
+} // namespace
+
+std::vector<PaperRun>
+paper_runs(const StudyMesh& mesh, std::size_t vertices, ColourReading colour, const OnResult& tick) {
+    std::vector<PaperRun> runs;
+    for (const PaperMeasure by :
+         {PaperMeasure::Plane, PaperMeasure::Triangle, PaperMeasure::Bidirectional}) {
+        simplify::PaperOptions options;
+        options.measure = by;
+        options.goal.vertices = vertices;
+        options.colour_weight = colour == ColourReading::None ? 0.0 : globe_colour_weight_m;
+        options.colour_in_edge_length = colour == ColourReading::DistanceAndLength;
+        PaperRun& run = runs.emplace_back();
+        run.mesh = mesh.name;
+        run.colour = colour;
+        run.measure = by;
+        run.diagonal_m = mesh.diagonal_m;
+        const base::Stopwatch watch;
+        run.result = simplify::paper_simplified(mesh.original, options);
+        run.time_ms = watch.ms();
+        run.distance = distance_to(mesh.original, run.result.mesh);
+        run.defects = measure::defects(run.result.mesh);
+        tick();
+    }
+    return runs;
+}
+
+int quality_methods(const QualityOptions& options) {
+    return static_cast<int>(own_methods + options.peers.size());
+}
+
+std::vector<QualityRun> quality_runs(
+    const StudyMesh& mesh,
+    const std::vector<std::size_t>& faces,
+    const QualityOptions& options,
+    const OnResult& tick) {
+    std::vector<QualityRun> runs;
+    for (const std::size_t wanted : faces) {
+        QualityRow row(mesh, wanted, tick);
+        row.add_ours("Octant, surface", simplify::surface_effort);
+        row.add_ours("Octant, fast", simplify::fast_effort);
+        row.add_paper("2005, both directions");
+        row.add_peers(options);
+        runs.insert(runs.end(), row.runs.begin(), row.runs.end());
+    }
+    return runs;
+}
+
+namespace {
+
+// The tables of the simplification paper with ours beside.
+//
+// Source: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, tables 1 and 2,
+// figures 5 and 6.
+
+using models::simplify::PaperMeasure;
+
+/// What the paper prints of one model.
+struct Printed {
+    const char* mesh;
+    std::size_t feet_inside;
+    std::size_t feet_outside;
+    std::array<double, 3> errors;     ///< by PaperMeasure
+    std::array<std::size_t, 3> faces; ///< of the result, the same
+};
+
+constexpr std::array printed = {
+    Printed{"bunny", 281616, 2501472, {4.34e-5, 3.65e-5, 3.65e-5}, {1725, 1725, 1725}},
+    Printed{"globe", 234588, 2479236, {2.56e-5, 2.03e-5, 1.98e-5}, {9944, 9907, 9907}}};
+
+const Printed* printed_of(const PaperRun& run) {
+    const auto* found = std::find_if(printed.begin(), printed.end(), [&](const Printed& model) {
+        return run.mesh == model.mesh;
+    });
+    return found == printed.end() ? nullptr : found;
+}
+
+const char* name_of(PaperMeasure measure) {
+    switch (measure) {
+    case PaperMeasure::Plane:
+        return "previous";
+    case PaperMeasure::Triangle:
+        return "one direction";
+    case PaperMeasure::Bidirectional:
+        break;
+    }
+    return "both directions";
+}
+
+const char* name_of(ColourReading colour) {
+    switch (colour) {
+    case ColourReading::None:
+        return "no";
+    case ColourReading::Distance:
+        return "distances";
+    case ColourReading::DistanceAndLength:
+        break;
+    }
+    return "distances, edge lengths";
+}
+
+/// "12 of 34 = 35.29 %".
+std::string share_text(std::size_t part, std::size_t all) {
+    return fmt::format(
+        "{} of {} = {:.2f} %",
+        part,
+        all,
+        100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1)));
+}
+
+std::vector<std::string> error_row(const PaperRun& run, const PaperRun& previous) {
+    const Printed* paper = printed_of(run);
+    const auto index = static_cast<std::size_t>(run.measure);
+    const auto& sums = run.result.sums;
+    const auto& before = previous.result.sums;
+    return {
+        run.mesh,
+        name_of(run.colour),
+        name_of(run.measure),
+        paper == nullptr ? "" : fmt::format("{:.2e}", paper->errors[index]),
+        paper == nullptr ? "" : fmt::format("{:.2f}", paper->errors[index] / paper->errors[0]),
+        fmt::format("{:.4e}", sums.triangle_m2),
+        fmt::format("{:.3f}", sums.triangle_m2 / before.triangle_m2),
+        fmt::format("{:.4e}", sums.bidirectional_m2),
+        fmt::format("{:.3f}", sums.bidirectional_m2 / before.bidirectional_m2),
+        paper == nullptr ? "" : fmt::format("{}", paper->faces[index]),
+        fmt::format("{}", run.result.mesh.triangles.size()),
+        fmt::format("{}", run.result.mesh.vertices_m.size()),
+        fmt::format("{}", run.defects.duplicate_faces),
+        fmt::format("{}", run.defects.non_manifold_edges),
+        fmt::format("{:.3f}", 1e3 * run.distance.max_hausdorff_m() / run.diagonal_m),
+        fmt::format("{:.3f}", 1e4 * run.distance.rms_m() / run.diagonal_m),
+        fmt::format("{:.0f}", run.time_ms)};
+}
+
+/// Whether a result has the faces asked for, and not many more.
+bool is_at_goal(const QualityRun& run) {
+    return static_cast<double>(run.faces) <= 1.02 * static_cast<double>(run.target_faces);
+}
+
+/// The least value of the libraries on the same mesh at the same goal, of those that reach it.
+template <typename Value>
+std::optional<double>
+best_peer_value(std::span<const QualityRun> runs, const QualityRun& reference, const Value& value) {
+    std::optional<double> best;
+    for (const QualityRun& run : runs) {
+        if (run.peer && is_at_goal(run) && run.mesh == reference.mesh &&
+            run.target_faces == reference.target_faces) {
+            best = std::min(best.value_or(std::numeric_limits<double>::infinity()), value(run));
+        }
+    }
+    return best;
+}
+
+std::optional<double>
+time_of_lindstrom_turk(std::span<const QualityRun> runs, const QualityRun& reference) {
+    for (const QualityRun& run : runs) {
+        if (run.lindstrom_turk_name && run.mesh == reference.mesh &&
+            run.target_faces == reference.target_faces) {
+            return run.time_ms;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string ratio_text(double value, const std::optional<double>& to) {
+    return to && *to > 0.0 ? fmt::format("{:.2f}", value / *to) : "";
+}
+
+/// Of two distances as fractions of the diagonal: below 1e-8 they are rounding.
+std::string distance_ratio_text(double value, const std::optional<double>& to) {
+    constexpr double exact = 1e-8;
+    if (!to || *to >= exact) {
+        return ratio_text(value, to);
+    }
+    return value < exact ? "both exact" : "library exact";
+}
+
+std::vector<std::string>
+names_in_order(std::span<const QualityRun> runs, std::string QualityRun::*name) {
+    std::vector<std::string> names;
+    for (const QualityRun& run : runs) {
+        if (std::find(names.begin(), names.end(), run.*name) == names.end()) {
+            names.push_back(run.*name);
+        }
+    }
+    return names;
+}
+
+report::PlotSeries
+series_of(std::span<const QualityRun> runs, const std::string& mesh, const std::string& method) {
+    report::PlotSeries series;
+    series.name = method;
+    for (const QualityRun& run : runs) {
+        if (run.mesh == mesh && run.method == method && run.rms > 0.0) {
+            series.x.push_back(static_cast<double>(run.faces));
+            series.y.push_back(run.rms);
+        }
+    }
+    return series;
+}
+
+/// How the paper was read, above its tables: Markdown.
+std::string paper_reading_text() {
+    return fmt::format(
+        "# Simplification by distances to triangles (Y. Kim, B. U. Lee, 2005)\n\n"
+        "How the paper is read, where it leaves a choice:\n\n"
+        "- The shortest edge goes first, in space; equal lengths by the numbers of the vertices. "
+        "It becomes one of its ends or the middle, whichever costs least. No test keeps a "
+        "manifold.\n"
+        "- A cost is a sum of squared distances: of the new vertex to the faces of both ends, each "
+        "once (one direction); of both old ends to the same faces as moved, those that collapse "
+        "too; both directions: the larger sum. Previous: quadrics of planes.\n"
+        "- A foot is inside for 0 < a, b, c < 1: corners and borders are outside, and so is all of "
+        "a collapsed triangle. The share hangs on these points.\n"
+        "- Vertices that no triangle uses are counted: the bunny has 1113, and only so do 2000 "
+        "points have 1725 faces.\n"
+        "- The globe is made: 192 meridians, 192 rings, two poles, 1 m radius, land from Natural "
+        "Earth. Colour counts in distances as three more directions, w rgb with w = {:g} m, and "
+        "in the length of edges too where the table says so.\n"
+        "- The paper's error is the sum over all contractions, each against the mesh before. Its "
+        "unit is not said, and its values were not found again; what can be compared is each "
+        "measure against the previous one.\n\n",
+        globe_colour_weight_m);
+}
+
+/// Table 1: how many perpendiculars end outside their triangle.
+report::HtmlTable feet_table(std::span<const PaperRun> runs) {
+    report::HtmlTable table;
+    table.title = "Table 1: perpendiculars whose foot lies outside the triangle";
+    table.header = {"mesh", "colour in", "paper: outside", "ours: outside"};
+    for (const PaperRun& run : runs) {
+        if (run.measure != PaperMeasure::Bidirectional) {
+            continue;
+        }
+        const Printed* paper = printed_of(run);
+        table.rows.push_back(
+            {run.mesh,
+             name_of(run.colour),
+             paper == nullptr
+                 ? ""
+                 : share_text(paper->feet_outside, paper->feet_inside + paper->feet_outside),
+             share_text(run.result.feet_outside, run.result.feet)});
+    }
+    table.note = "Of the runs by both directions: three candidates for each edge, three points for "
+                 "each face. The paper's numbers of perpendiculars can be divided by nine too.";
+    return table;
+}
+
+/// Table 2: sums of errors, and what an independent measure says of the results.
+report::HtmlTable paper_error_table(std::span<const PaperRun> runs) {
+    report::HtmlTable table;
+    table.title = "Table 2: error summed over all contractions";
+    table.header = {
+        "mesh",
+        "colour in",
+        "measure",
+        "paper: error",
+        "paper: of previous",
+        "one-way sum, m2",
+        "of previous",
+        "two-way sum, m2",
+        "of previous",
+        "paper: faces",
+        "faces",
+        "vertices used",
+        "duplicate faces",
+        "edges of 3+ faces",
+        "Hausdorff, 1e-3",
+        "RMS, 1e-4",
+        "ms"};
+    const PaperRun* previous = nullptr;
+    for (const PaperRun& run : runs) {
+        previous = run.measure == PaperMeasure::Plane ? &run : previous;
+        table.rows.push_back(error_row(run, *previous));
+    }
+    table.note =
+        "The sums are taken of every run by the same two rulers, whichever measure chose: squared "
+        "distances of new vertices to the triangles they replace, and the larger sum of both ways. "
+        "Hausdorff (certified upper bound, 2 % wide) and RMS are the larger one of both ways "
+        "between result and original, of positions only, as fractions of the diagonal: the paper's "
+        "sums fall while "
+        "these may rise, as each step is compared with the mesh before it only.";
+    return table;
+}
+
+/// Every method on every mesh: distance to the original and time.
+report::HtmlTable quality_table(std::span<const QualityRun> runs, bool with_peers) {
+    report::HtmlTable table;
+    table.title = "Distance to the original, and time";
+    table.header = {
+        "mesh",
+        "method",
+        "wanted faces",
+        "faces",
+        "Hausdorff, 1e-3",
+        "RMS, 1e-4",
+        "colour RMS",
+        "Hausdorff / best library",
+        "RMS / best library",
+        "time, ms",
+        "time / Lindstrom-Turk"};
+    for (const QualityRun& run : runs) {
+        const auto hausdorff =
+            best_peer_value(runs, run, [](const QualityRun& r) { return r.hausdorff; });
+        const auto rms = best_peer_value(runs, run, [](const QualityRun& r) { return r.rms; });
+        table.rows.push_back(
+            {run.mesh,
+             run.method,
+             fmt::format("{}", run.target_faces),
+             fmt::format("{}", run.faces),
+             fmt::format("{:.3f}", 1e3 * run.hausdorff),
+             fmt::format("{:.3f}", 1e4 * run.rms),
+             run.colour_rms ? fmt::format("{:.4f}", *run.colour_rms) : "",
+             distance_ratio_text(run.hausdorff, hausdorff),
+             distance_ratio_text(run.rms, rms),
+             fmt::format("{:.1f}", run.time_ms),
+             ratio_text(run.time_ms, time_of_lindstrom_turk(runs, run))});
+    }
+    table.note =
+        "Both ways between result and repaired original, the larger one, as fractions of the "
+        "diagonal; Hausdorff is a certified upper bound, 2 % wide. One thread, wall time without "
+        "reading and writing; of the libraries the median of three. The libraries are given "
+        "positions only; the best one is that of those that came down to the faces wanted.";
+    if (!with_peers) {
+        table.note += " No libraries: build the target octant_peers (needs CGAL, meshoptimizer or "
+                      "OpenMesh) and name the program octant-peers by --peers.";
+    }
+    return table;
+}
+
+/// RMS distance over faces, a panel a mesh, as the bytes of a PNG file; empty for one number of
+/// faces and when gnuplot is not installed. Throws Error when gnuplot fails.
+std::string quality_figure(std::span<const QualityRun> runs) {
+    constexpr std::array colours = {
+        "#d62728", "#ff7f0e", "#777777", "#2ca02c", "#1f77b4", "#17becf", "#9467bd"};
+    const std::vector<std::string> methods = names_in_order(runs, &QualityRun::method);
+    std::vector<report::Plot> panels;
+    for (const std::string& mesh : names_in_order(runs, &QualityRun::mesh)) {
+        report::Plot plot;
+        plot.title = mesh;
+        plot.x_label = "faces";
+        plot.y_label = "RMS / diagonal";
+        plot.y_logarithmic = true;
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            report::PlotSeries series = series_of(runs, mesh, methods[i]);
+            series.colour = colours[i % colours.size()];
+            if (series.x.size() > 1) {
+                plot.series.push_back(std::move(series));
+            }
+        }
+        if (!plot.series.empty()) {
+            panels.push_back(std::move(plot));
+        }
+    }
+    return panels.empty() ? "" : report::plots_png(panels).value_or("");
+}
 
 struct StudyMeshes {
     std::vector<StudyMesh> meshes;

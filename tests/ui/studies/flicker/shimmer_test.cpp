@@ -1,6 +1,6 @@
 #include "models/procedural/procedural_terrain.h"
-#include "ui/studies/flicker/shimmer.h"
-#include "ui/terrain/random_view.h"
+#include "ui/studies/flicker/study_popping.h"
+#include "ui/terrain/terrain_check.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,4 @@
-#include "ui/studies/simplification/simplification_meshes.h"
-#include "ui/studies/simplification/simplification_runs.h"
+#include "ui/studies/simplification/study_simplification.h"
 
 #include <catch2/catch.hpp>
 
